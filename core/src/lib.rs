@@ -5,6 +5,9 @@
 #[cfg(test)]
 extern crate std;
 
+pub mod allocation;
 pub mod hardware;
+pub mod monitor;
+pub mod panorama;
 pub mod problem;
 pub mod units;

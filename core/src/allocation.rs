@@ -1,0 +1,78 @@
+//! What an allocator answers, and the trait that both allocators share.
+
+use crate::problem::Problem;
+
+/// An allocator: picks one candidate an activity.
+pub trait Allocator<const A: usize> {
+    /// Writes the chosen candidate of each activity to `plan` and says what is known of it.
+    ///
+    /// `plan` is written only when the answer is [`Answer::Planned`].
+    ///
+    /// # Errors
+    /// [`MemoryError`] when `plan` or the allocator's memory is too small for the problem.
+    fn allocate(&mut self, problem: &Problem<'_, A>, plan: &mut [u16]) -> Result<Answer<A>, MemoryError>;
+}
+
+/// The answer of an allocator.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer<const A: usize> {
+    /// A plan within every limit.
+    Planned(Planned<A>),
+    /// No plan: proven by `Exact`, and all that the paper's rule can say in
+    /// [`Panorama`](crate::panorama::Panorama), which can miss a plan.
+    Infeasible {
+        /// The axis whose limit is not met: the first, in the order of treatment, at which the search failed.
+        axis: usize,
+        /// The least total that was found reachable on that axis with the limits treated before it kept.
+        least: u64,
+        /// The work done, in the allocator's steps.
+        steps: u64,
+    },
+    /// The step budget ended the search before a plan was found or excluded.
+    Unknown {
+        /// No plan has an objective above this.
+        bound: u64,
+        /// The work done, in the allocator's steps.
+        steps: u64,
+    },
+}
+
+/// A plan within every limit, and how good it is known to be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Planned<const A: usize> {
+    /// The total cost on each axis.
+    pub cost: [u64; A],
+    /// The total quality.
+    pub quality: u64,
+    /// A proven bound on the objective: no plan within the limits has more (less, for a minimised axis).
+    /// `None` where the allocator proves nothing.
+    pub bound: Option<u64>,
+    /// Whether the bound is met, so that no plan is better.
+    pub optimal: bool,
+    /// The work done, in the allocator's steps.
+    pub steps: u64,
+}
+
+/// Memory that the caller gave is too small for the problem.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MemoryError {
+    /// Which memory.
+    pub what: &'static str,
+    /// How many elements are needed.
+    pub needed: usize,
+    /// How many elements were given.
+    pub given: usize,
+}
+
+impl core::fmt::Display for MemoryError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "the {} needs {} elements, {} were given", self.what, self.needed, self.given)
+    }
+}
+
+impl core::error::Error for MemoryError {}
+
+/// `Ok` when `given` elements of memory suffice.
+pub(crate) const fn enough(what: &'static str, needed: usize, given: usize) -> Result<(), MemoryError> {
+    if given < needed { Err(MemoryError { what, needed, given }) } else { Ok(()) }
+}

@@ -1,0 +1,291 @@
+//! Watches consumption against the plan and asks for a new one.
+//!
+//! Lambert et al., J. Intell. Robot. Syst. 110, 2024, eqs. 7 and 8: on every axis
+//! *margin = limit - used - planned rest*. A new plan is asked for **downwards** when a margin is below zero
+//! or the plan needs lost hardware (rule 5 of the algorithm), and, going beyond the paper and off by default,
+//! **upwards** when margins leave room for a better plan.
+//!
+//! *No flapping.* After every plan the margins become the baseline. An upward request needs some margin to
+//! have grown by [`Upward::growth`] since then, and an upward plan keeps [`Upward::reserve`]; so between two
+//! upward requests the robot has really saved that much, or hardware has come back.
+//!
+//! ```
+//! use cotama_core::hardware::Units;
+//! use cotama_core::monitor::{Cause, Monitor, Request};
+//!
+//! let mut monitor = Monitor::new([600_000, 8_640_000], [0, 1]).unwrap();
+//! monitor.planned(&[527_924, 8_563_613]).unwrap();
+//! monitor.spend(&[75_610, 1_377_917]).unwrap();
+//! assert_eq!(monitor.margins(&[452_314, 7_185_696]), Ok([72_076, 76_387]));
+//! let request = monitor.assess(&[452_314, 7_285_696], Units::NONE, Units::NONE);
+//! assert_eq!(request, Ok(Request::Down(Cause::Margin { axis: 1 })));
+//! ```
+
+use crate::hardware::Units;
+use crate::problem::Candidate;
+
+/// The largest amount on an axis: sums of four still fit 64 signed bits.
+pub const MAX_AMOUNT: u64 = 1 << 61;
+
+/// An amount beyond [`MAX_AMOUNT`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct AmountOverflow {
+    /// The axis of the amount.
+    pub axis: usize,
+}
+
+impl core::fmt::Display for AmountOverflow {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "an amount on axis {} is beyond {MAX_AMOUNT}", self.axis)
+    }
+}
+
+impl core::error::Error for AmountOverflow {}
+
+/// When to ask for a better plan.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Upward<const A: usize> {
+    /// How much some margin must have grown since the last plan; zero on an axis means: not on this axis.
+    pub growth: [u64; A],
+    /// What an upward plan leaves unspent on each axis.
+    pub reserve: [u64; A],
+}
+
+/// What the monitor asks for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Request {
+    /// Nothing; go on.
+    Keep,
+    /// A plan that needs less.
+    Down(Cause),
+    /// A better plan, within [`Monitor::room`].
+    Up,
+}
+
+/// Why a plan no longer holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Cause {
+    /// The margin of this axis is below zero.
+    Margin {
+        /// The axis, the first in the order of treatment.
+        axis: usize,
+    },
+    /// The rest of the plan needs hardware that is no longer there.
+    Hardware,
+}
+
+/// Consumption so far against limits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Monitor<const A: usize> {
+    limits: [u64; A],
+    order: [usize; A],
+    used: [u64; A],
+    upward: Option<Upward<A>>,
+    /// Margins right after the last plan.
+    baseline: [i64; A],
+    hardware_returned: bool,
+}
+
+impl<const A: usize> Monitor<A> {
+    /// A monitor with nothing used, that never asks upwards.
+    ///
+    /// # Errors
+    /// [`AmountOverflow`] for a limit beyond [`MAX_AMOUNT`].
+    pub fn new(limits: [u64; A], order: [usize; A]) -> Result<Self, AmountOverflow> {
+        for (axis, &limit) in limits.iter().enumerate() {
+            checked(axis, limit)?;
+        }
+        Ok(Self { limits, order, used: [0; A], upward: None, baseline: [0; A], hardware_returned: false })
+    }
+
+    /// The same, asking upwards too.
+    #[must_use]
+    pub const fn with_upward(mut self, upward: Upward<A>) -> Self {
+        self.upward = Some(upward);
+        self
+    }
+
+    /// What has been used on each axis.
+    #[must_use]
+    pub const fn used(&self) -> [u64; A] {
+        self.used
+    }
+
+    /// Adds consumption.
+    ///
+    /// # Errors
+    /// [`AmountOverflow`] when a total passes [`MAX_AMOUNT`]; nothing is added then.
+    pub fn spend(&mut self, cost: &[u64; A]) -> Result<(), AmountOverflow> {
+        let mut used = self.used;
+        for axis in 0..A {
+            used[axis] = checked(axis, used[axis].saturating_add(cost[axis]))?;
+        }
+        self.used = used;
+        Ok(())
+    }
+
+    /// What is left of each limit, for a plan downwards (rule 4 of the algorithm); zero where it is passed.
+    #[must_use]
+    pub fn left(&self) -> [u64; A] {
+        core::array::from_fn(|axis| self.limits[axis].saturating_sub(self.used[axis]))
+    }
+
+    /// What is left of each limit for a plan upwards: [`Self::left`] less the reserve.
+    #[must_use]
+    pub fn room(&self) -> [u64; A] {
+        let reserve = self.upward.map_or([0; A], |upward| upward.reserve);
+        core::array::from_fn(|axis| self.left()[axis].saturating_sub(reserve[axis]))
+    }
+
+    /// The margins: limit less used less planned rest, on each axis (eqs. 7 and 8).
+    ///
+    /// # Errors
+    /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
+    pub fn margins(&self, rest: &[u64; A]) -> Result<[i64; A], AmountOverflow> {
+        let mut margins = [0; A];
+        for axis in 0..A {
+            let rest = checked(axis, rest[axis])?;
+            margins[axis] =
+                self.limits[axis].cast_signed() - self.used[axis].cast_signed() - rest.cast_signed();
+        }
+        Ok(margins)
+    }
+
+    /// Notes that a plan with this rest is in force from now on, whether new or kept after a request.
+    ///
+    /// # Errors
+    /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
+    pub fn planned(&mut self, rest: &[u64; A]) -> Result<(), AmountOverflow> {
+        self.baseline = self.margins(rest)?;
+        self.hardware_returned = false;
+        Ok(())
+    }
+
+    /// Notes that hardware has come back: a reason to ask upwards that needs no saving.
+    pub const fn hardware_returned(&mut self) {
+        self.hardware_returned = true;
+    }
+
+    /// Decides whether the plan still holds, from its planned rest, the hardware it needs and what there is.
+    ///
+    /// # Errors
+    /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
+    pub fn assess(&self, rest: &[u64; A], needs: Units, available: Units) -> Result<Request, AmountOverflow> {
+        if !available.covers(needs) {
+            return Ok(Request::Down(Cause::Hardware));
+        }
+        let margins = self.margins(rest)?;
+        if let Some(axis) = self.order.into_iter().find(|&axis| margins[axis] < 0) {
+            return Ok(Request::Down(Cause::Margin { axis }));
+        }
+        let Some(upward) = self.upward else { return Ok(Request::Keep) };
+        let reserve_kept =
+            (0..A).all(|axis| margins[axis] >= upward.reserve[axis].min(MAX_AMOUNT).cast_signed());
+        let grown = (0..A).any(|axis| {
+            upward.growth[axis] > 0
+                && margins[axis] >= self.baseline[axis].saturating_add_unsigned(upward.growth[axis])
+        });
+        Ok(if reserve_kept && (grown || self.hardware_returned) { Request::Up } else { Request::Keep })
+    }
+
+    /// The return margin: what would be left if the robot went to a safe end from here by the way whose
+    /// worst cost is `way` (see [`worst`]). Below zero, reaching that end is not guaranteed.
+    ///
+    /// # Errors
+    /// [`AmountOverflow`] for a way beyond [`MAX_AMOUNT`].
+    pub fn return_margin(&self, way: &[u64; A]) -> Result<[i64; A], AmountOverflow> {
+        self.margins(way)
+    }
+}
+
+/// The most that activities can cost on each axis, whichever candidate is used in each.
+#[must_use]
+pub fn worst<const A: usize>(activities: &[&[Candidate<A>]]) -> [u64; A] {
+    core::array::from_fn(|axis| {
+        activities
+            .iter()
+            .map(|candidates| candidates.iter().map(|c| u64::from(c.cost[axis])).max().unwrap_or(0))
+            .sum()
+    })
+}
+
+const fn checked(axis: usize, amount: u64) -> Result<u64, AmountOverflow> {
+    if amount > MAX_AMOUNT { Err(AmountOverflow { axis }) } else { Ok(amount) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const ALL: Units = Units::NONE;
+
+    #[test]
+    fn a_lost_unit_is_named_before_a_margin() {
+        let mut monitor = Monitor::new([10, 10], [0, 1]).unwrap();
+        monitor.spend(&[20, 20]).unwrap();
+        let laser = Units::NONE.with(0, 1).unwrap();
+        assert_eq!(monitor.assess(&[0, 0], laser, Units::NONE), Ok(Request::Down(Cause::Hardware)));
+        assert_eq!(monitor.assess(&[0, 0], laser, laser), Ok(Request::Down(Cause::Margin { axis: 0 })));
+    }
+
+    #[test]
+    fn an_exactly_used_limit_is_kept() {
+        let mut monitor = Monitor::new([10], [0]).unwrap();
+        monitor.spend(&[4]).unwrap();
+        assert_eq!(monitor.assess(&[6], ALL, ALL), Ok(Request::Keep));
+        assert_eq!(monitor.assess(&[7], ALL, ALL), Ok(Request::Down(Cause::Margin { axis: 0 })));
+    }
+
+    #[test]
+    fn overflow_is_refused_and_changes_nothing() {
+        let mut monitor = Monitor::new([MAX_AMOUNT], [0]).unwrap();
+        monitor.spend(&[MAX_AMOUNT]).unwrap();
+        assert_eq!(monitor.spend(&[1]), Err(AmountOverflow { axis: 0 }));
+        assert_eq!(monitor.used(), [MAX_AMOUNT]);
+        assert_eq!(monitor.margins(&[u64::MAX]), Err(AmountOverflow { axis: 0 }));
+        assert!(Monitor::new([u64::MAX], [0]).is_err());
+    }
+
+    #[test]
+    fn hardware_that_comes_back_is_asked_about_once() {
+        let upward = Upward { growth: [5], reserve: [2] };
+        let mut monitor = Monitor::new([10], [0]).unwrap().with_upward(upward);
+        monitor.planned(&[6]).unwrap();
+        assert_eq!(monitor.assess(&[6], ALL, ALL), Ok(Request::Keep));
+        monitor.hardware_returned();
+        assert_eq!(monitor.assess(&[6], ALL, ALL), Ok(Request::Up));
+        assert_eq!(monitor.room(), [8]);
+        monitor.planned(&[7]).unwrap();
+        assert_eq!(monitor.assess(&[7], ALL, ALL), Ok(Request::Keep));
+    }
+
+    proptest! {
+        /// However the rest of the plan moves, upward requests are paid for by savings.
+        #[test]
+        fn upward_requests_cannot_flap(steps in prop::collection::vec((0u64..20, 0u64..200), 1..200)) {
+            let growth = 25;
+            let upward = Upward { growth: [growth], reserve: [10] };
+            let mut monitor = Monitor::new([2_000], [0]).unwrap().with_upward(upward);
+            monitor.planned(&[100]).unwrap();
+            let mut last_margin = monitor.margins(&[100]).unwrap()[0];
+            for (spent, rest) in steps {
+                monitor.spend(&[spent]).unwrap();
+                let margin = monitor.margins(&[rest]).unwrap()[0];
+                match monitor.assess(&[rest], ALL, ALL).unwrap() {
+                    Request::Keep => {}
+                    Request::Up => {
+                        prop_assert!(margin - last_margin >= growth.cast_signed() && margin >= 10);
+                        monitor.planned(&[rest]).unwrap();
+                        last_margin = margin;
+                    }
+                    Request::Down(_) => {
+                        prop_assert!(margin < 0);
+                        monitor.planned(&[rest]).unwrap();
+                        last_margin = margin;
+                    }
+                }
+            }
+        }
+    }
+}

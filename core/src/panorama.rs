@@ -1,0 +1,130 @@
+//! The allocator of the paper: limits one after the other, candidates lowered from the last activity back.
+//!
+//! Lambert et al., J. Intell. Robot. Syst. 110, 2024, section on the resource allocation algorithm:
+//!
+//! 1. Limits are treated in their order. For each, every activity starts at its highest candidate; while the
+//!    sum is above the limit, the last activity is lowered to its highest candidate that meets the limit, or
+//!    to its lowest if none does, and the one before follows.
+//! 2. After each limit, every candidate above the chosen value of its activity is dropped.
+//! 3. The plan is the highest on the last axis of what is left; of equal ones the first.
+//!
+//! A replan (rules 4 and 5) is the same over what is left of the mission; see [`crate::monitor`].
+//!
+//! The rule is fast and keeps spare resources in use, but it can miss a plan that exists:
+//!
+//! ```
+//! use cotama_core::allocation::{Allocator, Answer};
+//! use cotama_core::panorama::Panorama;
+//! use cotama_core::problem::{Candidate, Problem};
+//!
+//! let c = |duration, energy| Candidate { cost: [duration, energy], quality: 0, id: 0 };
+//! let (a, b) = ([c(5, 1), c(1, 2)], [c(5, 1), c(1, 10)]);
+//! let activities = [&a[..], &b[..]];
+//! let mut plan = [0; 2];
+//! let (mut caps, mut sorted) = ([[0; 2]; 2], [0; 2]);
+//! let mut rule = Panorama::new(&mut caps, &mut sorted);
+//!
+//! let duration_first = Problem::new(&activities, [6, 3], [0, 1]).unwrap();
+//! assert!(matches!(rule.allocate(&duration_first, &mut plan), Ok(Answer::Infeasible { axis: 1, least: 11, .. })));
+//! let energy_first = Problem::new(&activities, [6, 3], [1, 0]).unwrap();
+//! assert!(matches!(rule.allocate(&energy_first, &mut plan), Ok(Answer::Planned(_))));
+//! assert_eq!(plan, [1, 0]);
+//! ```
+
+use crate::allocation::{Allocator, Answer, MemoryError, Planned, enough};
+use crate::problem::{Candidate, Problem};
+
+/// The paper's allocator, in memory from its caller. A step is one candidate looked at.
+#[derive(Debug)]
+pub struct Panorama<'m, const A: usize> {
+    caps: &'m mut [[u32; A]],
+    sorted: &'m mut [u32],
+}
+
+impl<'m, const A: usize> Panorama<'m, A> {
+    /// An allocator in this memory: `caps` holds one element an activity, `sorted` one a candidate of the
+    /// activity that has the most.
+    pub const fn new(caps: &'m mut [[u32; A]], sorted: &'m mut [u32]) -> Self {
+        Self { caps, sorted }
+    }
+}
+
+/// Whether a candidate has survived the limits treated so far (rule 2).
+fn left<const A: usize>(candidate: &Candidate<A>, caps: &[u32; A]) -> bool {
+    candidate.cost.iter().zip(caps).all(|(cost, cap)| cost <= cap)
+}
+
+/// The candidate that is highest on an axis of those left, the first of equals.
+fn highest<'c, const A: usize>(
+    candidates: &'c [Candidate<A>],
+    caps: &[u32; A],
+    axis: usize,
+) -> Option<(usize, &'c Candidate<A>)> {
+    candidates
+        .iter()
+        .enumerate()
+        .filter(|(_, c)| left(c, caps))
+        .reduce(|best, next| if next.1.cost[axis] > best.1.cost[axis] { next } else { best })
+}
+
+impl<const A: usize> Allocator<A> for Panorama<'_, A> {
+    fn allocate(&mut self, problem: &Problem<'_, A>, plan: &mut [u16]) -> Result<Answer<A>, MemoryError> {
+        let activities = problem.activities();
+        enough("plan", activities.len(), plan.len())?;
+        enough("caps of the paper's rule", activities.len(), self.caps.len())?;
+        let widest = activities.iter().map(|candidates| candidates.len()).max().unwrap_or(0);
+        enough("sorted costs of the paper's rule", widest, self.sorted.len())?;
+
+        let caps = &mut self.caps[..activities.len()];
+        caps.fill([u32::MAX; A]);
+        let mut steps = 0;
+        for axis in problem.order() {
+            let limit = problem.limits()[axis];
+            let mut sum = 0;
+            for (candidates, cap) in activities.iter().zip(caps.iter_mut()) {
+                cap[axis] = highest(candidates, cap, axis).map_or(0, |(_, c)| c.cost[axis]);
+                sum += u64::from(cap[axis]);
+                steps += candidates.len() as u64;
+            }
+            for (candidates, cap) in activities.iter().zip(caps.iter_mut()).rev() {
+                if sum <= limit {
+                    break;
+                }
+                // Rule 1: sort what is left, then find the highest that fits by dichotomy.
+                let mut count = 0;
+                for candidate in candidates.iter().filter(|c| left(c, cap)) {
+                    self.sorted[count] = candidate.cost[axis];
+                    count += 1;
+                }
+                steps += candidates.len() as u64;
+                let sorted = &mut self.sorted[..count];
+                sorted.sort_unstable();
+                let others = sum - u64::from(cap[axis]);
+                let fitting = limit
+                    .checked_sub(others)
+                    .map_or(0, |room| sorted.partition_point(|&cost| u64::from(cost) <= room));
+                cap[axis] = sorted.get(fitting.saturating_sub(1)).copied().unwrap_or(0);
+                sum = others + u64::from(cap[axis]);
+            }
+            if sum > limit {
+                return Ok(Answer::Infeasible { axis, least: sum, steps });
+            }
+        }
+
+        let mut cost = [0; A];
+        let mut quality = 0;
+        let last_axis = problem.order().last().copied();
+        for ((candidates, cap), choice) in activities.iter().zip(caps.iter()).zip(plan.iter_mut()) {
+            let chosen =
+                last_axis.map_or(candidates.first().map(|c| (0, c)), |axis| highest(candidates, cap, axis));
+            let Some((index, candidate)) = chosen else { continue };
+            *choice = index as u16;
+            for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {
+                *sum += u64::from(part);
+            }
+            quality += u64::from(candidate.quality);
+            steps += candidates.len() as u64;
+        }
+        Ok(Answer::Planned(Planned { cost, quality, bound: None, optimal: false, steps }))
+    }
+}
