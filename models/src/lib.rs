@@ -1,2 +1,44 @@
-//! Robot missions as data.
+//! Robot missions as data: from a mission file to the alternatives of each activity.
+//!
+//! A *mission* (Lambert et al., J. Intell. Robot. Syst. 110, 2024, DOI 10.1007/s10846-024-02058-7) is a
+//! sequence of *objectives* along a path. Cut at the borders of the *zones* that constrain it, it becomes a
+//! sequence of *activities*; each can be done by several *implementation alternatives*, products of the
+//! *task implementation options* (TIOs) of its tasks. [`Mission::parse`](mission::Mission::parse) reads all of
+//! this from a `panorama-mission/1` file and reports every error at once; what it returns is complete, so that
+//! nothing after it can fail on the mission's account.
+//!
+//! Without the feature `std` only [`tables`] and [`patrol_tables`] remain, without heap, for firmware.
+//!
+//! ```
+//! # #[cfg(feature = "std")] {
+//! use cotama_models::{embedded, mission::Mission};
+//! let patrol = embedded::mission("patrol").unwrap();
+//! let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+//! let scenario = mission.scenario();
+//! assert_eq!(scenario.activities.len(), 17);
+//! assert_eq!(scenario.activities[0].labels[13], "M5 L2");
+//! assert_eq!(scenario.combinations(), Some(768_288_795_144_192));
+//! # }
+//! ```
 #![cfg_attr(not(feature = "std"), no_std)]
+
+// Printed tables name this crate, wherever they are compiled; one of them is compiled here.
+extern crate self as cotama_models;
+
+pub mod patrol_tables;
+pub mod tables;
+
+#[cfg(feature = "std")]
+pub mod diagnostic;
+#[cfg(feature = "std")]
+pub mod embedded;
+#[cfg(feature = "std")]
+pub mod faults;
+#[cfg(feature = "std")]
+pub mod mission;
+#[cfg(feature = "std")]
+mod reader;
+#[cfg(feature = "std")]
+mod rust_source;
+#[cfg(feature = "std")]
+pub mod scenario;

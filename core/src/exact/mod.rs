@@ -1,0 +1,324 @@
+//! The complete allocator: the best plan within all limits, or the proof that there is none.
+//!
+//! The problem is a multiple-choice knapsack with several limits. The search uses what that gives:
+//!
+//! 1. *Dominance*: a candidate that another of its activity beats on every axis and in value is dropped.
+//! 2. *Lagrangian bound* (`dual`): prices for the limits, minimised; at these prices every candidate has a *loss*
+//!    against the best of its activity, and a plan is worth the bound less its losses less the priced slack.
+//! 3. *A first plan* (`primal`): the best candidates at these prices, repaired and improved.
+//! 4. *Search by rising loss* (`search`): is there a plan within a given loss of the bound? For a small loss few
+//!    candidates qualify, and the answer takes few nodes. Each "no" lowers the proven bound, the first "yes"
+//!    raises the plan, until both meet. At every node the rest is priced anew with several multipliers.
+//!
+//! It is anytime: a step budget goes in, the best plan so far and a proven bound come out.
+//!
+//! *Tie rule.* Candidates are put in an order that depends on their numbers alone, and the search is
+//! deterministic, so the plan does not depend on the order in which candidates are written; of candidates equal
+//! in every number the first written is taken. A lexicographic order of objectives settles the rest.
+//!
+//! ```
+//! use cotama_core::allocation::{Allocator, Answer};
+//! use cotama_core::exact::{Exact, Item, Objective, Stage};
+//! use cotama_core::problem::{Candidate, Problem};
+//!
+//! // The paper's rule finds no plan here, in neither order of the limits.
+//! let c = |duration, energy| Candidate { cost: [duration, energy], quality: 0, id: 0 };
+//! let (a, b) = ([c(1, 3), c(2, 5)], [c(1, 5), c(4, 1), c(3, 2)]);
+//! let activities = [&a[..], &b[..]];
+//! let problem = Problem::new(&activities, [4, 5], [0, 1]).unwrap();
+//!
+//! let (mut items, mut stages) = ([Item::EMPTY; 5], [Stage::EMPTY; 2]);
+//! let mut exact = Exact::new(&[Objective::Least(1)], 1_000, &mut items, &mut stages);
+//! let mut plan = [0; 2];
+//! let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else { panic!("there is a plan") };
+//! assert_eq!((plan, planned.cost, planned.optimal), ([0, 2], [4, 5], true));
+//! ```
+
+mod dual;
+mod load;
+mod primal;
+mod rows;
+mod search;
+
+use crate::allocation::{Allocator, Answer, MemoryError, Planned, enough};
+use crate::problem::Problem;
+use load::Aim;
+use rows::Rows;
+
+/// What a plan is chosen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Objective {
+    /// The most total quality.
+    MostQuality,
+    /// The least total cost on this axis.
+    Least(usize),
+    /// The most total cost on this axis, within its limit: use what there is.
+    Most(usize),
+}
+
+impl Objective {
+    /// The amount this objective is about, in a plan with these totals.
+    fn amount<const A: usize>(self, cost: &[u64; A], quality: u64) -> u64 {
+        match self {
+            Self::MostQuality => quality,
+            Self::Least(axis) | Self::Most(axis) => cost[axis],
+        }
+    }
+}
+
+/// Working memory for one candidate. Give [`Exact::new`] one for each candidate of the problem.
+#[derive(Clone, Copy, Debug)]
+pub struct Item<const A: usize> {
+    /// Cost above the cheapest of the activity.
+    cost: [u32; A],
+    /// Quality below the best of the activity, where a stage before fixed the quality.
+    deficit: u32,
+    /// Value above the least of the activity.
+    value: u32,
+    /// What is lost at the current prices against the best of the activity.
+    loss: i64,
+    /// Position among the candidates as written.
+    choice: u16,
+}
+
+impl<const A: usize> Item<A> {
+    /// Unused memory.
+    pub const EMPTY: Self = Self { cost: [0; A], deficit: 0, value: 0, loss: 0, choice: 0 };
+
+    #[inline]
+    fn rows(&self) -> Rows<A> {
+        Rows { axes: self.cost.map(i64::from), quality: i64::from(self.deficit) }
+    }
+
+    /// The value at these prices, with `fraction` fraction bits.
+    #[inline]
+    fn reduced(&self, multiplier: &Rows<A>, fraction: u32) -> i64 {
+        (i64::from(self.value) << fraction) - multiplier.dot(&self.rows())
+    }
+}
+
+/// How many multipliers price a node anew, beside the best.
+const REPRICINGS: usize = 4;
+
+/// Working memory for one activity. Give [`Exact::new`] one for each activity of the problem.
+#[derive(Clone, Copy, Debug)]
+pub struct Stage<const A: usize> {
+    /// The first of its items, and their number.
+    first: u32,
+    count: u32,
+    /// The item (from `first`) of the best plan so far.
+    best: u32,
+    /// The item of the plan under work.
+    current: u32,
+    /// One level of the search; levels are a list of their own, in the order of the search.
+    level: Level<A>,
+}
+
+/// One level of the search: an activity with more than one item within the loss allowed.
+#[derive(Clone, Copy, Debug)]
+struct Level<const A: usize> {
+    /// The activity.
+    stage: u32,
+    /// The item under test.
+    cursor: u32,
+    /// Slack and loss before this level, the activities from here on at their best items.
+    slack: Rows<A>,
+    loss: i64,
+    /// What the levels from here on can save at most, row by row.
+    saving: Rows<A>,
+    /// What the levels from here on can gain over their best items at each other multiplier.
+    gain: [i64; REPRICINGS],
+}
+
+impl<const A: usize> Stage<A> {
+    /// Unused memory.
+    pub const EMPTY: Self = Self {
+        first: 0,
+        count: 0,
+        best: 0,
+        current: 0,
+        level: Level {
+            stage: 0,
+            cursor: 0,
+            slack: Rows::ZERO,
+            loss: 0,
+            saving: Rows::ZERO,
+            gain: [0; REPRICINGS],
+        },
+    };
+
+    #[inline]
+    fn items<'i>(&self, items: &'i [Item<A>]) -> &'i [Item<A>] {
+        &items[self.first as usize..(self.first + self.count) as usize]
+    }
+
+    #[inline]
+    fn item<'i>(&self, items: &'i [Item<A>], index: u32) -> &'i Item<A> {
+        &items[(self.first + index) as usize]
+    }
+}
+
+/// A number of steps that may still be taken. A step is one activity priced, or one node of the search.
+#[derive(Clone, Copy, Debug)]
+struct Budget {
+    left: u64,
+    taken: u64,
+}
+
+impl Budget {
+    /// Takes steps; `None`, and nothing taken, when fewer are left.
+    #[inline]
+    fn take(&mut self, steps: u64) -> Option<()> {
+        self.left = self.left.checked_sub(steps)?;
+        self.taken += steps;
+        Some(())
+    }
+}
+
+/// The complete allocator, in memory from its caller.
+#[derive(Debug)]
+pub struct Exact<'m, const A: usize> {
+    objectives: &'m [Objective],
+    steps: u64,
+    items: &'m mut [Item<A>],
+    stages: &'m mut [Stage<A>],
+}
+
+/// How the search for one objective ended; values are those of [`load::value`], summed.
+enum Ended {
+    /// The plan in `Stage::best` is proven best.
+    Optimal,
+    /// The plan in `Stage::best` is the best so far; none has more value than this.
+    Stopped(i128),
+    /// There is no plan.
+    Infeasible,
+    /// None found; none has more value than this.
+    Unknown(i128),
+}
+
+impl<'m, const A: usize> Exact<'m, A> {
+    /// An allocator for `objectives` in lexicographic order (none: any plan within the limits), that takes at
+    /// most `steps` steps; `items` and `stages` hold one element a candidate and one an activity.
+    pub const fn new(
+        objectives: &'m [Objective],
+        steps: u64,
+        items: &'m mut [Item<A>],
+        stages: &'m mut [Stage<A>],
+    ) -> Self {
+        Self { objectives, steps, items, stages }
+    }
+
+    /// The search for one objective; the plan is left in [`Stage::best`].
+    fn pursue(&mut self, problem: &Problem<'_, A>, aim: &Aim<A>, budget: &mut Budget) -> Ended {
+        let stages = &mut self.stages[..problem.activities().len()];
+        let Some(frame) = load::load(problem, aim, self.items, stages) else { return Ended::Infeasible };
+        let value = |above: i64| frame.least_value + i128::from(above);
+        let mut dual = dual::Dual { frame: &frame, items: self.items, stages, budget };
+        let Some(price) = dual.minimise() else { return Ended::Unknown(value(frame.most)) };
+        if price.bound < 0 {
+            return Ended::Infeasible;
+        }
+        let mut bound = (price.bound >> frame.fraction).min(frame.most);
+        let best = primal::first_plan(&frame, &price, self.items, stages, budget);
+        match search::search(&frame, &price, self.items, stages, best, &mut bound, budget) {
+            (Some(best), _) if best >= bound => Ended::Optimal,
+            (Some(_), _) => Ended::Stopped(value(bound)),
+            (None, true) => Ended::Infeasible,
+            (None, false) => Ended::Unknown(value(bound)),
+        }
+    }
+
+    /// Copies the plan of the last pursuit.
+    fn write(&self, plan: &mut [u16]) {
+        for (choice, stage) in plan.iter_mut().zip(self.stages.iter()) {
+            *choice = stage.item(self.items, stage.best).choice;
+        }
+    }
+
+    /// Which limit cannot be met, and the least total on its axis within the limits treated before it.
+    fn blame(&mut self, problem: &Problem<'_, A>, budget: &mut Budget) -> (usize, u64) {
+        let mut limits = [u64::MAX; A];
+        for axis in problem.order() {
+            let aim = Aim { objective: Objective::Least(axis), limits, quality_floor: 0 };
+            let least = match self.pursue(problem, &aim, budget) {
+                Ended::Optimal | Ended::Stopped(_) => self.stages[..problem.activities().len()]
+                    .iter()
+                    .zip(problem.activities())
+                    .map(|(stage, candidates)| {
+                        let choice = stage.item(self.items, stage.best).choice;
+                        u64::from(candidates[usize::from(choice)].cost[axis])
+                    })
+                    .sum(),
+                Ended::Unknown(bound) => u64::try_from(-bound).unwrap_or(0),
+                Ended::Infeasible => problem.least(axis),
+            };
+            if least > problem.limits()[axis] {
+                return (axis, least);
+            }
+            limits[axis] = problem.limits()[axis];
+        }
+        // Only a budget spent on the way leads here: the last limit is as good a culprit as any.
+        problem.order().last().map_or((0, 0), |&axis| (axis, problem.least(axis)))
+    }
+}
+
+impl<const A: usize> Allocator<A> for Exact<'_, A> {
+    fn allocate(&mut self, problem: &Problem<'_, A>, plan: &mut [u16]) -> Result<Answer<A>, MemoryError> {
+        let candidates = problem.activities().iter().map(|candidates| candidates.len()).sum();
+        enough("plan", problem.activities().len(), plan.len())?;
+        enough("items of the exact allocator", candidates, self.items.len())?;
+        enough("stages of the exact allocator", problem.activities().len(), self.stages.len())?;
+        let plan = &mut plan[..problem.activities().len()];
+
+        let mut budget = Budget { left: self.steps, taken: 0 };
+        let mut aim = Aim { objective: Objective::MostQuality, limits: problem.limits(), quality_floor: 0 };
+        let mut found = None;
+        // Without an objective any plan will do: the last axis serves as one, and need not be proven least.
+        let fallback = [Objective::Least(problem.order().last().copied().unwrap_or(0))];
+        let objectives = if self.objectives.is_empty() && A > 0 { &fallback } else { self.objectives };
+        for &objective in objectives {
+            aim.objective = objective;
+            let bound = match self.pursue(problem, &aim, &mut budget) {
+                Ended::Optimal => None,
+                Ended::Stopped(bound) => Some(bound),
+                Ended::Infeasible if found.is_none() => {
+                    let (axis, least) = self.blame(problem, &mut budget);
+                    return Ok(Answer::Infeasible { axis, least, steps: budget.taken });
+                }
+                Ended::Unknown(bound) if found.is_none() => {
+                    let bound = u64::try_from(bound.abs()).unwrap_or(u64::MAX);
+                    return Ok(Answer::Unknown { bound, steps: budget.taken });
+                }
+                // A later objective found nothing within the budget: the plan before it stands.
+                Ended::Infeasible | Ended::Unknown(_) => {
+                    found = found.map(|planned: Planned<A>| Planned { optimal: false, ..planned });
+                    break;
+                }
+            };
+            self.write(plan);
+            let (cost, quality) = problem.totals(plan).unwrap_or(([0; A], 0));
+            let amount = objective.amount(&cost, quality);
+            let first_bound = found.and_then(|planned: Planned<A>| planned.bound);
+            let own_bound = bound.map_or(amount, |b| u64::try_from(b.abs()).unwrap_or(u64::MAX));
+            found = Some(Planned {
+                cost,
+                quality,
+                bound: first_bound.or(Some(own_bound)),
+                optimal: bound.is_none(),
+                steps: budget.taken,
+            });
+            if bound.is_some() {
+                break;
+            }
+            match objective {
+                Objective::MostQuality => aim.quality_floor = quality,
+                Objective::Least(axis) => aim.limits[axis] = amount,
+                // A most is at its limit or below; a floor on it is not a limit, so it must come last.
+                Objective::Most(_) => break,
+            }
+        }
+        Ok(found.map_or(Answer::Unknown { bound: 0, steps: budget.taken }, |planned| {
+            Answer::Planned(Planned { steps: budget.taken, ..planned })
+        }))
+    }
+}

@@ -1,0 +1,111 @@
+//! A first plan: the best items at the dual prices, repaired until it fits, then improved.
+
+use super::dual::Price;
+use super::load::Frame;
+use super::rows::Rows;
+use super::{Budget, Item, Stage};
+
+/// Sets every item's loss at these prices, sorts each activity's items by it (equal ones keep the canonical
+/// order) and looks for a plan near the best items. Returns its value, the plan in [`Stage::best`].
+pub(super) fn first_plan<const A: usize>(
+    frame: &Frame<A>,
+    price: &Price<A>,
+    items: &mut [Item<A>],
+    stages: &mut [Stage<A>],
+    budget: &mut Budget,
+) -> Option<i64> {
+    let mut slack = frame.room;
+    for stage in stages.iter_mut() {
+        let own = &mut items[stage.first as usize..(stage.first + stage.count) as usize];
+        let best = own.iter().map(|i| i.reduced(&price.multiplier, frame.fraction)).max().unwrap_or(0);
+        for item in own.iter_mut() {
+            item.loss = best - item.reduced(&price.multiplier, frame.fraction);
+        }
+        // The canonical order, as a key: items of equal loss come out as dominance sorted them.
+        own.sort_unstable_by_key(|i| (i.loss, core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
+        stage.current = 0;
+        slack = slack.minus(&own[0].rows());
+    }
+    // Each switch scans all activities; a plan that needs more switches than this is left to the search.
+    for _ in 0..stages.len() + 8 {
+        if slack.none_negative() {
+            break;
+        }
+        budget.take(stages.len() as u64)?;
+        slack = repair(items, stages, &slack)?;
+    }
+    if !slack.none_negative() {
+        return None;
+    }
+    while budget.take(stages.len() as u64).is_some() {
+        match improve(items, stages, &slack) {
+            Some(better) => slack = better,
+            None => break,
+        }
+    }
+    let mut value = 0;
+    for stage in stages.iter_mut() {
+        stage.best = stage.current;
+        value += i64::from(stage.item(items, stage.best).value);
+    }
+    Some(value)
+}
+
+/// How far over the room a slack is, each row as parts of 2^20 of its worst.
+fn violation<const A: usize>(slack: &Rows<A>, worst: &Rows<A>) -> i64 {
+    (0..Rows::<A>::COUNT)
+        .map(|row| match (slack.get(row), worst.get(row)) {
+            (over, least) if over < 0 && least < 0 => ((i128::from(over) << 20) / i128::from(least)) as i64,
+            (over, _) if over < 0 => 1 << 20,
+            _ => 0,
+        })
+        .sum()
+}
+
+/// Makes the one switch that costs the least loss for the violation it removes; `None` when none removes any.
+fn repair<const A: usize>(items: &[Item<A>], stages: &mut [Stage<A>], slack: &Rows<A>) -> Option<Rows<A>> {
+    let before = violation(slack, slack);
+    let mut best: Option<(i64, i64, usize, u32, Rows<A>)> = None;
+    for (at, stage) in stages.iter().enumerate() {
+        let current = stage.item(items, stage.current);
+        for (index, item) in stage.items(items).iter().enumerate() {
+            let after = slack.plus(&current.rows()).minus(&item.rows());
+            let removed = before - violation(&after, slack);
+            if removed <= 0 {
+                continue;
+            }
+            let loss = (item.loss - current.loss).max(0);
+            let better = best.is_none_or(|(least, most, ..)| {
+                i128::from(loss) * i128::from(most) < i128::from(least) * i128::from(removed)
+                    || (loss == 0 && least == 0 && removed > most)
+            });
+            if better {
+                best = Some((loss, removed, at, index as u32, after));
+            }
+        }
+    }
+    let (_, _, at, index, after) = best?;
+    stages[at].current = index;
+    Some(after)
+}
+
+/// Makes the one switch within the slack that gains the most value; `None` when none gains.
+fn improve<const A: usize>(items: &[Item<A>], stages: &mut [Stage<A>], slack: &Rows<A>) -> Option<Rows<A>> {
+    let mut best: Option<(u32, usize, u32, Rows<A>)> = None;
+    for (at, stage) in stages.iter().enumerate() {
+        let current = stage.item(items, stage.current);
+        for (index, item) in stage.items(items).iter().enumerate() {
+            let Some(gain) = item.value.checked_sub(current.value) else { continue };
+            if gain == 0 || best.is_some_and(|(most, ..)| gain <= most) {
+                continue;
+            }
+            let after = slack.plus(&current.rows()).minus(&item.rows());
+            if after.none_negative() {
+                best = Some((gain, at, index as u32, after));
+            }
+        }
+    }
+    let (_, at, index, after) = best?;
+    stages[at].current = index;
+    Some(after)
+}

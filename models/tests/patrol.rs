@@ -1,0 +1,172 @@
+//! The patrol gives Table 5 of Lambert et al. 2024 exactly, and the tables printed for firmware are its own.
+#![cfg(feature = "std")]
+
+use cotama_core::problem::Problem;
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_models::mission::Mission;
+use cotama_models::scenario::Constraint;
+use cotama_models::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
+use cotama_models::{embedded, patrol_tables};
+
+fn patrol() -> Mission {
+    let patrol = embedded::mission("patrol").unwrap();
+    Mission::parse(patrol.name, patrol.text).unwrap()
+}
+
+#[test]
+fn the_activities_are_those_of_table_5() {
+    // id, objective, start and end in mm, alternatives before and after the constraints, v_max in mm/s
+    let table_5 = [
+        ("A1", "O1", 0, 31_000, 21, 21, 410),
+        ("A2", "O1", 31_000, 34_000, 21, 12, 330),
+        ("A3", "O1", 34_000, 37_000, 21, 4, 330),
+        ("A4", "O2", 37_000, 37_000, 3, 3, 0),
+        ("A5", "O3", 37_000, 37_000, 2, 2, 0),
+        ("A6", "O4", 37_000, 37_000, 3, 3, 0),
+        ("A7", "O5", 37_000, 41_000, 21, 12, 330),
+        ("A8", "O5", 41_000, 63_500, 21, 21, 410),
+        ("A9", "O5", 63_500, 91_500, 21, 21, 560),
+        ("A10", "O5", 91_500, 93_500, 21, 4, 410),
+        ("A11", "O6", 93_500, 93_500, 3, 3, 0),
+        ("A12", "O7", 93_500, 93_500, 2, 2, 0),
+        ("A13", "O8", 93_500, 93_500, 3, 3, 0),
+        ("A14", "O9", 93_500, 123_500, 21, 21, 560),
+        ("A15", "O9", 123_500, 146_000, 21, 21, 410),
+        ("A16", "O9", 146_000, 156_000, 21, 12, 330),
+        ("A17", "O9", 156_000, 187_000, 21, 21, 410),
+    ];
+    let mission = patrol();
+    let activities = mission.scenario().activities.iter();
+    let found: Vec<_> = activities
+        .map(|it| {
+            let objective = mission.objectives[it.objective].id.as_str();
+            let (before, after) = (it.unconstrained(), it.alternatives.len());
+            (it.id.as_str(), objective, it.x_start.0, it.x_end.0, before, after, it.speed_max.0)
+        })
+        .collect();
+    assert_eq!(found, table_5);
+    assert_eq!(mission.scenario().combinations(), Some(768_288_795_144_192));
+}
+
+#[test]
+fn qualities_are_optional() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let lines = text.lines().filter(|line| !line.starts_with("quality"));
+    let mission = Mission::parse("plain", &lines.collect::<Vec<_>>().join("\n")).unwrap();
+    assert_eq!(mission.scenario().combinations(), patrol().scenario().combinations());
+    assert!(mission.tios.iter().all(|tio| (tio.quality, tio.quality_per_dm) == (0, 0)));
+}
+
+#[test]
+fn an_alternative_costs_what_a_hand_finds() {
+    let mission = patrol();
+    let activities = mission.scenario().activities();
+    let a1 = &mission.scenario().activities[0];
+    let m5_l2 = a1.labels.iter().position(|label| label == "M5 L2").unwrap();
+    let alternative = a1.alternatives[m5_l2];
+    assert_eq!(alternative.speed, MillimetresPerSecond(410));
+    // motion at 0.41 m/s, sonar, two lasers, Kinect; the actuators are a part of motion
+    assert_eq!(alternative.power, Milliwatts(7_924 + 1_300 + 2 * 2_200 + 4_600));
+    let whole = activities[0].whole(&alternative);
+    assert_eq!(whole, Rest::Travel(Millimetres(31_000)));
+    // 31 m / 0.41 m/s = 75.6098 s, times 18.224 W = 1377.917 J; (3 * 3 + 3) for each of 310 dm
+    let candidate = alternative.candidate(whole, 7).unwrap();
+    assert_eq!((candidate.cost, candidate.quality, candidate.id), ([75_610, 1_377_917], 12 * 310, 7));
+    // A turn with L3: 8 s at 7.5 W and two lasers.
+    let t1_l3 = mission.scenario().activities[3].alternatives[2];
+    let whole = activities[3].whole(&t1_l3);
+    assert_eq!(whole, Rest::Time(Millis(8_000)));
+    assert_eq!(t1_l3.cost(whole), Some([8_000, (7_500 + 2 * 2_200) * 8]));
+    assert_eq!(t1_l3.quality, 20);
+}
+
+#[test]
+fn every_dropped_combination_names_all_its_constraints() {
+    let mission = patrol();
+    let a3 = &mission.scenario().activities[2];
+    let m3_l1 = a3.dropped.iter().find(|dropped| dropped.label == "M3 L1").unwrap();
+    let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
+    let expected = [(zone("glass-out"), Constraint::Hardware), (zone("valve1-approach"), Constraint::Tio)];
+    assert_eq!(m3_l1.by, expected);
+    assert_eq!(
+        m3_l1.reason,
+        "zone `glass-out` requires the moving option to use 1 of `sonar`; \
+         zone `valve1-approach` requires the option `L2`"
+    );
+}
+
+#[test]
+fn constraints_can_be_lifted_and_objectives_left_out() {
+    let mission = patrol();
+    let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
+    // Without the added sonar requirement A10 has the 7 alternatives of its printed constraint.
+    let lifted =
+        mission.without_zone_constraint(zone("valve2-approach-sonar"), Constraint::Hardware).unwrap();
+    assert_eq!(lifted.scenario().combinations(), Some(1_344_505_391_502_336));
+    assert_eq!(mission.without_zone_constraint(zone("H2"), Constraint::Hardware), None);
+    assert_eq!(mission.without_zone_constraint(99, Constraint::Tio), None);
+
+    let without_detection = mission.without_objective(2).unwrap();
+    assert_eq!(without_detection.scenario().activities.len(), 16);
+    assert_eq!(without_detection.path_length, mission.path_length);
+    let one_way = mission.without_objective(8).unwrap();
+    assert_eq!((one_way.scenario().activities.len(), one_way.path_length), (13, Millimetres(93_500)));
+    assert!(one_way.run.faults.events.iter().all(|event| event.x <= one_way.path_length));
+    assert_eq!(mission.without_objective(0), None);
+    assert_eq!(mission.without_objective(9), None);
+}
+
+#[test]
+fn a_remaining_mission_becomes_a_problem_without_heap() {
+    let mission = patrol();
+    let scenario = mission.scenario();
+    let activities = scenario.activities();
+    let lasers = mission.hardware.iter().position(|hardware| hardware.name == "laser").unwrap();
+    let available = scenario.available().without(lasers, 1);
+    // At 118 m one laser is lost: M4 to M7 and L3 fall away, 3 * 2 remain of 21, and M1, M2 in the glazed A16.
+    let rest = Rest::Travel(Millimetres(123_500 - 118_000));
+    let mut candidates = vec![EMPTY; buffer_sizes(&activities[13..]).0];
+    let mut lists = [&[][..]; 17];
+    let lists = remaining(&activities[13..], rest, available, &mut candidates, &mut lists).unwrap();
+    let problem = Problem::new(lists, scenario.limits, scenario.order).unwrap();
+    let counts: Vec<_> = problem.activities().iter().map(|candidates| candidates.len()).collect();
+    assert_eq!(counts, [6, 6, 4, 6]);
+    // The ids are still those of the alternatives.
+    let last = problem.activities()[3].last().unwrap();
+    assert_eq!(scenario.activities[16].labels[usize::from(last.id)], "M3 L2");
+
+    let nothing = cotama_core::hardware::Units::NONE;
+    let mut candidates = [EMPTY; 5];
+    let mut lists = [&[][..]; 17];
+    let refused = remaining(&activities[13..], rest, nothing, &mut candidates, &mut lists);
+    assert_eq!(refused, Err(RemainingError::NoCandidates { activity: 0 }));
+    let mut lists = [&[][..]; 17];
+    let refused = remaining(&activities[13..], rest, available, &mut candidates, &mut lists);
+    assert_eq!(refused, Err(RemainingError::BufferTooSmall));
+    let mut lists = [&[][..]; 3];
+    let refused = remaining(&activities[13..], rest, available, &mut candidates, &mut lists);
+    assert_eq!(refused, Err(RemainingError::BufferTooSmall));
+    let far = Rest::Travel(Millimetres(u64::MAX));
+    let mut lists = [&[][..]; 17];
+    let refused = remaining(&activities[13..], far, available, &mut candidates, &mut lists);
+    assert_eq!(refused, Err(RemainingError::TooLarge { activity: 0 }));
+}
+
+#[test]
+fn the_printed_tables_are_those_of_the_mission_file() {
+    let mission = patrol();
+    let scenario = mission.scenario();
+    let printed = scenario.to_rust(&mission.name);
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/src/patrol_tables.rs"), &printed).unwrap();
+        return;
+    }
+    assert!(printed == include_str!("../src/patrol_tables.rs"), "rewrite it with UPDATE_GOLDEN=1 cargo test");
+    // And compiled, they are the same values.
+    assert_eq!(patrol_tables::ACTIVITIES[..], scenario.activities()[..]);
+    assert_eq!((patrol_tables::LIMITS, patrol_tables::ORDER), (scenario.limits, scenario.order));
+    assert_eq!(patrol_tables::AVAILABLE, scenario.available());
+    for (labels, activity) in patrol_tables::LABELS.iter().zip(&scenario.activities) {
+        assert_eq!(*labels, activity.labels);
+    }
+}

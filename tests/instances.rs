@@ -1,0 +1,189 @@
+//! Seeded instances of the allocation problem, of the kinds that the benchmark reports.
+//!
+//! Integers only, so that a seed gives the same instance on every machine.
+
+use cotama_core::problem::{Candidate, Problem};
+
+/// A small deterministic generator (SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
+#[derive(Clone, Debug)]
+pub struct Draw(u64);
+
+impl Draw {
+    /// A generator for this seed.
+    #[must_use]
+    pub const fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// The next 64 bits.
+    pub fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// A number from `low` to `high`, both included.
+    pub fn between(&mut self, low: u64, high: u64) -> u64 {
+        low + ((u128::from(self.bits()) * u128::from(high - low + 1)) >> 64) as u64
+    }
+}
+
+/// An instance that owns its tables.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Instance<const A: usize> {
+    /// Candidates of each activity.
+    pub activities: Vec<Vec<Candidate<A>>>,
+    /// The inclusive limit of each axis.
+    pub limits: [u64; A],
+}
+
+impl<const A: usize> Instance<A> {
+    /// The candidates as the allocators borrow them.
+    #[must_use]
+    pub fn slices(&self) -> Vec<&[Candidate<A>]> {
+        self.activities.iter().map(Vec::as_slice).collect()
+    }
+
+    /// The problem over borrowed slices, axes treated as they are numbered.
+    ///
+    /// # Panics
+    /// When an activity has no candidate.
+    #[must_use]
+    pub fn problem<'a>(&self, slices: &'a [&'a [Candidate<A>]]) -> Problem<'a, A> {
+        Problem::new(slices, self.limits, core::array::from_fn(|axis| axis))
+            .expect("an instance is a problem")
+    }
+
+    /// Sets each limit at a share, in permille, of the way from the least to the largest total of its axis.
+    fn limited(activities: Vec<Vec<Candidate<A>>>, permille: [u64; A]) -> Self {
+        let limits = core::array::from_fn(|axis| {
+            let sum = |pick: fn(u64, u64) -> u64| -> u64 {
+                activities
+                    .iter()
+                    .map(|c| c.iter().map(|c| u64::from(c.cost[axis])).reduce(pick).unwrap_or(0))
+                    .sum()
+            };
+            let (least, most) = (sum(u64::min), sum(u64::max));
+            least + (most - least) * permille[axis] / 1000
+        });
+        Self { activities, limits }
+    }
+}
+
+/// Robot-like travel: 7 moving options times 3 localisations on a stretch of corridor, with the patrol's speeds
+/// and powers.
+fn travel(draw: &mut Draw, allowed: impl Fn(u64, usize) -> bool) -> Vec<Candidate<2>> {
+    let length = draw.between(5, 400) * 100;
+    let zone_speed = [330, 410, 560][draw.between(0, 2) as usize];
+    // Sonar rings and lasers of M1..M7; Kinect and lasers of L1..L3, and their quality.
+    let moving = [(1, 0), (1, 0), (0, 1), (0, 2), (1, 2), (1, 2), (0, 2)];
+    let localisation = [(0, 0, 0), (1, 0, 3), (0, 2, 2)];
+    let mut candidates = Vec::new();
+    for (sonar, lasers) in moving {
+        for (place, (kinect, more_lasers, quality)) in localisation.into_iter().enumerate() {
+            if !allowed(sonar, place) {
+                continue;
+            }
+            let speed: u64 = if kinect > 0 { zone_speed.min(410) } else { zone_speed };
+            let motion = 4890 + (3930 * speed + 500) / 1000 + (8466 * speed * speed + 500_000) / 1_000_000;
+            let power = motion + 1300 * sonar + 2200 * lasers.max(more_lasers) + 4600 * kinect;
+            let duration = (length * 1000 + speed / 2) / speed;
+            candidates.push(Candidate {
+                cost: [duration as u32, ((power * duration + 500) / 1000) as u32],
+                quality: ((3 * quality + sonar + lasers) * (length / 100)) as u32,
+                id: candidates.len() as u16,
+            });
+        }
+    }
+    candidates
+}
+
+/// `activities` stretches with all 21 candidates each.
+#[must_use]
+pub fn robot_like(activities: usize, permille: [u64; 2], seed: u64) -> Instance<2> {
+    let mut draw = Draw::new(seed);
+    Instance::limited((0..activities).map(|_| travel(&mut draw, |_, _| true)).collect(), permille)
+}
+
+/// Missions like the paper's: stretches with 21, 12 or 4 candidates, and at every fourth place a turn,
+/// a detection and a turn.
+#[must_use]
+pub fn paper_like(activities: usize, permille: [u64; 2], seed: u64) -> Instance<2> {
+    let mut draw = Draw::new(seed);
+    let fixed = |duration: u64, options: &[(u64, u64)]| {
+        let each = options.iter().enumerate().map(|(id, &(power, quality))| Candidate {
+            cost: [duration as u32, (power * duration / 1000) as u32],
+            quality: quality as u32,
+            id: id as u16,
+        });
+        each.collect::<Vec<_>>()
+    };
+    let (turn, detection) = ([(7_500, 0), (12_100, 30), (11_900, 20)], [(9_490, 10), (11_100, 20)]);
+    let mut made = Vec::new();
+    while made.len() < activities {
+        match made.len() % 7 {
+            3 | 5 => made.push(fixed(draw.between(6_000, 10_000), &turn)),
+            4 => made.push(fixed(draw.between(10_000, 18_000), &detection)),
+            _ => made.push(match draw.between(0, 3) {
+                0 => travel(&mut draw, |sonar, place| sonar == 1 && place == 1),
+                1 => travel(&mut draw, |sonar, _| sonar == 1),
+                _ => travel(&mut draw, |_, _| true),
+            }),
+        }
+    }
+    Instance::limited(made, permille)
+}
+
+/// How quality follows the costs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Correlation {
+    /// Within 100 of the mean cost.
+    Weak,
+    /// The mean cost plus 100.
+    Strong,
+}
+
+/// Costs from 1 to 1000 on both axes; the limits half way from least to largest (Pisinger's classes, two limits).
+#[must_use]
+pub fn correlated(activities: usize, candidates: usize, correlation: Correlation, seed: u64) -> Instance<2> {
+    let mut draw = Draw::new(seed);
+    let mut one = |id: usize| {
+        let cost = [draw.between(1, 1000), draw.between(1, 1000)];
+        let mean = u64::midpoint(cost[0], cost[1]);
+        let quality = match correlation {
+            Correlation::Weak => (mean + draw.between(0, 200)).saturating_sub(100).max(1),
+            Correlation::Strong => mean + 100,
+        };
+        Candidate { cost: cost.map(|c| c as u32), quality: quality as u32, id: id as u16 }
+    };
+    let made = (0..activities).map(|_| (0..candidates).map(&mut one).collect()).collect();
+    Instance::limited(made, [500, 500])
+}
+
+/// A small problem for comparison with brute force: costs and qualities from a small range, so that ties, equal
+/// candidates and infeasible limits are frequent.
+#[must_use]
+pub fn small<const A: usize>(seed: u64) -> Instance<A> {
+    let mut draw = Draw::new(seed);
+    let largest = [3, 10, 100, 1_000_000][draw.between(0, 3) as usize];
+    let activities = (0..draw.between(1, 5))
+        .map(|_| {
+            (0..draw.between(1, 5))
+                .map(|id| Candidate {
+                    cost: core::array::from_fn(|_| draw.between(0, largest) as u32),
+                    quality: draw.between(0, largest) as u32,
+                    id: id as u16,
+                })
+                .collect()
+        })
+        .collect();
+    let permille = core::array::from_fn(|_| draw.between(0, 1000));
+    let mut instance = Instance::limited(activities, permille);
+    if draw.between(0, 5) == 0 {
+        let axis = draw.between(0, A as u64 - 1) as usize;
+        instance.limits[axis] = draw.between(0, instance.limits[axis]);
+    }
+    instance
+}

@@ -1,0 +1,3 @@
+//! What the tests and benchmarks across the crates share: seeded problem instances.
+
+pub mod instances;
