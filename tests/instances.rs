@@ -74,9 +74,8 @@ impl<const A: usize> Instance<A> {
 
 /// Robot-like travel: 7 moving options times 3 localisations on a stretch of corridor, with the patrol's speeds
 /// and powers.
-fn travel(draw: &mut Draw, allowed: impl Fn(u64, usize) -> bool) -> Vec<Candidate<2>> {
+fn travel(draw: &mut Draw, zone_speed: u64, allowed: impl Fn(u64, usize) -> bool) -> Vec<Candidate<2>> {
     let length = draw.between(5, 400) * 100;
-    let zone_speed = [330, 410, 560][draw.between(0, 2) as usize];
     // Sonar rings and lasers of M1..M7; Kinect and lasers of L1..L3, and their quality.
     let moving = [(1, 0), (1, 0), (0, 1), (0, 2), (1, 2), (1, 2), (0, 2)];
     let localisation = [(0, 0, 0), (1, 0, 3), (0, 2, 2)];
@@ -100,17 +99,40 @@ fn travel(draw: &mut Draw, allowed: impl Fn(u64, usize) -> bool) -> Vec<Candidat
     candidates
 }
 
+/// Which speed limits the zones of a mission have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Zones {
+    /// Each its own, from 300 to 600 mm/s.
+    Varied,
+    /// The patrol's three, 330, 410 and 560 mm/s: many activities then share the very same ratio of quality to
+    /// energy, which makes a long mission a subset-sum problem and the hardest kind here.
+    Three,
+}
+
+impl Zones {
+    fn speed(self, draw: &mut Draw) -> u64 {
+        match self {
+            Self::Varied => draw.between(300, 600),
+            Self::Three => [330, 410, 560][draw.between(0, 2) as usize],
+        }
+    }
+}
+
 /// `activities` stretches with all 21 candidates each.
 #[must_use]
-pub fn robot_like(activities: usize, permille: [u64; 2], seed: u64) -> Instance<2> {
+pub fn robot_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64) -> Instance<2> {
     let mut draw = Draw::new(seed);
-    Instance::limited((0..activities).map(|_| travel(&mut draw, |_, _| true)).collect(), permille)
+    let mut one = || {
+        let speed = zones.speed(&mut draw);
+        travel(&mut draw, speed, |_, _| true)
+    };
+    Instance::limited((0..activities).map(|_| one()).collect(), permille)
 }
 
 /// Missions like the paper's: stretches with 21, 12 or 4 candidates, and at every fourth place a turn,
 /// a detection and a turn.
 #[must_use]
-pub fn paper_like(activities: usize, permille: [u64; 2], seed: u64) -> Instance<2> {
+pub fn paper_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64) -> Instance<2> {
     let mut draw = Draw::new(seed);
     let fixed = |duration: u64, options: &[(u64, u64)]| {
         let each = options.iter().enumerate().map(|(id, &(power, quality))| Candidate {
@@ -126,11 +148,14 @@ pub fn paper_like(activities: usize, permille: [u64; 2], seed: u64) -> Instance<
         match made.len() % 7 {
             3 | 5 => made.push(fixed(draw.between(6_000, 10_000), &turn)),
             4 => made.push(fixed(draw.between(10_000, 18_000), &detection)),
-            _ => made.push(match draw.between(0, 3) {
-                0 => travel(&mut draw, |sonar, place| sonar == 1 && place == 1),
-                1 => travel(&mut draw, |sonar, _| sonar == 1),
-                _ => travel(&mut draw, |_, _| true),
-            }),
+            _ => {
+                let speed = zones.speed(&mut draw);
+                made.push(match draw.between(0, 3) {
+                    0 => travel(&mut draw, speed, |sonar, place| sonar == 1 && place == 1),
+                    1 => travel(&mut draw, speed, |sonar, _| sonar == 1),
+                    _ => travel(&mut draw, speed, |_, _| true),
+                });
+            }
         }
     }
     Instance::limited(made, permille)

@@ -7,6 +7,7 @@ extern crate std;
 
 pub mod allocation;
 pub mod exact;
+pub mod front;
 pub mod hardware;
 pub mod monitor;
 pub mod panorama;

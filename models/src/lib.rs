@@ -35,6 +35,8 @@ pub mod embedded;
 #[cfg(feature = "std")]
 pub mod faults;
 #[cfg(feature = "std")]
+pub mod infeasible;
+#[cfg(feature = "std")]
 pub mod mission;
 #[cfg(feature = "std")]
 mod reader;

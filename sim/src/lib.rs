@@ -1,1 +1,19 @@
-//! Discrete-event simulation of robot missions.
+//! Discrete-event simulation of robot missions: the run, its trace, its replay.
+//!
+//! A [`Mission`](cotama_models::mission::Mission) and [`Options`](options::Options) make a
+//! [`Simulation`](setup::Simulation), which runs any number of times; every run is a
+//! [`World`](world::World) that steps from event to event to its [`Run`](run::Run). With a
+//! [`Recorder`](record::Recorder) it also leaves a [`Trace`](trace::Trace), from which it can be drawn and
+//! [replayed](trace::replay). The same seed gives the same bytes on every machine.
+#![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
+
+pub mod faults_text;
+pub mod kernel;
+pub mod options;
+pub mod record;
+pub mod run;
+pub mod setup;
+mod solver;
+pub mod streams;
+pub mod trace;
+pub mod world;

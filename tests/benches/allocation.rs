@@ -5,7 +5,7 @@
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
-use cotama_tests::instances::{Correlation, Instance, correlated, paper_like, robot_like};
+use cotama_tests::instances::{Correlation, Instance, Zones, correlated, paper_like, robot_like};
 use serde_json::json;
 use std::time::Instant;
 
@@ -27,11 +27,13 @@ fn time(instance: &Instance<2>) -> Timed {
     let count = instance.activities.iter().map(Vec::len).sum();
     let (mut items, mut stages) = (vec![Item::EMPTY; count], vec![Stage::EMPTY; slices.len()]);
     let mut plan = vec![0; slices.len()];
+    let mut seen = vec![cotama_core::exact::Seen::EMPTY; 1 << 18];
     let mut seconds = Vec::new();
     let begin = Instant::now();
     loop {
         let start = Instant::now();
-        let mut exact = Exact::new(&[Objective::MostQuality], STEPS, &mut items, &mut stages);
+        let mut exact =
+            Exact::new(&[Objective::MostQuality], STEPS, &mut items, &mut stages).with_memory(&mut seen);
         let answer = exact.allocate(&problem, &mut plan).expect("the memory is sized for the instance");
         seconds.push(start.elapsed().as_secs_f64());
         if seconds.len() >= 3 && begin.elapsed().as_secs_f64() > 0.02 || begin.elapsed().as_secs_f64() > 2.0 {
@@ -49,12 +51,14 @@ fn main() {
     let (export, only) = (after("--export"), after("--kind").unwrap_or(""));
 
     let mut kinds: Vec<(String, Vec<Instance<2>>)> = Vec::new();
-    for activities in [17, 50, 200, 1000] {
-        let tight = |seed: u64| paper_like(activities, TIGHTNESS[seed as usize % 4], seed);
-        kinds.push((format!("paper-like {activities}"), (1..=8).map(tight).collect()));
+    for (zones, suffix) in [(Zones::Varied, ""), (Zones::Three, " three speeds")] {
+        for activities in [17, 50, 200, 1000] {
+            let tight = |seed: u64| paper_like(activities, zones, TIGHTNESS[seed as usize % 4], seed);
+            kinds.push((format!("paper-like {activities}{suffix}"), (1..=8).map(tight).collect()));
+        }
+        let tight = |seed: u64| robot_like(1000, zones, TIGHTNESS[seed as usize % 4], seed);
+        kinds.push((format!("robot-like 1000x21{suffix}"), (1..=8).map(tight).collect()));
     }
-    let tight = |seed: u64| robot_like(1000, TIGHTNESS[seed as usize % 4], seed);
-    kinds.push(("robot-like 1000x21".into(), (1..=8).map(tight).collect()));
     for (activities, name) in [(50, "weak 50x20"), (200, "weak 200x20")] {
         let weak = |seed| correlated(activities, 20, Correlation::Weak, seed);
         kinds.push((name.into(), (1..=8).map(weak).collect()));
@@ -64,7 +68,7 @@ fn main() {
 
     let mut rows = Vec::new();
     println!(
-        "{:<20} {:>12} {:>12} {:>12}  proven  worst gap",
+        "{:<32} {:>12} {:>12} {:>12}  proven  worst gap",
         "kind", "median ms", "worst ms", "worst steps"
     );
     for (kind, instances) in kinds.iter().filter(|(kind, _)| kind.contains(only)) {
@@ -98,7 +102,7 @@ fn main() {
             }));
         }
         println!(
-            "{kind:<20} {:>12.4} {:>12.4} {worst_steps:>12}  {proven}/{}  {:.4} %",
+            "{kind:<32} {:>12.4} {:>12.4} {worst_steps:>12}  {proven}/{}  {:.4} %",
             seconds[seconds.len() / 2] * 1e3,
             seconds[seconds.len() - 1] * 1e3,
             instances.len(),

@@ -2,6 +2,7 @@
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::front::{Front, Node};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_tests::instances::{Instance, small};
@@ -25,7 +26,7 @@ fn every_plan<const A: usize>(instance: &Instance<A>) -> Vec<(Vec<u16>, [u64; A]
     plans
 }
 
-fn exact<const A: usize>(
+pub(crate) fn exact<const A: usize>(
     problem: &Problem<A>,
     objectives: &[Objective],
     steps: u64,
@@ -134,6 +135,41 @@ fn exact_is_brute_force_on_20_000_small_problems() {
     }
 }
 
+#[test]
+fn the_front_is_every_undominated_plan_of_5_000_small_problems() {
+    for seed in 0..5_000 {
+        let instance = small::<2>(seed);
+        let slices = instance.slices();
+        let problem = instance.problem(&slices);
+        let mut feasible: Vec<([u64; 2], u64)> = every_plan(&instance)
+            .into_iter()
+            .map(|(_, cost, quality)| (cost, quality))
+            .filter(|(cost, _)| problem.within_limits(cost))
+            .collect();
+        feasible.sort_unstable();
+        feasible.dedup();
+        let beats = |a: &([u64; 2], u64), b: &([u64; 2], u64)| {
+            a != b && a.0[0] <= b.0[0] && a.0[1] <= b.0[1] && a.1 >= b.1
+        };
+        let expected: Vec<_> = feasible
+            .iter()
+            .copied()
+            .filter(|plan| !feasible.iter().any(|other| beats(other, plan)))
+            .collect();
+        let mut nodes = vec![Node::EMPTY; 20_000];
+        let mut front = Front::new(&mut nodes);
+        let plans = front.find(&problem).unwrap();
+        let mut found: Vec<_> = (0..plans.len()).filter_map(|index| plans.totals(index)).collect();
+        let mut plan = vec![0; slices.len()];
+        for (index, totals) in found.iter().enumerate() {
+            assert!(plans.plan(index, &mut plan));
+            assert_eq!(problem.totals(&plan).as_ref(), Some(totals), "seed {seed}");
+        }
+        found.sort_unstable();
+        assert_eq!(found, expected, "seed {seed}");
+    }
+}
+
 /// The rules of the paper, written down once more without any care for speed.
 fn rules_of_the_paper<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
     let mut left: Vec<Vec<(usize, &Candidate<A>)>> =
@@ -167,7 +203,7 @@ fn rules_of_the_paper<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> 
     left.iter().map(pick).collect()
 }
 
-fn panorama<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
+pub(crate) fn panorama<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
     let widest = problem.activities().iter().map(|c| c.len()).max().unwrap_or(0);
     let (mut caps, mut sorted) = (vec![[0; A]; problem.activities().len()], vec![0; widest]);
     let mut plan = vec![0; problem.activities().len()];

@@ -1,3 +1,4 @@
 //! Stories across the crates.
 
 mod allocators;
+mod patrol;

@@ -73,24 +73,21 @@ impl<const A: usize> Dual<'_, A> {
             return Some(start);
         }
         // Gallop to a second tangent of the other sign.
-        let (mut near, mut far) = (start, start);
+        let mut near = start;
         let mut stride = (start.multiplier.get(row) / 16).max(most >> 16).max(1);
-        loop {
-            let place = far.multiplier.get(row);
+        let far = loop {
+            let place = near.multiplier.get(row);
             let next = if rising { (place + stride).min(most) } else { (place - stride).max(0) };
             if next == place {
-                return Some(far); // the end of the range, still falling
+                return Some(near); // the end of the range, still falling
             }
-            near = far;
-            far = match self.at(row, next, &far) {
-                Some(price) => price,
-                None => return Some(if near.bound < start.bound { near } else { start }),
-            };
-            if (far.slope.get(row) < 0) != rising {
-                break;
+            let Some(price) = self.at(row, next, &near) else { return Some(near) };
+            if (price.slope.get(row) < 0) != rising {
+                break price;
             }
+            near = price;
             stride = stride.saturating_mul(4);
-        }
+        };
         let (mut low, mut high) = if rising { (near, far) } else { (far, near) };
         for _ in 0..SECANTS {
             let (left, right) = (low.multiplier.get(row), high.multiplier.get(row));

@@ -34,6 +34,7 @@
 //! assert_eq!((plan, planned.cost, planned.optimal), ([0, 2], [4, 5], true));
 //! ```
 
+mod dive;
 mod dual;
 mod load;
 mod primal;
@@ -119,11 +120,12 @@ pub struct Stage<const A: usize> {
 struct Level<const A: usize> {
     /// The activity.
     stage: u32,
-    /// The item under test.
+    /// The item visited first: that of the plan so far.
+    base: u32,
+    /// How many items have been visited.
     cursor: u32,
-    /// Slack and loss before this level, the activities from here on at their best items.
-    slack: Rows<A>,
-    loss: i64,
+    /// What is left before this level, the activities from here on at their best items.
+    point: dive::Point<A>,
     /// What the levels from here on can save at most, row by row.
     saving: Rows<A>,
     /// What the levels from here on can gain over their best items at each other multiplier.
@@ -139,9 +141,9 @@ impl<const A: usize> Stage<A> {
         current: 0,
         level: Level {
             stage: 0,
+            base: 0,
             cursor: 0,
-            slack: Rows::ZERO,
-            loss: 0,
+            point: dive::Point::ZERO,
             saving: Rows::ZERO,
             gain: [0; REPRICINGS],
         },
@@ -158,11 +160,24 @@ impl<const A: usize> Stage<A> {
     }
 }
 
+/// Working memory for one node of the search that need not be searched twice. Optional: see [`Exact::with_memory`].
+#[derive(Clone, Copy, Debug)]
+pub struct Seen<const A: usize> {
+    dive: u32,
+    depth: u32,
+    worth: i64,
+    slack: Rows<A>,
+}
+
+impl<const A: usize> Seen<A> {
+    /// Unused memory.
+    pub const EMPTY: Self = Self { dive: 0, depth: 0, worth: 0, slack: Rows::ZERO };
+}
+
 /// A number of steps that may still be taken. A step is one activity priced, or one node of the search.
 #[derive(Clone, Copy, Debug)]
 struct Budget {
     left: u64,
-    taken: u64,
 }
 
 impl Budget {
@@ -170,7 +185,6 @@ impl Budget {
     #[inline]
     fn take(&mut self, steps: u64) -> Option<()> {
         self.left = self.left.checked_sub(steps)?;
-        self.taken += steps;
         Some(())
     }
 }
@@ -182,6 +196,7 @@ pub struct Exact<'m, const A: usize> {
     steps: u64,
     items: &'m mut [Item<A>],
     stages: &'m mut [Stage<A>],
+    seen: &'m mut [Seen<A>],
 }
 
 /// How the search for one objective ended; values are those of [`load::value`], summed.
@@ -205,7 +220,14 @@ impl<'m, const A: usize> Exact<'m, A> {
         items: &'m mut [Item<A>],
         stages: &'m mut [Stage<A>],
     ) -> Self {
-        Self { objectives, steps, items, stages }
+        Self { objectives, steps, items, stages, seen: &mut [] }
+    }
+
+    /// The same with memory for nodes that need not be searched twice, as many as there is room for. It pays
+    /// where many activities share a ratio of value to cost; elsewhere it costs a little time.
+    #[must_use]
+    pub fn with_memory(self, seen: &'m mut [Seen<A>]) -> Self {
+        Self { seen, ..self }
     }
 
     /// The search for one objective; the plan is left in [`Stage::best`].
@@ -220,7 +242,7 @@ impl<'m, const A: usize> Exact<'m, A> {
         }
         let mut bound = (price.bound >> frame.fraction).min(frame.most);
         let best = primal::first_plan(&frame, &price, self.items, stages, budget);
-        match search::search(&frame, &price, self.items, stages, best, &mut bound, budget) {
+        match search::search(&frame, &price, self.items, stages, self.seen, best, &mut bound, budget) {
             (Some(best), _) if best >= bound => Ended::Optimal,
             (Some(_), _) => Ended::Stopped(value(bound)),
             (None, true) => Ended::Infeasible,
@@ -270,7 +292,7 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
         enough("stages of the exact allocator", problem.activities().len(), self.stages.len())?;
         let plan = &mut plan[..problem.activities().len()];
 
-        let mut budget = Budget { left: self.steps, taken: 0 };
+        let mut budget = Budget { left: self.steps };
         let mut aim = Aim { objective: Objective::MostQuality, limits: problem.limits(), quality_floor: 0 };
         let mut found = None;
         // Without an objective any plan will do: the last axis serves as one, and need not be proven least.
@@ -283,11 +305,11 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 Ended::Stopped(bound) => Some(bound),
                 Ended::Infeasible if found.is_none() => {
                     let (axis, least) = self.blame(problem, &mut budget);
-                    return Ok(Answer::Infeasible { axis, least, steps: budget.taken });
+                    return Ok(Answer::Infeasible { axis, least, steps: self.steps - budget.left });
                 }
                 Ended::Unknown(bound) if found.is_none() => {
                     let bound = u64::try_from(bound.abs()).unwrap_or(u64::MAX);
-                    return Ok(Answer::Unknown { bound, steps: budget.taken });
+                    return Ok(Answer::Unknown { bound, steps: self.steps - budget.left });
                 }
                 // A later objective found nothing within the budget: the plan before it stands.
                 Ended::Infeasible | Ended::Unknown(_) => {
@@ -305,7 +327,7 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 quality,
                 bound: first_bound.or(Some(own_bound)),
                 optimal: bound.is_none(),
-                steps: budget.taken,
+                steps: self.steps - budget.left,
             });
             if bound.is_some() {
                 break;
@@ -317,8 +339,8 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 Objective::Most(_) => break,
             }
         }
-        Ok(found.map_or(Answer::Unknown { bound: 0, steps: budget.taken }, |planned| {
-            Answer::Planned(Planned { steps: budget.taken, ..planned })
+        Ok(found.map_or(Answer::Unknown { bound: 0, steps: self.steps - budget.left }, |planned| {
+            Answer::Planned(Planned { steps: self.steps - budget.left, ..planned })
         }))
     }
 }

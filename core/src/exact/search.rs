@@ -1,28 +1,41 @@
-//! Depth-first search for a plan within a given loss of the bound, the loss rising until one is found.
+//! The search by rising loss, and the neighbourhood of the best plan.
 //!
-//! At the dual prices a plan is worth *bound - sum of losses - price of its slack*. To be worth at least a
-//! target, losses and slack together may use up to *allowance = bound - target*; items whose own loss exceeds
-//! it cannot be in such a plan (reduced-cost fixing), and activities with one item left need no level.
+//! A dive that asks for the bound itself allows the fewest items; each "no" lowers the bound and allows more.
+//! Where activities share the same ratio of value to cost, very many plans lie near the bound and a dive need
+//! not end. Then the best plan is improved by freeing a few activities at a time, in turns with the dive.
 
+use super::dive::Dive;
 use super::dual::Price;
 use super::load::Frame;
 use super::rows::Rows;
-use super::{Budget, Item, REPRICINGS, Stage};
+use super::{Budget, Item, REPRICINGS, Seen, Stage};
+
+/// Steps that the first dive may take before its turn ends; the next ones may take more.
+const FIRST_TURN: u64 = 10_000;
+const LONGER: u64 = 3;
+/// How many activities are free in a neighbourhood, and how many nodes one may visit.
+const FREE: usize = 10;
+const NEIGHBOURHOOD: u64 = 10_000;
+/// Neighbourhoods without a better plan after which the dive has its turn again.
+const FRUITLESS: u64 = 1_000;
 
 /// Searches until the best plan meets the bound, nothing is left, or the budget is spent. Takes the value of the
 /// plan in [`Stage::best`], if there is one, and returns the new one and whether the search was complete.
 /// `bound` is lowered to what is proven.
+#[allow(clippy::too_many_arguments)] // the parts of one search, taken apart by the borrow checker
 pub(super) fn search<const A: usize>(
     frame: &Frame<A>,
     price: &Price<A>,
     items: &[Item<A>],
     stages: &mut [Stage<A>],
+    seen: &mut [Seen<A>],
     mut best: Option<i64>,
     bound: &mut i64,
     budget: &mut Budget,
 ) -> (Option<i64>, bool) {
     let multipliers = repricings(frame, price);
-    let mut width = 0;
+    let mut dive = Dive::new(frame, price, &multipliers, items, stages, seen);
+    let (mut width, mut turn, mut round) = (0, FIRST_TURN, 0);
     loop {
         // A plan worth the bound, or every plan excluded.
         let floor = best.map_or(0, |value| value + 1);
@@ -30,22 +43,60 @@ pub(super) fn search<const A: usize>(
             return (best, true);
         }
         let target = (*bound - width).max(floor);
-        let mut dive = Dive { frame, price, items, stages, multipliers: &multipliers, target, levels: 0 };
-        dive.prepare();
-        let Some(found) = dive.run(budget) else {
-            // Stopped: what was found on the way is a plan, the bound stays.
-            if dive.target > target {
-                best = Some(dive.target - 1);
-            }
-            return (best, false);
-        };
-        if found {
+        dive.target = target;
+        dive.free_all();
+        let complete = dive.run(budget, turn);
+        if dive.target > target {
             best = Some(dive.target - 1);
-            *bound = dive.target - 1;
-            return (best, true);
         }
-        *bound = target - 1;
-        width += width / 2 + 1;
+        if complete {
+            *bound = dive.target - 1;
+            width += width / 2 + 1;
+            continue;
+        }
+        if budget.left == 0 {
+            return (best, false);
+        }
+        if let Some(value) = best.filter(|value| value < bound) {
+            dive.target = value + 1;
+            neighbours(&mut dive, *bound, &mut round, budget, turn);
+            best = Some(dive.target - 1);
+        }
+        dive.remember();
+        turn = turn.saturating_mul(LONGER);
+    }
+}
+
+/// Looks for better plans that differ from the best one in a few activities, round after round, until the turn
+/// ends, a plan meets the bound, or nothing better turns up any more.
+fn neighbours<const A: usize>(
+    dive: &mut Dive<'_, A>,
+    bound: i64,
+    round: &mut u64,
+    budget: &mut Budget,
+    turn: u64,
+) {
+    let end = budget.left.saturating_sub(turn);
+    if budget.take(dive.stages().len() as u64).is_none() {
+        return;
+    }
+    let mut home = dive.settle();
+    let mut fruitless = 0;
+    while dive.target <= bound && budget.left > end && fruitless < turn / FRUITLESS {
+        *round += 1;
+        if budget.take(FREE as u64).is_none() {
+            return;
+        }
+        let before = dive.target;
+        dive.free_some(home, FREE, *round);
+        dive.run(budget, NEIGHBOURHOOD);
+        dive.restore();
+        if dive.target > before {
+            fruitless = 0;
+            home = dive.settle();
+        } else {
+            fruitless += 1;
+        }
     }
 }
 
@@ -60,185 +111,4 @@ fn repricings<const A: usize>(frame: &Frame<A>, price: &Price<A>) -> [Rows<A>; R
         pair[1].set(row, best / 2);
     }
     multipliers
-}
-
-struct Dive<'d, const A: usize> {
-    frame: &'d Frame<A>,
-    price: &'d Price<A>,
-    items: &'d [Item<A>],
-    stages: &'d mut [Stage<A>],
-    multipliers: &'d [Rows<A>; REPRICINGS],
-    /// The value looked for; one above the best found once one is found.
-    target: i64,
-    levels: usize,
-}
-
-impl<const A: usize> Dive<'_, A> {
-    /// What losses and priced slack may use up together.
-    fn allowance(&self) -> i64 {
-        self.price.bound - (self.target << self.frame.fraction)
-    }
-
-    /// Makes the levels: activities with several items within the allowance, the costliest to change first,
-    /// since a change there leaves little for the others. Fills their bounds from the last one back.
-    fn prepare(&mut self) {
-        let allowance = self.allowance();
-        self.levels = 0;
-        for at in 0..self.stages.len() {
-            self.stages[at].current = 0;
-            let own = self.stages[at].items(self.items);
-            if own.get(1).is_some_and(|item| item.loss <= allowance) {
-                self.stages[self.levels].level.stage = at as u32;
-                self.levels += 1;
-            }
-        }
-        for top in (0..self.levels / 2).rev() {
-            self.sift(top, self.levels);
-        }
-        for end in (1..self.levels).rev() {
-            self.swap_levels(0, end);
-            self.sift(0, end);
-        }
-
-        let mut saving = Rows::ZERO;
-        let mut gain = [0; REPRICINGS];
-        for level in (0..self.levels).rev() {
-            let stage = &self.stages[self.stages[level].level.stage as usize];
-            let own = stage.items(self.items);
-            let best = &own[0];
-            let mut most = Rows::<A>::ZERO;
-            let mut gained = [0; REPRICINGS];
-            for item in own.iter().take_while(|item| item.loss <= allowance) {
-                most = most.zip(&best.rows().minus(&item.rows()), i64::max);
-                for (gained, multiplier) in gained.iter_mut().zip(self.multipliers) {
-                    let fraction = self.frame.fraction;
-                    *gained = (*gained)
-                        .max(item.reduced(multiplier, fraction) - best.reduced(multiplier, fraction));
-                }
-            }
-            saving = saving.plus(&most);
-            for (sum, part) in gain.iter_mut().zip(gained) {
-                *sum += part;
-            }
-            let level = &mut self.stages[level].level;
-            level.saving = saving;
-            level.gain = gain;
-        }
-    }
-
-    /// The loss of the second item of a level's activity: what a change there costs at least.
-    fn change(&self, level: usize) -> (i64, core::cmp::Reverse<u32>) {
-        let stage = self.stages[level].level.stage;
-        (self.stages[stage as usize].item(self.items, 1).loss, core::cmp::Reverse(stage))
-    }
-
-    fn swap_levels(&mut self, a: usize, b: usize) {
-        let first = self.stages[a].level.stage;
-        self.stages[a].level.stage = self.stages[b].level.stage;
-        self.stages[b].level.stage = first;
-    }
-
-    /// One sift of a heap sort with the least change on top, which leaves the levels in falling order.
-    fn sift(&mut self, mut top: usize, end: usize) {
-        loop {
-            let mut least = top;
-            for child in [2 * top + 1, 2 * top + 2] {
-                if child < end && self.change(child) < self.change(least) {
-                    least = child;
-                }
-            }
-            if least == top {
-                return;
-            }
-            self.swap_levels(top, least);
-            top = least;
-        }
-    }
-
-    /// Whether a node, with this slack and loss before level `depth`, can lead to the target.
-    #[inline]
-    fn promising(&self, depth: usize, slack: &Rows<A>, loss: i64) -> bool {
-        let allowance = self.allowance();
-        if loss > allowance {
-            return false;
-        }
-        if depth == self.levels {
-            return slack.none_negative() && self.price.multiplier.dot(slack) + loss <= allowance;
-        }
-        let level = &self.stages[depth].level;
-        if !slack.plus(&level.saving).none_negative() {
-            return false;
-        }
-        // value + multiplier * slack + gain >= target, with value = bound - loss - best multiplier * slack
-        self.multipliers.iter().zip(&level.gain).all(|(multiplier, gain)| {
-            multiplier.minus(&self.price.multiplier).dot(slack) + gain >= loss - allowance
-        })
-    }
-
-    /// Visits every promising node; `Some(found)` when complete, `None` when the budget ended it.
-    fn run(&mut self, budget: &mut Budget) -> Option<bool> {
-        let mut slack = self.frame.room;
-        for stage in self.stages.iter() {
-            slack = slack.minus(&stage.item(self.items, 0).rows());
-        }
-        let mut found = false;
-        let mut loss = 0;
-        let mut depth = 0;
-        budget.take(1)?;
-        if !self.promising(0, &slack, loss) {
-            return Some(false);
-        }
-        let mut entering = true;
-        loop {
-            if entering && depth == self.levels {
-                self.keep(&slack, loss);
-                found = true;
-                entering = false;
-                if depth == 0 {
-                    return Some(true);
-                }
-                depth -= 1;
-                continue;
-            }
-            if entering {
-                let level = &mut self.stages[depth].level;
-                (level.cursor, level.slack, level.loss) = (0, slack, loss);
-            } else {
-                self.stages[depth].level.cursor += 1;
-            }
-            let level = self.stages[depth].level;
-            let stage = self.stages[level.stage as usize];
-            let own = stage.items(self.items);
-            let within =
-                own.get(level.cursor as usize).filter(|item| level.loss + item.loss <= self.allowance());
-            let Some(item) = within else {
-                self.stages[level.stage as usize].current = 0;
-                if depth == 0 {
-                    return Some(found);
-                }
-                depth -= 1;
-                entering = false;
-                continue;
-            };
-            budget.take(1)?;
-            let (next_slack, next_loss) =
-                (level.slack.plus(&own[0].rows()).minus(&item.rows()), level.loss + item.loss);
-            entering = self.promising(depth + 1, &next_slack, next_loss);
-            if entering {
-                self.stages[level.stage as usize].current = level.cursor;
-                (slack, loss) = (next_slack, next_loss);
-                depth += 1;
-            }
-        }
-    }
-
-    /// Keeps the plan under work as the best and raises the target above it.
-    fn keep(&mut self, slack: &Rows<A>, loss: i64) {
-        let worth = self.price.bound - loss - self.price.multiplier.dot(slack);
-        debug_assert!(worth & ((1 << self.frame.fraction) - 1) == 0, "a plan is worth a whole number");
-        self.target = (worth >> self.frame.fraction) + 1;
-        for stage in self.stages.iter_mut() {
-            stage.best = stage.current;
-        }
-    }
 }

@@ -1,0 +1,116 @@
+//! The instance of an allocation problem, read from JSON with the place of every error.
+
+use crate::exit::Failure;
+use cotama_core::problem::{Candidate, Problem};
+use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use std::fmt;
+use std::marker::PhantomData;
+
+/// An allocation problem: at least one candidate an activity.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) struct Instance {
+    /// In ms and mJ, inclusive.
+    pub(crate) limits: [u64; 2],
+    pub(crate) activities: Vec<Vec<Candidate<2>>>,
+}
+
+#[derive(serde::Deserialize)]
+struct File {
+    limits: Limits,
+    activities: Bounded<Bounded<Triple, ActivityList>, InstanceList>,
+}
+
+#[derive(serde::Deserialize)]
+struct Limits {
+    duration_ms: u64,
+    energy_mj: u64,
+}
+
+/// Quality, duration, energy.
+#[derive(serde::Deserialize)]
+struct Triple(u32, u32, u32);
+
+/// What a list is, and how long it may be.
+trait List {
+    const WHAT: &'static str;
+    const LEAST: usize;
+    const MOST: usize;
+}
+
+struct InstanceList;
+
+impl List for InstanceList {
+    const WHAT: &'static str = "activities";
+    const LEAST: usize = 0;
+    const MOST: usize = Problem::<2>::MAX_ACTIVITIES;
+}
+
+struct ActivityList;
+
+impl List for ActivityList {
+    const WHAT: &'static str = "candidates";
+    const LEAST: usize = 1;
+    const MOST: usize = Problem::<2>::MAX_CANDIDATES;
+}
+
+/// A list within its bounds, so that the place of a list that is not is known.
+struct Bounded<T, L> {
+    items: Vec<T>,
+    list: PhantomData<L>,
+}
+
+impl<'de, T: Deserialize<'de>, L: List> Deserialize<'de> for Bounded<T, L> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Items<T, L>(PhantomData<(T, L)>);
+
+        impl<'de, T: Deserialize<'de>, L: List> Visitor<'de> for Items<T, L> {
+            type Value = Vec<T>;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                write!(f, "a list of {}", L::WHAT)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Vec<T>, A::Error> {
+                let mut items = Vec::new();
+                while let Some(item) = list.next_element()? {
+                    if items.len() == L::MOST {
+                        return Err(A::Error::custom(format!("more than {} {}", L::MOST, L::WHAT)));
+                    }
+                    items.push(item);
+                }
+                if items.len() < L::LEAST {
+                    return Err(A::Error::custom(format!("an activity without {}", L::WHAT)));
+                }
+                Ok(items)
+            }
+        }
+
+        let items = deserializer.deserialize_seq(Items::<T, L>(PhantomData))?;
+        Ok(Self { items, list: PhantomData })
+    }
+}
+
+impl Instance {
+    /// Reads an instance; `name` is that of its file.
+    pub(crate) fn parse(name: &str, text: &str) -> Result<Self, Failure> {
+        let name = if name == "-" { "standard input" } else { name };
+        let file: File = serde_json::from_str(text).map_err(|error| {
+            let said = error.to_string();
+            let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
+            Failure::new(format!("{name}:{}:{}: {what}", error.line(), error.column().max(1))).help(
+                "an instance is {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\"activities\":[[[quality,duration_ms,energy_mj],...],...]}, in whole numbers from 0; those of a candidate are below 2^32",
+            )
+        })?;
+        let candidate = |(id, &Triple(quality, duration, energy)): (u16, &Triple)| Candidate {
+            cost: [duration, energy],
+            quality,
+            id,
+        };
+        let candidates =
+            |activity: Bounded<Triple, ActivityList>| (0..).zip(&activity.items).map(candidate).collect();
+        Ok(Self {
+            limits: [file.limits.duration_ms, file.limits.energy_mj],
+            activities: file.activities.items.into_iter().map(candidates).collect(),
+        })
+    }
+}

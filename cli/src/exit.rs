@@ -1,0 +1,58 @@
+//! How a command ends, and what is said when it cannot do its work.
+
+use cotama_models::diagnostic::MissionErrors;
+use std::process::ExitCode;
+
+/// How a command ends. The codes are the same for every command.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// It holds, or there is a plan, or the mission is completed: 0.
+    Success = 0,
+    /// It does not hold, there is no plan, or the mission is not completed: 1.
+    Violated = 1,
+    /// The input cannot be used, or an output cannot be written: 2.
+    BadInput = 2,
+    /// A limit was reached before the answer was known: 3.
+    Unknown = 3,
+}
+
+impl From<Exit> for ExitCode {
+    fn from(exit: Exit) -> Self {
+        Self::from(exit as u8)
+    }
+}
+
+/// Why a command cannot do its work; it ends with [`Exit::BadInput`].
+#[derive(Debug)]
+pub(crate) enum Failure {
+    /// One thing is wrong.
+    Message {
+        /// What.
+        message: String,
+        /// What to do about it.
+        help: Option<String>,
+    },
+    /// A file has errors at places.
+    Text(Box<MissionErrors>),
+}
+
+impl Failure {
+    /// One thing is wrong.
+    pub(crate) fn new(message: impl Into<String>) -> Self {
+        Self::Message { message: message.into(), help: None }
+    }
+
+    /// The same with what to do about it.
+    pub(crate) fn help(self, words: impl Into<String>) -> Self {
+        match self {
+            Self::Message { message, .. } => Self::Message { message, help: Some(words.into()) },
+            Self::Text(errors) => Self::Text(errors),
+        }
+    }
+}
+
+impl From<MissionErrors> for Failure {
+    fn from(errors: MissionErrors) -> Self {
+        Self::Text(Box::new(errors))
+    }
+}

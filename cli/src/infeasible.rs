@@ -1,0 +1,115 @@
+//! Why there is no plan, as an answer.
+
+use crate::answers::{Change, Heavy, Kept, Reason, Relaxation, ZoneConstraint};
+use cotama_core::hardware::Units;
+use cotama_models::infeasible::{self, Cause};
+use cotama_models::mission::{AXES, Mission};
+use cotama_models::scenario::Constraint;
+
+/// The units of the axes.
+pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];
+
+/// Why a mission has no plan within these limits with this hardware; none if it has one, or if the search for the
+/// explanation was cut short.
+pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Reason> {
+    let found = infeasible::explain(mission, limits, available)?;
+    let mut reason = match &found.cause {
+        Cause::Limit { axis, limit, least } => over(*axis, *limit, *least),
+        Cause::Limits { limits, least } => {
+            let axis = mission.order[0];
+            over(axis, limits[axis], least[axis])
+        }
+        Cause::NoAlternative { activity, .. } => {
+            let id = mission.scenario().activities.get(*activity).map(|it| it.id.clone());
+            Reason { activity: id, ..Reason::default() }
+        }
+        Cause::Undecided { .. } => return None,
+    };
+    reason.text = found.cause.wording(mission);
+    reason.heaviest = found.heaviest.iter().map(|heavy| heaviest(mission, heavy)).collect();
+    reason.relaxations = found.relaxations.iter().map(|it| relaxation(mission, it)).collect();
+    Some(reason)
+}
+
+/// A limit that is below the least that is needed.
+pub(crate) fn over(axis: usize, limit: u64, least: u64) -> Reason {
+    let axis = axis.min(1);
+    let gap = least.saturating_sub(limit);
+    let (name, unit) = (AXES[axis], UNITS[axis]);
+    Reason {
+        text: format!(
+            "the {name} limit of {limit} {unit} cannot be met: at least {least} {unit} are needed (+{gap} {unit})"
+        ),
+        axis: Some(name.into()),
+        limit: Some(limit),
+        least: Some(least),
+        gap: Some(gap),
+        ..Reason::default()
+    }
+}
+
+fn heaviest(mission: &Mission, heavy: &infeasible::Heavy) -> Heavy {
+    Heavy {
+        activity: mission
+            .scenario()
+            .activities
+            .get(heavy.activity)
+            .map_or_else(String::new, |it| it.id.clone()),
+        cost: heavy.cost.into(),
+        permille: heavy.permille,
+        text: heavy.wording(mission),
+    }
+}
+
+fn relaxation(mission: &Mission, found: &infeasible::Relaxation) -> Relaxation {
+    use infeasible::Relaxation as Found;
+    let lifted = |&(zone, constraint): &(usize, Constraint)| ZoneConstraint {
+        zone: mission.zones.get(zone).map_or_else(String::new, |zone| zone.id.clone()),
+        constraint: match constraint {
+            Constraint::Hardware => "hardware",
+            Constraint::Tio => "option",
+        },
+    };
+    let kept = |&(kind, units): &(usize, u8)| Kept {
+        hardware: mission.hardware.get(kind).map_or_else(String::new, |it| it.name.clone()),
+        units,
+    };
+    let change = match found {
+        Found::RaiseLimit { axis: 0, to, .. } => {
+            Change::RaiseLimit { duration_limit_ms: Some(*to), energy_limit_mj: None }
+        }
+        Found::RaiseLimit { to, .. } => {
+            Change::RaiseLimit { duration_limit_ms: None, energy_limit_mj: Some(*to) }
+        }
+        Found::RaiseLimits { to: [duration, energy], .. } => {
+            Change::RaiseLimit { duration_limit_ms: Some(*duration), energy_limit_mj: Some(*energy) }
+        }
+        Found::LiftConstraint { zone, constraint } => {
+            Change::LiftConstraint { constraints: vec![lifted(&(*zone, *constraint))] }
+        }
+        Found::LiftConstraints { constraints } => {
+            Change::LiftConstraint { constraints: constraints.iter().map(lifted).collect() }
+        }
+        Found::KeepHardware { hardware, units } => {
+            Change::KeepHardware { hardware: vec![kept(&(*hardware, *units))] }
+        }
+        Found::KeepHardwares { hardware } => {
+            Change::KeepHardware { hardware: hardware.iter().map(kept).collect() }
+        }
+        Found::DropObjective { objective } => {
+            let id = mission.objectives.get(*objective).map_or_else(String::new, |it| it.id.clone());
+            Change::DropObjective { objective: id }
+        }
+    };
+    Relaxation { change, text: found.wording(mission) }
+}
+
+impl Relaxation {
+    /// The flags that raise the limits, if that is the change.
+    pub(crate) fn raised(&self) -> Option<String> {
+        let Change::RaiseLimit { duration_limit_ms, energy_limit_mj } = &self.change else { return None };
+        let duration = duration_limit_ms.map(|limit| format!(" --duration-limit {limit}"));
+        let energy = energy_limit_mj.map(|limit| format!(" --energy-limit {limit}"));
+        Some(format!("{}{}", duration.unwrap_or_default(), energy.unwrap_or_default()))
+    }
+}

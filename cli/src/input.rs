@@ -1,0 +1,59 @@
+//! Reading files, never more than a limit of them.
+
+use crate::exit::Failure;
+use std::fs::File;
+use std::io::{ErrorKind, Read};
+
+/// The most bytes of a mission or a file of faults.
+pub(crate) const MISSION_BYTES: u64 = 4 << 20;
+/// The most bytes of an allocation instance.
+pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
+/// The most bytes of a trace.
+pub(crate) const TRACE_BYTES: u64 = 256 << 20;
+
+/// The text of a file, or of standard input for `-`; `what` says what it should be, as `mission`.
+pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure> {
+    let mut bytes = Vec::new();
+    let read = if path == "-" {
+        std::io::stdin().lock().take(limit + 1).read_to_end(&mut bytes)
+    } else {
+        File::open(path).and_then(|file| {
+            if file.metadata()?.is_dir() {
+                return Err(ErrorKind::IsADirectory.into());
+            }
+            file.take(limit + 1).read_to_end(&mut bytes)
+        })
+    };
+    let name = if path == "-" { "standard input" } else { path };
+    read.map_err(|error| unreadable(name, what, &error))?;
+    if bytes.len() as u64 > limit {
+        let message = format!("{name}: more than {} MiB, the most that is read of a {what}", limit >> 20);
+        return Err(Failure::new(message).help(format!("is this really a {what}?")));
+    }
+    String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        let byte = error.as_bytes().get(offset).copied().unwrap_or(0);
+        Failure::new(format!(
+            "{name}: not a text: the byte at offset {offset} is 0x{byte:02x}, which is not UTF-8"
+        ))
+        .help(format!("a {what} is a text file in UTF-8"))
+    })
+}
+
+fn unreadable(name: &str, what: &str, error: &std::io::Error) -> Failure {
+    match error.kind() {
+        ErrorKind::NotFound => Failure::new(format!("{name}: there is no such file"))
+            .help(format!("give the path of a {what} file")),
+        ErrorKind::IsADirectory => Failure::new(format!("{name}: this is a directory, not a file"))
+            .help(format!("give the path of a {what} file in it")),
+        _ => Failure::new(format!("{name}: it cannot be read: {}", plain(error))),
+    }
+}
+
+/// What the system says, without its error number.
+pub(crate) fn plain(error: &std::io::Error) -> String {
+    let said = error.to_string();
+    let said = said.split(" (os error").next().unwrap_or(&said);
+    let mut letters = said.chars();
+    letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
+}

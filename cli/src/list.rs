@@ -1,0 +1,40 @@
+//! `cotama list`: what comes with the program.
+
+use crate::answers::{ListAnswer, Listed};
+use crate::args::ListArgs;
+use crate::exit::{Exit, Failure};
+use crate::output::Screen;
+use crate::render::style::{HEADING, NAME};
+use cotama_models::embedded;
+use std::fmt::Write;
+
+/// Lists what comes with the program.
+pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let missions = embedded::embedded().iter();
+    let missions = missions.map(|it| Listed { name: it.name, description: it.description }).collect();
+    let answer =
+        ListAnswer { schema: "cotama/list/1", missions, models: vec![], scenarios: vec![], maps: vec![] };
+    if args.json.json {
+        screen.json(&answer)?;
+        return Ok(Exit::Success);
+    }
+    let mut text = String::new();
+    let parts = [
+        ("missions", &answer.missions),
+        ("models", &answer.models),
+        ("scenarios", &answer.scenarios),
+        ("maps", &answer.maps),
+    ];
+    for (title, entries) in parts.into_iter().filter(|(_, entries)| !entries.is_empty()) {
+        let _ = writeln!(text, "{HEADING}{title}{HEADING:#}");
+        let longest = entries.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
+        for entry in entries {
+            let _ = writeln!(text, "  {NAME}{:longest$}{NAME:#}  {}", entry.name, entry.description);
+        }
+    }
+    if let Some(first) = answer.missions.first() {
+        let _ = writeln!(text, "\nnext: {NAME}cotama plan {}{NAME:#}", first.name);
+    }
+    screen.print(&text)?;
+    Ok(Exit::Success)
+}

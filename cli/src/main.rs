@@ -1,0 +1,47 @@
+//! The program `cotama`: robot missions and supervisors, checked, simulated and flashed from one definition.
+//!
+//! Each command reads its input, calls the libraries, renders the answer and says how it ended; this file only
+//! sends to the commands and turns the end into an exit code.
+
+mod about;
+mod allocate;
+mod answers;
+mod args;
+mod exit;
+mod infeasible;
+mod input;
+mod list;
+mod mission;
+mod output;
+mod plan;
+mod render;
+mod replay;
+mod run;
+mod solve;
+
+use args::{Cli, Command};
+use clap::Parser;
+use output::Screen;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let screen = Screen::new(cli.color);
+    let ended = match cli.command {
+        Command::List(args) => list::list(&args, &screen),
+        Command::Plan(args) => plan::plan(&args, &screen),
+        Command::Run(args) => run::run(&args, &screen),
+        Command::Allocate(args) => allocate::allocate(&args, &screen),
+        Command::Replay(args) => replay::replay(&args, &screen),
+        Command::Table(args) => about::table(&args, &screen),
+        Command::Schema(args) => about::schema(&args, &screen),
+        Command::Completions(args) => about::completions(&args, &screen),
+        Command::Man(args) => about::man(&args, &screen),
+    };
+    ended
+        .unwrap_or_else(|failure| {
+            screen.explain(&failure);
+            exit::Exit::BadInput
+        })
+        .into()
+}

@@ -1,0 +1,155 @@
+//! Missions from the command line: by name or from a file, with limits and hardware changed.
+
+use crate::args::{Lost, Planning};
+use crate::exit::Failure;
+use crate::input;
+use cotama_core::hardware::Units;
+use cotama_models::embedded;
+use cotama_models::mission::{Definition, Mission};
+use serde::Deserialize;
+use std::path::Path;
+use toml::Spanned;
+
+/// A mission and where it is from.
+#[derive(Debug)]
+pub(crate) struct Loaded {
+    /// The name of an embedded mission, or the path of a file.
+    pub(crate) source: String,
+    /// The text of the mission file, with the limits of the command line.
+    pub(crate) text: String,
+    pub(crate) mission: Mission,
+}
+
+/// The mission of this name, or of the file at this path.
+pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
+    let text = match embedded::mission(name) {
+        Some(known) => known.text.to_owned(),
+        None if name != "-" && is_name(name) && !Path::new(name).exists() => return Err(unknown(name)),
+        None => input::text(name, "mission", input::MISSION_BYTES)?,
+    };
+    let source = if name == "-" { "standard input" } else { name };
+    let mission = Mission::parse(source, &text)?;
+    Ok(Loaded { source: source.into(), text, mission })
+}
+
+/// The mission for a plan or a run, with the limits of the command line.
+pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Loaded, Failure> {
+    let loaded = load(name)?;
+    let wanted = [planning.duration_limit, planning.energy_limit];
+    if wanted == [None, None] {
+        return Ok(loaded);
+    }
+    let text = with_limits(&loaded.text, wanted)
+        .ok_or_else(|| Failure::new(format!("{name}: its limits cannot be changed from the command line")))?;
+    let mission = Mission::parse(&loaded.source, &text)?;
+    Ok(Loaded { text, mission, ..loaded })
+}
+
+/// Whether this looks like a name and not like a path.
+fn is_name(text: &str) -> bool {
+    !text.contains(['/', '\\', '.'])
+}
+
+fn unknown(name: &str) -> Failure {
+    let names: Vec<_> = embedded::embedded().iter().map(|mission| mission.name).collect();
+    let near = names.iter().map(|known| (strsim::damerau_levenshtein(name, known), known)).min();
+    let guess = match near {
+        Some((distance, known)) if distance <= 3 && distance < known.len() => {
+            format!("; did you mean `{known}`?")
+        }
+        _ => String::new(),
+    };
+    Failure::new(format!("there is no mission `{name}`, and no file of this name{guess}")).help(format!(
+        "missions that come with the program: {}; or give the path of a mission file",
+        names.join(", ")
+    ))
+}
+
+/// The text of a mission file with other limits and nothing else changed.
+fn with_limits(text: &str, wanted: [Option<u64>; 2]) -> Option<String> {
+    #[derive(Deserialize)]
+    struct File {
+        limits: Limits,
+    }
+    #[derive(Deserialize)]
+    struct Limits {
+        duration_ms: Spanned<i64>,
+        energy_mj: Spanned<i64>,
+    }
+    let Limits { duration_ms, energy_mj } = toml::from_str::<File>(text).ok()?.limits;
+    let mut edits: Vec<_> = [duration_ms.span(), energy_mj.span()].into_iter().zip(wanted).collect();
+    // The later one first, so that the place of the other stays right.
+    edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
+    let mut text = text.to_owned();
+    for (span, wanted) in edits {
+        text.get(span.clone())?;
+        if let Some(wanted) = wanted {
+            text.replace_range(span, &wanted.to_string());
+        }
+    }
+    Some(text)
+}
+
+/// The mission and what was changed about it, as words of a command line. Limits are left out: advice sets them anew.
+pub(crate) fn words(name: &str, planning: &Planning) -> String {
+    let mut words = vec![name.to_owned()];
+    for Lost { kind, units } in &planning.lost {
+        words.push("--lost".into());
+        words.push(units.map_or_else(|| kind.clone(), |units| format!("{kind}:{units}")));
+    }
+    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
+}
+
+/// A word as a shell takes it.
+pub(crate) fn quoted(word: &str) -> String {
+    let safe = |c: char| c.is_alphanumeric() || "-_./:=+@,".contains(c);
+    if !word.is_empty() && word.chars().all(safe) {
+        word.to_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
+}
+
+/// Hardware that was lost from the start: kinds with their units.
+pub(crate) fn lost(mission: &Definition, lost: &[Lost]) -> Result<Vec<(usize, u8)>, Failure> {
+    lost.iter().map(|one| find_lost(mission, one)).collect()
+}
+
+fn find_lost(mission: &Definition, lost: &Lost) -> Result<(usize, u8), Failure> {
+    let names = || {
+        mission.hardware.iter().map(|it| format!("{} ({})", it.name, it.units)).collect::<Vec<_>>().join(", ")
+    };
+    let found = mission.hardware.iter().enumerate().find(|(_, it)| it.name == lost.kind);
+    let Some((kind, hardware)) = found else {
+        return Err(Failure::new(format!("--lost {}: the robot has no such hardware", lost.kind))
+            .help(format!("it has: {}", names())));
+    };
+    let units = lost.units.unwrap_or(hardware.units);
+    if units > hardware.units {
+        let message = format!("--lost {}:{units}: the robot has only {}", lost.kind, hardware.units);
+        return Err(Failure::new(message).help(format!("it has: {}", names())));
+    }
+    Ok((kind, units))
+}
+
+/// The hardware of a mission that is left.
+pub(crate) fn available(mission: &Definition, lost: &[(usize, u8)]) -> Units {
+    lost.iter().fold(mission.available(), |units, &(kind, count)| units.without(kind, count))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_changed_in_their_place_and_nothing_else() {
+        let patrol = embedded::mission("patrol").unwrap().text;
+        let changed = with_limits(patrol, [Some(1), Some(2)]).unwrap();
+        let expected =
+            patrol.replacen("duration_ms = 600000", "duration_ms = 1", 1).replacen("= 8640000", "= 2", 1);
+        assert_eq!(changed, expected);
+        let inline = "limits = { energy_mj = 0x10, duration_ms = 1_0 } # 1_0";
+        let changed = with_limits(inline, [Some(77), None]).unwrap();
+        assert_eq!(changed, "limits = { energy_mj = 0x10, duration_ms = 77 } # 1_0");
+    }
+}

@@ -1,0 +1,182 @@
+//! `cotama plan`: a mission split into activities and planned, without running it.
+
+use crate::allocate::exit;
+use crate::answers::{ActivityRow, FrontRow, PlanAnswer, PlanRow, Reason, Status};
+use crate::args::{AllocatorName, Objective as Wanted, PlanArgs};
+use crate::exit::{Exit, Failure};
+use crate::infeasible;
+use crate::mission::{self, Loaded};
+use crate::output::Screen;
+use crate::render;
+use crate::solve::{Method, Solution, Verdict, solve};
+use cotama_core::exact::Objective;
+use cotama_core::problem::{Candidate, Problem};
+use cotama_models::mission::Mission;
+use cotama_models::scenario::PlannedActivity;
+use cotama_models::tables::{DURATION, ENERGY};
+
+/// Splits a mission into activities and plans it.
+pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
+    let answer = answer(args, &loaded)?;
+    if args.json.json {
+        screen.json(&answer)?;
+    } else {
+        let words = mission::words(&args.mission.mission, &args.planning);
+        screen.print(&render::plan::screen(&answer, &words, screen.width()))?;
+    }
+    Ok(exit(answer.status))
+}
+
+fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
+    let mission = &loaded.mission;
+    let lost = mission::lost(mission, &args.planning.lost)?;
+    let available = mission::available(mission, &lost);
+    let scenario = mission.scenario();
+    let candidates: Vec<Vec<Candidate<2>>> = scenario
+        .activities
+        .iter()
+        .map(|activity| {
+            let whole = activity.table();
+            let candidate = |(id, it): (u16, &_)| whole_candidate(&whole, it, id);
+            let left = (0..).zip(&activity.alternatives).filter(|(_, it)| available.covers(it.needs));
+            left.filter_map(candidate).collect()
+        })
+        .collect();
+    let mut answer = PlanAnswer {
+        schema: "cotama/plan/1",
+        mission: mission.name.clone(),
+        activities: scenario
+            .activities
+            .iter()
+            .zip(&candidates)
+            .map(|(activity, left)| activity_row(mission, activity, left.len()))
+            .collect(),
+        combinations: candidates
+            .iter()
+            .try_fold(1u128, |product, left| product.checked_mul(left.len() as u128))
+            .map_or_else(|| "more than 2^128".into(), |product| product.to_string()),
+        objective: args.objective.name(),
+        allocator: None,
+        status: Status::Infeasible,
+        plan: Vec::new(),
+        duration_ms: None,
+        energy_mj: None,
+        quality: None,
+        duration_limit_ms: mission.limits[DURATION],
+        energy_limit_mj: mission.limits[ENERGY],
+        duration_margin_ms: None,
+        energy_margin_mj: None,
+        bound: None,
+        steps: 0,
+        front: None,
+        reason: None,
+    };
+    let slices: Vec<_> = candidates.iter().map(Vec::as_slice).collect();
+    if let Ok(problem) = Problem::new(&slices, scenario.limits, scenario.order) {
+        if args.objective == Wanted::Front {
+            front(&mut answer, &problem, args.planning.steps)?;
+        } else {
+            let failed = |error: cotama_core::allocation::MemoryError| Failure::new(error.to_string());
+            let solution = solve_for(args, &problem).map_err(failed)?;
+            fill(&mut answer, mission, &problem, &solution);
+        }
+    }
+    if answer.status == Status::Infeasible {
+        answer.reason = infeasible::explain(mission, mission.limits, available).or(answer.reason);
+    }
+    Ok(answer)
+}
+
+fn whole_candidate(
+    activity: &cotama_models::tables::Activity<'_>,
+    alternative: &cotama_models::tables::Alternative,
+    id: u16,
+) -> Option<Candidate<2>> {
+    alternative.candidate(activity.whole(alternative), id)
+}
+
+fn activity_row(mission: &Mission, activity: &PlannedActivity, left: usize) -> ActivityRow {
+    ActivityRow {
+        id: activity.id.clone(),
+        objective: mission.objectives.get(activity.objective).map_or_else(String::new, |it| it.id.clone()),
+        x_start_mm: activity.x_start.0,
+        x_end_mm: activity.x_end.0,
+        candidates: left as u64,
+        candidates_before: activity.unconstrained() as u64,
+        speed_max_mm_s: activity.speed_max.0,
+    }
+}
+
+fn solve_for(
+    args: &PlanArgs,
+    problem: &Problem<'_, 2>,
+) -> Result<Solution, cotama_core::allocation::MemoryError> {
+    let quality = [Objective::MostQuality, Objective::Least(ENERGY)];
+    let energy = [Objective::Least(ENERGY), Objective::MostQuality];
+    let method = match (args.objective, args.planning.allocator) {
+        (Wanted::Paper, Some(AllocatorName::Exact)) => Method::RuleThenExact,
+        (Wanted::Paper, _) | (_, Some(AllocatorName::Panorama)) => Method::Rule,
+        (Wanted::MinEnergy, _) => Method::Exact(&energy),
+        _ => Method::Exact(&quality),
+    };
+    solve(problem, method, args.planning.steps)
+}
+
+fn fill(answer: &mut PlanAnswer, mission: &Mission, problem: &Problem<'_, 2>, solution: &Solution) {
+    answer.status = solution.status();
+    answer.bound = solution.bound();
+    answer.steps = solution.steps;
+    match solution.verdict {
+        Verdict::Planned { planned, allocator } => {
+            answer.allocator = Some(allocator);
+            answer.duration_ms = Some(planned.cost[DURATION]);
+            answer.energy_mj = Some(planned.cost[ENERGY]);
+            answer.quality = Some(planned.quality);
+            let margin = |axis: usize| {
+                let [limit, cost] = [problem.limits()[axis], planned.cost[axis]].map(i64::try_from);
+                limit.ok()?.checked_sub(cost.ok()?)
+            };
+            answer.duration_margin_ms = margin(DURATION);
+            answer.energy_margin_mj = margin(ENERGY);
+            let rows = mission.scenario().activities.iter().zip(problem.activities()).zip(&solution.plan);
+            answer.plan = rows
+                .filter_map(|((activity, candidates), &place)| {
+                    plan_row(activity, candidates.get(usize::from(place))?)
+                })
+                .collect();
+        }
+        Verdict::Infeasible { axis, least } => {
+            answer.reason = Some(infeasible::over(axis, problem.limits()[axis.min(1)], least));
+        }
+        Verdict::Missed => {
+            let text = "the rule of PANORAMA found no plan, but there is one: use `--allocator exact`";
+            answer.reason = Some(Reason { text: text.into(), ..Reason::default() });
+        }
+        Verdict::Unknown { .. } => {
+            let text = format!(
+                "neither a plan nor the proof that there is none was found in {} steps: use more `--steps`",
+                solution.steps
+            );
+            answer.reason = Some(Reason { text, ..Reason::default() });
+        }
+    }
+}
+
+fn plan_row(activity: &PlannedActivity, candidate: &Candidate<2>) -> Option<PlanRow> {
+    let alternative = usize::from(candidate.id);
+    Some(PlanRow {
+        activity: activity.id.clone(),
+        choice: activity.labels.get(alternative)?.clone(),
+        speed_mm_s: activity.alternatives.get(alternative)?.speed.0,
+        duration_ms: candidate.cost[DURATION].into(),
+        energy_mj: candidate.cost[ENERGY].into(),
+        quality: Some(candidate.quality.into()),
+    })
+}
+
+/// All plans of which none is better in duration, energy and quality.
+fn front(answer: &mut PlanAnswer, problem: &Problem<'_, 2>, steps: u64) -> Result<(), Failure> {
+    let _ = (answer, problem, steps, Vec::<FrontRow>::new());
+    Err(Failure::new("the front of all plans is not there yet"))
+}

@@ -1,0 +1,217 @@
+//! The screen of `cotama run`: the plans as in the paper's Table 7, the margins over the run, what happened.
+
+use super::numbers::{count, joules, metres, milli, seconds};
+use super::reason::reason;
+use super::sparkline::{marks, sparkline};
+use super::style::{BAD, FAINT, Families, GOOD, HEADING, NAME, NOTICE, PLAIN};
+use super::table::{Cell, Table};
+use crate::answers::{Outcome, PlanMade, RunBody};
+use cotama_sim::trace::{Record, RunFaults, Trace};
+use std::fmt::Write;
+
+/// The most plans, activities and events that are shown.
+const SHOWN_PLANS: usize = 20;
+const SHOWN_ACTIVITIES: usize = 200;
+const SHOWN_EVENTS: usize = 40;
+
+/// The screen; `name` is the mission and what was changed about it, as on the command line. There is no trace when the robot never left.
+pub(crate) fn screen(body: &RunBody, trace: Option<&Trace>, name: &str, width: usize) -> String {
+    let mut text = headline(body, trace);
+    if !body.plans.is_empty() {
+        text += &plans(body, width);
+        text += &choices(body, width);
+    }
+    if let Some(trace) = trace {
+        text += &margins(body, trace, width);
+    }
+    text += &events(body, width);
+    if let Some(why) = &body.infeasible {
+        text.push('\n');
+        text += &reason(why);
+    }
+    text += &ending(body, name);
+    text
+}
+
+/// One line that says whether the trace came out the same.
+pub(crate) fn identical(same: bool) -> String {
+    if same {
+        format!("{GOOD}identical{GOOD:#}: the run was the same again, in every record\n")
+    } else {
+        format!("{BAD}not identical{BAD:#}: the run differs from what was stored\n")
+    }
+}
+
+fn outcome(outcome: Outcome) -> String {
+    let (style, word) = match outcome {
+        Outcome::Completed => (GOOD, "completed"),
+        Outcome::Safe => (NOTICE, "stopped safely"),
+        Outcome::Failed => (BAD, "failed"),
+    };
+    format!("{style}{word}{style:#}")
+}
+
+fn headline(body: &RunBody, trace: Option<&Trace>) -> String {
+    let faults = match trace.map(|trace| &trace.header.options.faults) {
+        Some(RunFaults::None) => ", nothing goes wrong".to_owned(),
+        Some(RunFaults::File { source, .. }) => format!(", faults from {source}"),
+        Some(RunFaults::Script) => ", faults of its script".to_owned(),
+        None => String::new(),
+    };
+    let reason = body.reason.as_ref().map_or_else(String::new, |reason| format!(" ({reason})"));
+    format!(
+        "{HEADING}{}{HEADING:#}, seed {}{faults}: {}{reason} after {} and {}\n",
+        body.mission,
+        body.seed,
+        outcome(body.outcome),
+        metres(body.x_mm),
+        seconds(body.duration_ms),
+    )
+}
+
+fn margin(value: Option<i64>, words: fn(i64) -> String) -> Cell {
+    match value {
+        None => Cell::faint("\u{b7}"),
+        Some(value) if value < 0 => Cell::new(words(value), BAD),
+        Some(value) => Cell::plain(words(value)),
+    }
+}
+
+/// Why, where, and what each plan did to the margins.
+fn plans(body: &RunBody, width: usize) -> String {
+    let faint = |cells: [&str; 7]| cells.map(Cell::faint).to_vec();
+    let head = faint(["plan", "at", "because", "duration margin", "", "energy margin", ""]);
+    let mut table = Table::new(vec![head]).left(2);
+    for (number, plan) in body.plans.iter().enumerate().take(SHOWN_PLANS) {
+        let arrow = |value: i64, words: fn(i64) -> String| {
+            Cell::new(format!("\u{2192} {}", words(value)), if value < 0 { BAD } else { GOOD })
+        };
+        table.row(vec![
+            Cell::new(format!("RAS{number}"), HEADING),
+            Cell::plain(metres(plan.x_mm)),
+            Cell::plain(&plan.cause),
+            margin(plan.duration_margin_before_ms, seconds),
+            arrow(plan.duration_margin_after_ms, seconds),
+            margin(plan.energy_margin_before_mj, joules),
+            arrow(plan.energy_margin_after_mj, joules),
+        ]);
+    }
+    let mut text = format!("\n{}", table.render(width));
+    if body.plans.len() > SHOWN_PLANS {
+        let _ = writeln!(text, "  and {} more plans: see --json", body.plans.len() - SHOWN_PLANS);
+    }
+    text
+}
+
+/// What each plan chose for each activity.
+fn choices(body: &RunBody, width: usize) -> String {
+    let Some(first) = body.plans.first() else { return String::new() };
+    let ids: Vec<_> = first.plan.iter().map(|row| row.activity.as_str()).take(SHOWN_ACTIVITIES).collect();
+    let mut head = vec![Cell::plain("")];
+    head.extend(ids.iter().map(|&id| Cell::new(id, HEADING)));
+    let mut table = Table::new(vec![head]);
+    let mut families = Families::default();
+    for (number, plan) in body.plans.iter().enumerate().take(SHOWN_PLANS) {
+        table.row(chosen(plan, number, &ids, &mut families));
+    }
+    let mut text = format!("\n{}", table.render(width));
+    if first.plan.len() > SHOWN_ACTIVITIES {
+        let _ = writeln!(text, "  and {} more activities: see --json", first.plan.len() - SHOWN_ACTIVITIES);
+    }
+    text
+}
+
+fn chosen(plan: &PlanMade, number: usize, ids: &[&str], families: &mut Families) -> Vec<Cell> {
+    let mut row = vec![Cell::new(format!("RAS{number}"), HEADING)];
+    // A plan is about the last activities, without a gap.
+    let start = ids.iter().position(|&id| id == plan.first_activity).unwrap_or(ids.len());
+    row.extend((0..start).map(|_| Cell::plain("")));
+    let shown = plan.plan.iter().take(ids.len() - start);
+    row.extend(shown.map(|it| Cell::new(&it.choice, families.style(&it.choice))));
+    row
+}
+
+/// The margins over time, with the number of each plan under the time at which it came into force.
+fn margins(body: &RunBody, trace: &Trace, width: usize) -> String {
+    let samples: Vec<_> = trace
+        .records
+        .iter()
+        .filter_map(|record| match record {
+            Record::Sample(sample) => Some((sample.t_us, sample.margins)),
+            _ => None,
+        })
+        .collect();
+    let Some(&(end, _)) = samples.last() else { return String::new() };
+    let room = width.saturating_sub(46).clamp(16, 72);
+    let line = |name: &str, values: Vec<(u64, i64)>, left: Option<i64>, words: fn(i64) -> String| {
+        let least = values.iter().map(|&(_, value)| value).min().unwrap_or(0);
+        let drawn = sparkline(&values, end, room, super::style::NAME);
+        let left = words(left.unwrap_or(0));
+        format!("  {name:8}  {drawn}  least {}, left {left}\n", words(least))
+    };
+    let duration = samples.iter().map(|&(time, it)| (time, it.duration_ms)).collect();
+    let energy = samples.iter().map(|&(time, it)| (time, it.energy_mj)).collect();
+    let times: Vec<_> =
+        body.plans.iter().take(SHOWN_PLANS).map(|plan| plan.time_ms.saturating_mul(1000)).collect();
+    format!(
+        "\n{HEADING}margins{HEADING:#} {FAINT}limit less used less planned, over time{FAINT:#}\n{}{}  {FAINT}plan    {FAINT:#}  {}\n",
+        line("duration", duration, body.duration_margin_ms, seconds),
+        line("energy", energy, body.energy_margin_mj, joules),
+        marks(&times, end, room),
+    )
+}
+
+fn events(body: &RunBody, width: usize) -> String {
+    if body.events.is_empty() {
+        return String::new();
+    }
+    let mut table = Table::new(vec![]).left(3);
+    for event in body.events.iter().take(SHOWN_EVENTS) {
+        let style = if event.kind == "fault" { BAD } else { PLAIN };
+        let lost = if event.lost_ms > 0 {
+            format!(", {} lost", milli(event.lost_ms.into(), 1, " s"))
+        } else {
+            String::new()
+        };
+        table.row(vec![
+            Cell::plain(""),
+            Cell::plain(metres(event.x_mm)),
+            Cell::faint(seconds(event.time_ms)),
+            Cell::new(format!("{}{lost}", event.text), style),
+        ]);
+    }
+    let more = match body.events.len().saturating_sub(SHOWN_EVENTS) {
+        0 => String::new(),
+        more => format!("  and {more} more: see --json\n"),
+    };
+    format!("\n{HEADING}what happened{HEADING:#}\n{}{more}", table.render(width.max(80)))
+}
+
+fn ending(body: &RunBody, name: &str) -> String {
+    let mut text = format!(
+        "\n{}: {}, {}",
+        outcome(body.outcome),
+        count(body.replans, "replan"),
+        count(body.operator_requests, "operator request"),
+    );
+    if let (Some(duration), Some(energy)) = (body.duration_margin_ms, body.energy_margin_mj) {
+        let _ =
+            write!(text, "; left {} and {}", milli(duration.into(), 3, " s"), milli(energy.into(), 3, " J"));
+    }
+    text.push('\n');
+    if let Some(report) = &body.report {
+        let _ = writeln!(text, "report: {NAME}{report}{NAME:#}");
+    }
+    if let Some(trace) = &body.trace {
+        let _ = writeln!(text, "trace: {NAME}{trace}{NAME:#}");
+        let _ = writeln!(text, "next: {NAME}cotama replay {trace}{NAME:#}");
+    } else if body.outcome == Outcome::Completed {
+        let _ = writeln!(
+            text,
+            "next: {NAME}cotama run {name} --trace run.jsonl && cotama replay run.jsonl{NAME:#}"
+        );
+    } else {
+        let _ = writeln!(text, "next: {NAME}cotama plan {name} --objective min-energy{NAME:#}");
+    }
+    text
+}

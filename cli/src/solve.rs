@@ -1,0 +1,151 @@
+//! The allocators behind one call, with their memory.
+
+use crate::answers::Status;
+use cotama_core::allocation::{Allocator, Answer, MemoryError, Planned};
+use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::panorama::Panorama;
+use cotama_core::problem::Problem;
+
+/// How a plan is looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Method<'o> {
+    /// By the rule of PANORAMA.
+    Rule,
+    /// By the rule, and by a complete search where it finds nothing.
+    RuleThenExact,
+    /// By a complete search.
+    Exact(&'o [Objective]),
+}
+
+/// What came of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Verdict {
+    /// A plan.
+    Planned {
+        planned: Planned<2>,
+        /// Who found it.
+        allocator: &'static str,
+    },
+    /// It is proven that there is none.
+    Infeasible {
+        axis: usize,
+        /// The least total on this axis within the limits treated before it.
+        least: u64,
+    },
+    /// The rule found none, but there is one.
+    Missed,
+    /// Not known within the steps.
+    Unknown {
+        /// No plan has more of the objective (less, for a least), if there is an objective.
+        bound: Option<u64>,
+    },
+}
+
+/// A verdict, its plan if there is one, and the work done.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Solution {
+    pub(crate) verdict: Verdict,
+    /// For each activity the position of its candidate; empty without a plan.
+    pub(crate) plan: Vec<u16>,
+    pub(crate) steps: u64,
+}
+
+impl Solution {
+    /// The verdict in a word.
+    pub(crate) fn status(&self) -> Status {
+        match self.verdict {
+            Verdict::Planned { planned, .. } if planned.optimal => Status::Optimal,
+            Verdict::Planned { .. } => Status::Feasible,
+            Verdict::Infeasible { .. } => Status::Infeasible,
+            Verdict::Missed | Verdict::Unknown { .. } => Status::Unknown,
+        }
+    }
+
+    /// The plan found, if there is one.
+    pub(crate) fn planned(&self) -> Option<&Planned<2>> {
+        match &self.verdict {
+            Verdict::Planned { planned, .. } => Some(planned),
+            _ => None,
+        }
+    }
+
+    /// A bound that is proven, if there is one.
+    pub(crate) fn bound(&self) -> Option<u64> {
+        match self.verdict {
+            Verdict::Planned { planned, .. } => planned.bound,
+            Verdict::Unknown { bound } => bound,
+            Verdict::Infeasible { .. } | Verdict::Missed => None,
+        }
+    }
+}
+
+/// Looks for a plan, with at most so many steps of complete search.
+pub(crate) fn solve(
+    problem: &Problem<'_, 2>,
+    method: Method<'_>,
+    steps: u64,
+) -> Result<Solution, MemoryError> {
+    if let Method::Exact(objectives) = method {
+        let (answer, plan) = exact(problem, objectives, steps)?;
+        return Ok(match answer {
+            Answer::Planned(planned) => Solution {
+                verdict: Verdict::Planned { planned, allocator: "exact" },
+                plan,
+                steps: planned.steps,
+            },
+            Answer::Infeasible { axis, least, steps } => without(Verdict::Infeasible { axis, least }, steps),
+            Answer::Unknown { bound, steps } => without(Verdict::Unknown { bound: Some(bound) }, steps),
+        });
+    }
+    let (answer, plan) = panorama(problem)?;
+    let rule_steps = match answer {
+        Answer::Planned(planned) => {
+            let verdict = Verdict::Planned { planned, allocator: "panorama" };
+            return Ok(Solution { verdict, plan, steps: planned.steps });
+        }
+        Answer::Infeasible { steps, .. } | Answer::Unknown { steps, .. } => steps,
+    };
+    // The rule can miss a plan: only a complete search tells.
+    let highest = [Objective::Most(problem.order()[1])];
+    let objectives = if method == Method::Rule { &[][..] } else { &highest };
+    let (answer, plan) = exact(problem, objectives, steps)?;
+    Ok(match answer {
+        Answer::Planned(planned) if method == Method::Rule => {
+            without(Verdict::Missed, rule_steps + planned.steps)
+        }
+        Answer::Planned(planned) => {
+            let verdict = Verdict::Planned { planned, allocator: "exact" };
+            Solution { verdict, plan, steps: rule_steps + planned.steps }
+        }
+        Answer::Infeasible { axis, least, steps } => {
+            without(Verdict::Infeasible { axis, least }, rule_steps + steps)
+        }
+        Answer::Unknown { steps, .. } => without(Verdict::Unknown { bound: None }, rule_steps + steps),
+    })
+}
+
+fn without(verdict: Verdict, steps: u64) -> Solution {
+    Solution { verdict, plan: Vec::new(), steps }
+}
+
+fn panorama(problem: &Problem<'_, 2>) -> Result<(Answer<2>, Vec<u16>), MemoryError> {
+    let activities = problem.activities();
+    let widest = activities.iter().map(|candidates| candidates.len()).max().unwrap_or(0);
+    let (mut caps, mut sorted) = (vec![[0; 2]; activities.len()], vec![0; widest]);
+    let mut plan = vec![0; activities.len()];
+    let answer = Panorama::new(&mut caps, &mut sorted).allocate(problem, &mut plan)?;
+    Ok((answer, plan))
+}
+
+fn exact(
+    problem: &Problem<'_, 2>,
+    objectives: &[Objective],
+    steps: u64,
+) -> Result<(Answer<2>, Vec<u16>), MemoryError> {
+    let activities = problem.activities();
+    let candidates = activities.iter().map(|candidates| candidates.len()).sum();
+    let (mut items, mut stages) = (vec![Item::EMPTY; candidates], vec![Stage::EMPTY; activities.len()]);
+    let mut plan = vec![0; activities.len()];
+    let answer = Exact::new(objectives, steps, &mut items, &mut stages).allocate(problem, &mut plan)?;
+    Ok((answer, plan))
+}

@@ -1,0 +1,14 @@
+//! The program as its users meet it: every test runs the binary.
+//!
+//! Golden files are written again by `UPDATE_GOLDEN=1 cargo test -p cotama`.
+#![allow(clippy::unwrap_used)]
+
+mod allocate;
+mod bad_input;
+mod common;
+mod help;
+mod plan;
+mod replay;
+mod run;
+mod schemas;
+mod screens;

@@ -1,0 +1,147 @@
+//! `cotama plan`: the patrol of Lambert et al. 2024, Tables 5 and 6, and missions without a plan.
+
+use crate::common::{Folder, patrol};
+use serde_json::{Value, json};
+
+fn plan(arguments: &[&str], code: i32) -> Value {
+    let folder = Folder::new(&format!("plan_{}", arguments.join("_").replace(['/', ':'], "-")));
+    folder.cotama(&[&["plan", "patrol", "--json"], arguments].concat()).json(code)
+}
+
+fn column(rows: &Value, name: &str) -> Vec<Value> {
+    rows.as_array().unwrap().iter().map(|row| row[name].clone()).collect()
+}
+
+#[test]
+fn the_activities_are_those_of_table_5() {
+    let answer = plan(&[], 0);
+    let activities = &answer["activities"];
+    assert_eq!(activities.as_array().unwrap().len(), 17);
+    let candidates = [21, 12, 4, 3, 2, 3, 12, 21, 21, 4, 3, 2, 3, 21, 21, 12, 21];
+    assert_eq!(column(activities, "candidates"), candidates);
+    let before = [21, 21, 21, 3, 2, 3, 21, 21, 21, 21, 3, 2, 3, 21, 21, 21, 21];
+    assert_eq!(column(activities, "candidates_before"), before);
+    let most = [410, 330, 330, 0, 0, 0, 330, 410, 560, 410, 0, 0, 0, 560, 410, 330, 410];
+    assert_eq!(column(activities, "speed_max_mm_s"), most);
+    let ninth = json!({ "id": "A9", "objective": "O5", "x_start_mm": 63500, "x_end_mm": 91500,
+        "candidates": 21, "candidates_before": 21, "speed_max_mm_s": 560 });
+    assert_eq!(activities[8], ninth);
+    assert_eq!(answer["combinations"], "768288795144192");
+}
+
+#[test]
+fn the_plan_is_that_of_table_6() {
+    let answer = plan(&[], 0);
+    let choices =
+        "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M3 L1";
+    assert_eq!(column(&answer["plan"], "choice"), choices.split(',').collect::<Vec<_>>());
+    let speeds = [410, 330, 330, 0, 0, 0, 330, 410, 410, 410, 0, 0, 0, 410, 410, 330, 410];
+    assert_eq!(column(&answer["plan"], "speed_mm_s"), speeds);
+    assert_eq!(column(&answer["plan"], "activity")[..2], ["A1", "A2"]);
+    let numbers = [
+        ("duration_ms", 527_924),
+        ("energy_mj", 8_563_613),
+        ("quality", 19_190),
+        ("duration_margin_ms", 72_076),
+        ("energy_margin_mj", 76_387),
+    ];
+    for (field, value) in numbers {
+        assert_eq!(answer[field], value, "{field}");
+    }
+    for field in ["duration_ms", "energy_mj", "quality"] {
+        let sum: u64 = column(&answer["plan"], field).iter().map(|it| it.as_u64().unwrap()).sum();
+        assert_eq!(answer[field], sum, "{field}");
+    }
+    assert_eq!((&answer["status"], &answer["allocator"]), (&json!("feasible"), &json!("panorama")));
+    assert_eq!(answer["bound"], Value::Null);
+}
+
+#[test]
+fn the_best_plans_are_proven() {
+    let quality = plan(&["--objective", "quality"], 0);
+    assert_eq!((&quality["quality"], &quality["bound"]), (&json!(21_830), &json!(21_830)));
+    assert_eq!((&quality["status"], &quality["allocator"]), (&json!("optimal"), &json!("exact")));
+    let energy = plan(&["--objective", "min-energy"], 0);
+    assert_eq!((&energy["energy_mj"], &energy["bound"]), (&json!(4_675_896), &json!(4_675_896)));
+    assert_eq!(energy["status"], "optimal");
+}
+
+#[test]
+fn the_front_has_607_plans_and_every_best_one_is_on_it() {
+    let answer = plan(&["--objective", "front"], 0);
+    assert_eq!(answer["status"], "optimal");
+    let front = answer["front"].as_array().unwrap();
+    assert_eq!(front.len(), 607);
+    assert_eq!(front.iter().map(|it| it["quality"].as_u64().unwrap()).max(), Some(21_830));
+    assert_eq!(front.iter().map(|it| it["energy_mj"].as_u64().unwrap()).min(), Some(4_675_896));
+    let within = |it: &Value| {
+        it["duration_ms"].as_u64() <= Some(600_000) && it["energy_mj"].as_u64() <= Some(8_640_000)
+    };
+    assert!(front.iter().all(within));
+    let durations: Vec<_> = front.iter().map(|it| it["duration_ms"].as_u64()).collect();
+    assert!(durations.is_sorted());
+}
+
+#[test]
+fn the_rule_comes_first_and_the_exact_allocator_only_where_it_finds_nothing() {
+    let both = plan(&["--allocator", "exact"], 0);
+    assert_eq!((&both["allocator"], &both["energy_mj"]), (&json!("panorama"), &json!(8_563_613)));
+    // Any plan but the cheapest is too expensive here: the rule lowers every activity to the end.
+    let least = plan(&["--energy-limit", "4675896", "--allocator", "exact"], 0);
+    assert_eq!((&least["energy_mj"], &least["energy_margin_mj"]), (&json!(4_675_896), &json!(0)));
+}
+
+#[test]
+fn a_limit_that_cannot_be_met_is_explained() {
+    let answer = plan(&["--energy-limit", "4000000"], 1);
+    assert_eq!((&answer["status"], &answer["plan"]), (&json!("infeasible"), &json!([])));
+    let reason = &answer["reason"];
+    assert_eq!((&reason["axis"], &reason["limit"]), (&json!("energy"), &json!(4_000_000)));
+    assert_eq!((&reason["least"], &reason["gap"]), (&json!(4_675_896), &json!(675_896)));
+    assert_eq!(reason["heaviest"][0]["activity"], "A1");
+    assert_eq!(reason["relaxations"][0]["kind"], "raise_limit");
+    assert_eq!(reason["relaxations"][0]["energy_limit_mj"], 4_675_896);
+    // The limit it advises has a plan, and one below has none.
+    plan(&["--energy-limit", "4675896"], 0);
+    plan(&["--energy-limit", "4675895"], 1);
+}
+
+#[test]
+fn lost_hardware_is_left_out_and_its_need_explained() {
+    let one = plan(&["--lost", "laser:1"], 0);
+    let choices = column(&one["plan"], "choice");
+    assert!(choices.iter().all(|choice| !choice.as_str().unwrap().contains("M5")), "{choices:?}");
+    assert_eq!(one["activities"][0]["candidates"], 6);
+    let blind = plan(&["--lost", "kinect"], 1);
+    assert_eq!((&blind["status"], &blind["reason"]["activity"]), (&json!("infeasible"), &json!("A3")));
+    assert_eq!((&blind["activities"][2]["candidates"], &blind["combinations"]), (&json!(0), &json!("0")));
+    let kept = blind["reason"]["relaxations"].as_array().unwrap();
+    let kept = kept.iter().find(|it| it["kind"] == "keep_hardware").unwrap();
+    assert_eq!(kept["hardware"], json!([{ "hardware": "kinect", "units": 1 }]));
+}
+
+#[test]
+fn a_search_cut_short_says_so() {
+    let answer = plan(&["--objective", "quality", "--steps", "1"], 3);
+    assert_eq!((&answer["status"], &answer["plan"]), (&json!("unknown"), &json!([])));
+    assert!(answer["bound"].as_u64().unwrap() >= 21_830);
+}
+
+#[test]
+fn a_mission_is_read_from_a_file_and_from_standard_input() {
+    let folder = Folder::new("plan_file");
+    folder.write("short walk.toml", patrol(&[("name = \"patrol\"", "name = \"walk\"")]));
+    let answer = folder.cotama(&["plan", "short walk.toml", "--json"]).json(0);
+    assert_eq!((&answer["mission"], &answer["energy_mj"]), (&json!("walk"), &json!(8_563_613)));
+    let answer = folder.shell("cotama plan - --json < 'short walk.toml'").json(0);
+    assert_eq!(answer["mission"], "walk");
+    let screen = folder.cotama(&["plan", "short walk.toml"]).stdout;
+    assert!(screen.ends_with("next: cotama plan 'short walk.toml' --objective quality\n"), "{screen}");
+}
+
+#[test]
+fn the_tables_of_the_patrol_are_those_of_the_library() {
+    let printed = Folder::new("table").cotama(&["table", "patrol"]);
+    let stored = include_str!("../../models/src/patrol_tables.rs");
+    assert_eq!((printed.code, printed.stdout.as_str()), (Some(0), stored));
+}

@@ -1,0 +1,151 @@
+//! `cotama run`: the patrol as it was driven, Table 7, its files, and runs that do not complete.
+
+use crate::common::{Folder, patrol};
+use serde_json::{Value, json};
+
+#[test]
+fn the_patrol_is_driven_as_in_table_7() {
+    let folder = Folder::new("run_patrol");
+    let answer = folder.cotama(&["run", "patrol", "--json"]).json(0);
+    assert_eq!((&answer["outcome"], &answer["replans"]), (&json!("completed"), &json!(3)));
+    assert_eq!((&answer["operator_requests"], &answer["x_mm"]), (&json!(0), &json!(187_000)));
+    let plans: Vec<_> = answer["plans"].as_array().unwrap().iter().collect();
+    let expected = [
+        ("start", 0, "A1", 17),
+        ("energy margin below zero", 63_400, "A8", 10),
+        ("one laser lost", 118_000, "A14", 4),
+        ("energy margin below zero", 170_000, "A17", 1),
+    ];
+    assert_eq!(plans.len(), expected.len());
+    for (plan, (cause, x_mm, first, rows)) in plans.iter().zip(expected) {
+        assert_eq!((&plan["cause"], &plan["x_mm"]), (&json!(cause), &json!(x_mm)));
+        assert_eq!(plan["first_activity"], first);
+        assert_eq!(plan["plan"].as_array().unwrap().len(), rows);
+    }
+    assert_eq!(plans[3]["plan"][0]["choice"], "M1 L2");
+    assert_eq!(plans[0]["energy_margin_after_mj"], 76_387);
+    assert_eq!(plans[0]["energy_margin_before_mj"], Value::Null);
+    let near = |value: &Value, reference: i64, tolerance: i64| {
+        let value = value.as_i64().unwrap();
+        assert!((value - reference).abs() <= tolerance, "{value} is not near {reference}");
+    };
+    near(&plans[1]["energy_margin_before_mj"], -85_982, 5_000);
+    near(&plans[1]["energy_margin_after_mj"], 115_400, 5_000);
+    near(&answer["energy_margin_mj"], 31_348, 5_000);
+    near(&answer["duration_margin_ms"], 54_119, 500);
+    let kinds: Vec<_> = answer["events"].as_array().unwrap().iter().map(|it| it["kind"].clone()).collect();
+    assert_eq!(kinds[4..], ["fault", "obstacle", "obstacle", "odometry"]);
+}
+
+#[test]
+fn the_report_is_written_where_it_is_said_and_nothing_else() {
+    let folder = Folder::new("run_report");
+    let answer = folder.cotama(&["run", "patrol", "--json"]).json(0);
+    assert_eq!((&answer["report"], &answer["trace"]), (&json!("report/patrol/index.html"), &Value::Null));
+    assert_eq!(folder.files("report/patrol"), ["index.html"]);
+    let html = folder.read("report/patrol/index.html");
+    assert!(html.to_lowercase().starts_with("<!doctype html>") && html.trim_end().ends_with("</html>"));
+    // Again, over the old one, and elsewhere.
+    folder.cotama(&["run", "patrol", "--json", "--report", "a/b"]).json(0);
+    folder.cotama(&["run", "patrol", "--json", "--report", "a/b"]).json(0);
+    assert_eq!(folder.files("a/b"), ["index.html"]);
+    assert_eq!(folder.read("a/b/index.html"), html);
+    let none = folder.cotama(&["run", "patrol", "--json", "--no-report"]).json(0);
+    assert_eq!(none["report"], Value::Null);
+    assert_eq!(folder.files(""), ["a", "report"]);
+}
+
+#[test]
+fn the_same_run_is_the_same_answer() {
+    let folder = Folder::new("run_again");
+    let first = folder.cotama(&["run", "patrol", "--json", "--seed", "7", "--trace", "a.jsonl"]);
+    let second = folder.cotama(&["run", "patrol", "--json", "--seed", "7", "--trace", "a.jsonl"]);
+    assert_eq!(first.json(0), second.json(0));
+    assert_eq!(first.json(0)["seed"], 7);
+}
+
+#[test]
+fn without_faults_there_is_one_plan_and_it_holds() {
+    let answer = Folder::new("run_quiet").cotama(&["run", "patrol", "--faults", "none", "--json"]).json(0);
+    assert_eq!((&answer["replans"], &answer["events"]), (&json!(0), &json!([])));
+    assert_eq!((&answer["energy_mj"], &answer["duration_ms"]), (&json!(8_563_613), &json!(527_924)));
+}
+
+#[test]
+fn faults_come_from_a_file() {
+    let folder = Folder::new("run_faults");
+    let faults = "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 90000\nkind = \"fault\"\nhardware = \"kinect\"\nunits_lost = 1\n";
+    folder.write("blind.toml", faults);
+    let answer = folder.cotama(&["run", "patrol", "--faults", "blind.toml", "--json"]).json(1);
+    assert_eq!((&answer["outcome"], &answer["operator_requests"]), (&json!("safe"), &json!(1)));
+    assert_eq!((&answer["x_mm"], &answer["events"][0]["hardware"]), (&json!(90_000), &json!("kinect")));
+    assert!(answer["reason"].as_str().unwrap().contains("A10"), "{}", answer["reason"]);
+}
+
+#[test]
+fn hardware_lost_at_the_start_is_a_fault_at_the_start() {
+    let folder = Folder::new("run_lost");
+    let one = folder.cotama(&["run", "patrol", "--lost", "laser:1", "--faults", "none", "--json"]).json(0);
+    let fault = json!({ "time_ms": 0, "x_mm": 0, "kind": "fault", "text": "laser failed: 1 lost, 1 left",
+        "lost_ms": 0, "hardware": "laser", "units": 1, "units_left": 1 });
+    assert_eq!(one["events"], json!([fault]));
+    assert_eq!((&one["replans"], &one["plans"][1]["x_mm"]), (&json!(1), &json!(0)));
+    let blind = folder.cotama(&["run", "patrol", "--lost", "kinect", "--json"]).json(1);
+    assert_eq!((&blind["outcome"], &blind["x_mm"]), (&json!("safe"), &json!(0)));
+    assert_eq!(blind["infeasible"]["activity"], "A3");
+}
+
+#[test]
+fn without_a_plan_at_the_start_the_robot_does_not_leave() {
+    let folder = Folder::new("run_infeasible");
+    let answer = folder.cotama(&["run", "patrol", "--energy-limit", "4000000", "--json"]).json(1);
+    assert_eq!((&answer["outcome"], &answer["plans"]), (&json!("safe"), &json!([])));
+    assert_eq!(answer["infeasible"]["gap"], 675_896);
+    assert_eq!(answer["report"], Value::Null);
+}
+
+#[test]
+fn objectives_are_pursued_in_a_run() {
+    let folder = Folder::new("run_objectives");
+    let run = |objective| {
+        let arguments =
+            ["run", "patrol", "--json", "--no-report", "--faults", "none", "--objective", objective];
+        folder.cotama(&arguments).json(0)
+    };
+    assert_eq!(run("min-energy")["energy_mj"], 4_675_896);
+    assert_eq!(run("quality")["plans"][0]["allocator"], "exact");
+}
+
+#[test]
+fn limits_of_the_command_line_are_those_of_the_run() {
+    let folder = Folder::new("run_limits");
+    let arguments =
+        ["run", "patrol", "--json", "--faults", "none", "--energy-limit", "9000000", "--trace", "t.jsonl"];
+    let answer = folder.cotama(&arguments).json(0);
+    let used = answer["energy_mj"].as_i64().unwrap();
+    assert_eq!(answer["energy_margin_mj"], 9_000_000 - used);
+    // The trace holds them: it comes out the same.
+    assert_eq!(folder.cotama(&["replay", "t.jsonl", "--json"]).json(0)["identical"], true);
+}
+
+#[test]
+fn the_monitor_period_and_better_plans_are_options() {
+    let folder = Folder::new("run_options");
+    let run = |arguments: &[&str]| {
+        folder.cotama(&[&["run", "patrol", "--json", "--no-report"], arguments].concat()).json(0)
+    };
+    assert_eq!(run(&["--monitor-period", "30000"])["replans"], 3);
+    let causes = |answer: &Value| {
+        let plans = answer["plans"].as_array().unwrap();
+        plans.iter().map(|plan| plan["cause"].as_str().unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert!(causes(&run(&["--upward"])).contains(&"room for a better plan".to_owned()));
+}
+
+#[test]
+fn a_mission_file_names_its_report() {
+    let folder = Folder::new("run_file");
+    folder.write("night watch.toml", patrol(&[]));
+    let answer = folder.cotama(&["run", "night watch.toml", "--json"]).json(0);
+    assert_eq!(answer["report"], "report/night-watch/index.html");
+}

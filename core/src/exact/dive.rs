@@ -1,0 +1,348 @@
+//! Depth-first search for a plan that is worth a target.
+//!
+//! At the dual prices a plan is worth *bound - sum of losses - price of its slack*. To be worth at least the
+//! target, losses and slack together may use up to *allowance = bound - target*; items whose own loss exceeds
+//! it cannot be in such a plan (reduced-cost fixing), and activities with one item left need no level.
+
+use super::dual::Price;
+use super::load::Frame;
+use super::rows::Rows;
+use super::{Budget, Item, REPRICINGS, Seen, Stage};
+
+/// A dive: some activities have a level each, the others keep the item that is their `current`.
+pub(super) struct Dive<'d, const A: usize> {
+    frame: &'d Frame<A>,
+    price: &'d Price<A>,
+    multipliers: &'d [Rows<A>; REPRICINGS],
+    items: &'d [Item<A>],
+    stages: &'d mut [Stage<A>],
+    seen: &'d mut [Seen<A>],
+    /// The value looked for; one above the best found once one is found.
+    pub(super) target: i64,
+    levels: usize,
+    /// Slack and loss with every level at its best item.
+    root: Point<A>,
+    /// Number of this dive, so that what an earlier one has seen is not taken for its own.
+    number: u32,
+    /// Whether nodes are noted in `seen`.
+    remembers: bool,
+}
+
+/// What a partial plan leaves, the open activities at their best items.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point<const A: usize> {
+    slack: Rows<A>,
+    loss: i64,
+}
+
+impl<const A: usize> Point<A> {
+    pub(super) const ZERO: Self = Self { slack: Rows::ZERO, loss: 0 };
+
+    /// The point with `item` in place of `other`.
+    #[inline]
+    fn exchange(&self, other: &Item<A>, item: &Item<A>) -> Self {
+        Self {
+            slack: self.slack.plus(&other.rows()).minus(&item.rows()),
+            loss: self.loss + item.loss - other.loss,
+        }
+    }
+}
+
+/// Levels so near the end that looking a node up costs more than searching it.
+const NOT_KEPT: usize = 4;
+
+impl<'d, const A: usize> Dive<'d, A> {
+    pub(super) fn new(
+        frame: &'d Frame<A>,
+        price: &'d Price<A>,
+        multipliers: &'d [Rows<A>; REPRICINGS],
+        items: &'d [Item<A>],
+        stages: &'d mut [Stage<A>],
+        seen: &'d mut [Seen<A>],
+    ) -> Self {
+        let root = Point { slack: frame.room, loss: 0 };
+        Self {
+            frame,
+            price,
+            multipliers,
+            items,
+            stages,
+            seen,
+            target: 0,
+            levels: 0,
+            root,
+            number: 0,
+            remembers: false,
+        }
+    }
+
+    /// Begins to note nodes. Easy problems end before it would pay.
+    pub(super) fn remember(&mut self) {
+        if !self.remembers {
+            self.seen.fill(Seen::EMPTY);
+            self.remembers = !self.seen.is_empty();
+        }
+    }
+
+    pub(super) fn stages(&self) -> &[Stage<A>] {
+        self.stages
+    }
+
+    /// What losses and priced slack may use up together.
+    fn allowance(&self) -> i64 {
+        self.price.bound - (self.target << self.frame.fraction)
+    }
+
+    /// Frees every activity.
+    pub(super) fn free_all(&mut self) {
+        let allowance = self.allowance();
+        self.levels = 0;
+        self.root = Point { slack: self.frame.room, loss: 0 };
+        for at in 0..self.stages.len() {
+            let stage = &mut self.stages[at];
+            stage.current = 0;
+            let own = stage.items(self.items);
+            self.root.slack = self.root.slack.minus(&own[0].rows());
+            if own.get(1).is_some_and(|item| item.loss <= allowance) {
+                self.stages[self.levels].level.stage = at as u32;
+                self.levels += 1;
+            }
+        }
+        self.prepare();
+    }
+
+    /// Puts every activity at the item of the best plan; returns what that plan leaves.
+    pub(super) fn settle(&mut self) -> Point<A> {
+        let mut home = Point { slack: self.frame.room, loss: 0 };
+        for stage in self.stages.iter_mut() {
+            stage.current = stage.best;
+            let item = stage.item(self.items, stage.best);
+            home.slack = home.slack.minus(&item.rows());
+            home.loss += item.loss;
+        }
+        home
+    }
+
+    /// Frees a few activities, drawn by `round`; the others keep the best plan, which leaves `home`.
+    pub(super) fn free_some(&mut self, home: Point<A>, count: usize, round: u64) {
+        let allowance = self.allowance();
+        self.levels = 0;
+        self.root = home;
+        for draw in 0..count as u64 {
+            // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4).
+            let mixed = (round << 8 | draw).wrapping_mul(0x9E37_79B9_7F4A_7C15);
+            let at = ((u128::from(mixed) * self.stages.len() as u128) >> 64) as usize;
+            let own = self.stages[at].items(self.items);
+            let drawn = self.stages[..self.levels].iter().any(|s| s.level.stage == at as u32);
+            if !drawn && own.get(1).is_some_and(|item| item.loss <= allowance) {
+                self.root = self.root.exchange(&own[self.stages[at].best as usize], &own[0]);
+                self.stages[at].current = 0;
+                self.stages[self.levels].level.stage = at as u32;
+                self.levels += 1;
+            }
+        }
+        self.prepare();
+    }
+
+    /// Puts the activities that were freed back to the best plan.
+    pub(super) fn restore(&mut self) {
+        for level in 0..self.levels {
+            let at = self.stages[level].level.stage as usize;
+            self.stages[at].current = self.stages[at].best;
+        }
+    }
+
+    /// Sorts the levels, the costliest to change first, since a change there leaves little for the others, and
+    /// fills their bounds from the last one back.
+    fn prepare(&mut self) {
+        self.number += 1;
+        let allowance = self.allowance();
+        for top in (0..self.levels / 2).rev() {
+            self.sift(top, self.levels);
+        }
+        for end in (1..self.levels).rev() {
+            self.swap_levels(0, end);
+            self.sift(0, end);
+        }
+
+        let fraction = self.frame.fraction;
+        let mut saving = Rows::ZERO;
+        let mut gain = [0; REPRICINGS];
+        for level in (0..self.levels).rev() {
+            let stage = &self.stages[self.stages[level].level.stage as usize];
+            let own = stage.items(self.items);
+            let best = &own[0];
+            let mut most = Rows::<A>::ZERO;
+            let mut gained = [0; REPRICINGS];
+            for item in own.iter().take_while(|item| item.loss <= allowance) {
+                most = most.zip(&best.rows().minus(&item.rows()), i64::max);
+                for (gained, multiplier) in gained.iter_mut().zip(self.multipliers) {
+                    let more = item.reduced(multiplier, fraction) - best.reduced(multiplier, fraction);
+                    *gained = (*gained).max(more);
+                }
+            }
+            saving = saving.plus(&most);
+            for (sum, part) in gain.iter_mut().zip(gained) {
+                *sum += part;
+            }
+            let base = stage.best;
+            let level = &mut self.stages[level].level;
+            (level.saving, level.gain, level.base) = (saving, gain, base);
+        }
+    }
+
+    /// The loss of the second item of a level's activity: what a change there costs at least.
+    fn change(&self, level: usize) -> (i64, core::cmp::Reverse<u32>) {
+        let stage = self.stages[level].level.stage;
+        (self.stages[stage as usize].item(self.items, 1).loss, core::cmp::Reverse(stage))
+    }
+
+    fn swap_levels(&mut self, a: usize, b: usize) {
+        let first = self.stages[a].level.stage;
+        self.stages[a].level.stage = self.stages[b].level.stage;
+        self.stages[b].level.stage = first;
+    }
+
+    /// One sift of a heap sort with the least change on top, which leaves the levels in falling order.
+    fn sift(&mut self, mut top: usize, end: usize) {
+        loop {
+            let mut least = top;
+            for child in [2 * top + 1, 2 * top + 2] {
+                if child < end && self.change(child) < self.change(least) {
+                    least = child;
+                }
+            }
+            if least == top {
+                return;
+            }
+            self.swap_levels(top, least);
+            top = least;
+        }
+    }
+
+    /// Whether a node before level `depth` can lead to the target.
+    #[inline]
+    fn promising(&self, depth: usize, point: &Point<A>) -> bool {
+        let allowance = self.allowance();
+        if point.loss > allowance {
+            return false;
+        }
+        if depth == self.levels {
+            let used = self.price.multiplier.dot(&point.slack) + point.loss;
+            return point.slack.none_negative() && used <= allowance;
+        }
+        let level = &self.stages[depth].level;
+        if !point.slack.plus(&level.saving).none_negative() {
+            return false;
+        }
+        // value + multiplier * slack + gain >= target, with value = bound - loss - best multiplier * slack
+        self.multipliers.iter().zip(&level.gain).all(|(multiplier, gain)| {
+            multiplier.minus(&self.price.multiplier).dot(&point.slack) + gain >= point.loss - allowance
+        })
+    }
+
+    /// Whether a node at least as good was searched at this level before; if not, notes this one.
+    ///
+    /// The dynamic programme over the limits, as far as memory allows: of two partial plans over the same
+    /// activities that are worth the same, the one with less slack in every row is not needed.
+    #[inline]
+    fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
+        if !self.remembers || depth + NOT_KEPT > self.levels {
+            return false;
+        }
+        let worth =
+            (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack)) >> self.frame.fraction;
+        let mixed = (worth as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+            ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        let place = (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.seen.len() as u128) >> 64;
+        let seen = &mut self.seen[place as usize];
+        let same = seen.dive == self.number && seen.depth == depth as u32 && seen.worth == worth;
+        if same && seen.slack.minus(&point.slack).none_negative() {
+            return true;
+        }
+        *seen = Seen { dive: self.number, depth: depth as u32, worth, slack: point.slack };
+        false
+    }
+
+    /// Visits every promising node and keeps each better plan; whether that was completed within these steps.
+    pub(super) fn run(&mut self, budget: &mut Budget, steps: u64) -> bool {
+        let mut left = steps.min(budget.left);
+        budget.left -= left;
+        let complete = self.visit(&mut left);
+        budget.left += left;
+        complete
+    }
+
+    fn visit(&mut self, left: &mut u64) -> bool {
+        let mut point = self.root;
+        if !self.promising(0, &point) {
+            return true;
+        }
+        let mut depth = 0;
+        let mut entering = true;
+        loop {
+            if entering && depth == self.levels {
+                self.keep(&point);
+                entering = false;
+                if depth == 0 {
+                    return true;
+                }
+                depth -= 1;
+                continue;
+            }
+            let level = &mut self.stages[depth].level;
+            if entering {
+                (level.cursor, level.point) = (0, point);
+            } else {
+                level.cursor += 1;
+            }
+            let level = *level;
+            let stage = self.stages[level.stage as usize];
+            let own = stage.items(self.items);
+            if level.cursor >= stage.count {
+                self.stages[level.stage as usize].current = 0;
+                if depth == 0 {
+                    return true;
+                }
+                depth -= 1;
+                entering = false;
+                continue;
+            }
+            // The item of the best plan first, then the others by rising loss.
+            let index = match level.cursor {
+                0 => level.base,
+                cursor if cursor <= level.base => cursor - 1,
+                cursor => cursor,
+            };
+            let item = &own[index as usize];
+            entering = false;
+            if level.point.loss + item.loss > self.allowance() {
+                if level.cursor > 0 {
+                    self.stages[depth].level.cursor = stage.count; // the ones behind lose even more
+                }
+                continue;
+            }
+            if *left == 0 {
+                return false;
+            }
+            *left -= 1;
+            let next = level.point.exchange(&own[0], item);
+            if self.promising(depth + 1, &next) && !self.seen_before(depth + 1, &next) {
+                self.stages[level.stage as usize].current = index;
+                point = next;
+                depth += 1;
+                entering = true;
+            }
+        }
+    }
+
+    /// Keeps the plan under work as the best and raises the target above it.
+    fn keep(&mut self, point: &Point<A>) {
+        let worth = self.price.bound - point.loss - self.price.multiplier.dot(&point.slack);
+        debug_assert!(worth & ((1 << self.frame.fraction) - 1) == 0, "a plan is worth a whole number");
+        self.target = (worth >> self.frame.fraction) + 1;
+        for stage in self.stages.iter_mut() {
+            stage.best = stage.current;
+        }
+    }
+}

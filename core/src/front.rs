@@ -1,0 +1,160 @@
+//! The front: every plan within the limits that no other plan beats on all axes and in quality.
+//!
+//! A dynamic programme over the activities: partial plans that cannot be completed within a limit are dropped,
+//! and so is one that another partial plan over the same activities dominates (no dearer on any axis, no
+//! worse in quality). What is left after the last activity is the front, each vector of totals once; of plans
+//! with equal totals the one first in the order of choices is kept. The memory it needs is not known before;
+//! when the caller's does not suffice, that is the answer.
+//!
+//! ```
+//! use cotama_core::front::{Front, Node};
+//! use cotama_core::problem::{Candidate, Problem};
+//!
+//! let c = |duration, energy, quality| Candidate { cost: [duration, energy], quality, id: 0 };
+//! let (a, b) = ([c(1, 9, 0), c(9, 1, 0), c(9, 9, 0)], [c(1, 1, 5), c(2, 2, 6)]);
+//! let activities = [&a[..], &b[..]];
+//! let problem = Problem::new(&activities, [100, 10], [0, 1]).unwrap();
+//!
+//! let mut nodes = [Node::EMPTY; 16];
+//! let mut front = Front::new(&mut nodes);
+//! let plans = front.find(&problem).unwrap();
+//! assert_eq!(plans.len(), 3); // (2, 10, 5), (10, 2, 5) and (11, 3, 6); (3, 11, 6) is over the energy limit
+//! let mut plan = [0; 2];
+//! assert_eq!(plans.totals(0), Some(([2, 10], 5)));
+//! assert!(plans.plan(0, &mut plan));
+//! assert_eq!(plan, [0, 0]);
+//! ```
+
+use crate::allocation::MemoryError;
+use crate::problem::Problem;
+use core::cmp::Reverse;
+
+/// Working memory for one partial plan.
+#[derive(Clone, Copy, Debug)]
+pub struct Node<const A: usize> {
+    cost: [u64; A],
+    quality: u64,
+    /// The partial plan that this one extends: an index into the memory.
+    parent: u32,
+    choice: u16,
+}
+
+impl<const A: usize> Node<A> {
+    /// Unused memory.
+    pub const EMPTY: Self = Self { cost: [0; A], quality: 0, parent: 0, choice: 0 };
+
+    fn dominates(&self, other: &Self) -> bool {
+        self.quality >= other.quality
+            && self.cost.iter().zip(&other.cost).all(|(mine, theirs)| mine <= theirs)
+    }
+}
+
+/// Finds fronts, in memory from its caller.
+#[derive(Debug)]
+pub struct Front<'m, const A: usize> {
+    nodes: &'m mut [Node<A>],
+}
+
+/// The plans of a front, in rising order of cost (axis after axis), then falling quality.
+#[derive(Debug)]
+pub struct FrontPlans<'f, const A: usize> {
+    nodes: &'f [Node<A>],
+    first: usize,
+    activities: usize,
+}
+
+impl<'m, const A: usize> Front<'m, A> {
+    /// A finder in this memory. It must hold the undominated partial plans after every activity, and the
+    /// extensions of the last ones; at most 2^32 elements are used.
+    pub const fn new(nodes: &'m mut [Node<A>]) -> Self {
+        Self { nodes }
+    }
+
+    /// The front of a problem; without plans when nothing is within the limits.
+    ///
+    /// # Errors
+    /// [`MemoryError`] when the memory is too small. `needed` is then what the activity at hand needed at least.
+    pub fn find(&mut self, problem: &Problem<'_, A>) -> Result<FrontPlans<'_, A>, MemoryError> {
+        let activities = problem.activities();
+        let given = self.nodes.len().min(u32::MAX as usize);
+        let nodes = &mut self.nodes[..given];
+        let short = |needed| MemoryError { what: "nodes of the front", needed, given };
+        let mut rest: [u64; A] = core::array::from_fn(|axis| problem.least(axis));
+
+        *nodes.first_mut().ok_or(short(1))? = Node::EMPTY;
+        let (mut first, mut end) = (0, 1);
+        for candidates in activities {
+            for (axis, rest) in rest.iter_mut().enumerate() {
+                *rest -= candidates.iter().map(|c| u64::from(c.cost[axis])).min().unwrap_or(0);
+            }
+            let room: [u64; A] =
+                core::array::from_fn(|axis| problem.limits()[axis].saturating_sub(rest[axis]));
+            let mut count = 0;
+            for parent in first..end {
+                let from = nodes[parent];
+                for (choice, candidate) in candidates.iter().enumerate() {
+                    let cost = core::array::from_fn(|axis| from.cost[axis] + u64::from(candidate.cost[axis]));
+                    if (0..A).any(|axis| cost[axis] > room[axis]) {
+                        continue;
+                    }
+                    let quality = from.quality + u64::from(candidate.quality);
+                    let place =
+                        nodes.get_mut(end + count).ok_or(short(end + (end - first) * candidates.len()))?;
+                    *place = Node { cost, quality, parent: parent as u32, choice: choice as u16 };
+                    count += 1;
+                }
+            }
+            let kept = undominated(&mut nodes[end..end + count]);
+            (first, end) = (end, end + kept);
+        }
+        let within = (0..A).all(|axis| problem.least(axis) <= problem.limits()[axis]);
+        let first = if within { first } else { end };
+        Ok(FrontPlans { nodes: &nodes[..end], first, activities: activities.len() })
+    }
+}
+
+/// Sorts partial plans and moves the undominated ones to the front; returns their number.
+fn undominated<const A: usize>(nodes: &mut [Node<A>]) -> usize {
+    nodes.sort_unstable_by_key(|node| (node.cost, Reverse(node.quality), node.parent, node.choice));
+    let mut kept = 0;
+    for next in 0..nodes.len() {
+        let node = nodes[next];
+        // What dominates it comes before it; the nearest are the likeliest.
+        if !nodes[..kept].iter().rev().any(|other| other.dominates(&node)) {
+            nodes[kept] = node;
+            kept += 1;
+        }
+    }
+    kept
+}
+
+impl<const A: usize> FrontPlans<'_, A> {
+    /// How many plans there are.
+    #[must_use]
+    pub const fn len(&self) -> usize {
+        self.nodes.len() - self.first
+    }
+
+    /// Whether there is none: nothing is within the limits.
+    #[must_use]
+    pub const fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// The total cost on each axis and the quality of a plan.
+    #[must_use]
+    pub fn totals(&self, index: usize) -> Option<([u64; A], u64)> {
+        self.nodes.get(self.first + index).map(|node| (node.cost, node.quality))
+    }
+
+    /// Writes the choices of a plan; `false`, and nothing written, if there is no such plan or no room for it.
+    pub fn plan(&self, index: usize, plan: &mut [u16]) -> bool {
+        let Some(mut node) = self.nodes.get(self.first + index) else { return false };
+        let Some(plan) = plan.get_mut(..self.activities) else { return false };
+        for choice in plan.iter_mut().rev() {
+            *choice = node.choice;
+            node = &self.nodes[node.parent as usize];
+        }
+        true
+    }
+}

@@ -1,0 +1,56 @@
+//! Faults as the text of a `panorama-faults/1` file, which reads back to the same faults.
+
+use cotama_models::faults::{EventKind, FORMAT, Faults};
+use cotama_models::mission::Definition;
+use std::fmt::Write;
+
+/// The text of a `panorama-faults/1` file with these faults.
+///
+/// Zones and hardware that the mission does not have are written with an empty name, which no reader accepts.
+///
+/// ```
+/// use cotama_models::{embedded, faults::Faults, mission::Mission};
+/// use cotama_sim::faults_text::faults_text;
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let text = faults_text(&mission.run.faults, &mission);
+/// assert_eq!(Faults::parse("script", &text, &mission).unwrap(), mission.run.faults);
+/// ```
+pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
+    let zone = |index: usize| mission.zones.get(index).map_or("", |zone| zone.id.as_str());
+    let mut text = format!("format = \"{FORMAT}\"\n");
+    if !faults.power_errors.is_empty() {
+        let errors: Vec<_> = faults
+            .power_errors
+            .iter()
+            .map(|error| format!("\"{}\" = {}", zone(error.zone), error.permille))
+            .collect();
+        text.push_str("power_error_permille = { ");
+        text.push_str(&errors.join(", "));
+        text.push_str(" }\n");
+    }
+    for event in &faults.events {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "\n[[event]]\nx_mm = {}", event.x.0);
+        kind(&mut text, event.kind, mission);
+    }
+    for random in &faults.random {
+        let _ = writeln!(text, "\n[[random]]\nname = \"{}\"\nper_km = {}", random.name, random.per_km);
+        kind(&mut text, random.kind, mission);
+    }
+    text
+}
+
+fn kind(text: &mut String, kind: EventKind, mission: &Definition) {
+    let name = |index: usize| mission.hardware.get(index).map_or("", |it| it.name.as_str());
+    let _ = match kind {
+        EventKind::Obstacle { delay } => writeln!(text, "kind = \"obstacle\"\ndelay_ms = {}", delay.0),
+        EventKind::Odometry { extra } => writeln!(text, "kind = \"odometry\"\nextra_mm = {}", extra.0),
+        EventKind::Fault { hardware, units } => {
+            writeln!(text, "kind = \"fault\"\nhardware = \"{}\"\nunits_lost = {units}", name(hardware))
+        }
+        EventKind::Repair { hardware, units } => {
+            writeln!(text, "kind = \"repair\"\nhardware = \"{}\"\nunits_back = {units}", name(hardware))
+        }
+    };
+}

@@ -1,0 +1,216 @@
+//! Ticks at round numbers, and the axis along the path that all drawings share.
+
+use super::format::milli;
+use super::svg::{Svg, text_width};
+use super::view::View;
+
+/// The numbers from `low` to `high` that are multiples of 1, 2 or 5 times a power of ten: at most `most` of
+/// them, as many as can be. Also the step between them.
+pub(super) fn ticks(low: i128, high: i128, most: i128) -> (Vec<i128>, i128) {
+    let mut step: i128 = 1;
+    let mut factors = [2, 5, 10].iter().cycle();
+    let mut power: i128 = 1;
+    let count =
+        |step: i128| high.div_euclid(step) - low.div_euclid(step) + i128::from(low.rem_euclid(step) == 0);
+    while count(step) > most.max(1) && power < 1_000_000_000_000_000_000_000 {
+        let factor = *factors.next().unwrap_or(&10);
+        step = power * factor;
+        if factor == 10 {
+            power = step;
+        }
+    }
+    let first = low + (-low).rem_euclid(step);
+    let numbers = (0..most.max(1)).map(|index| first + index * step);
+    (numbers.take_while(|&number| number <= high).collect(), step)
+}
+
+/// How a tick is written: thousandths with the decimals that the step needs.
+pub(super) fn tick_label(value: i128, step: i128) -> String {
+    let decimals = match step {
+        1000.. => 0,
+        100.. => 1,
+        10.. => 2,
+        _ => 3,
+    };
+    milli(value, decimals)
+}
+
+/// A width that drawings are made for. Pages show the one that suits the screen.
+#[derive(Clone, Copy)]
+pub(super) struct Layout {
+    pub(super) class: &'static str,
+    pub(super) width: f64,
+    pub(super) left: f64,
+    pub(super) right: f64,
+    /// The size of ordinary text.
+    pub(super) size: f64,
+    /// The narrowest activity in a stop.
+    pub(super) stop_width: f64,
+    pub(super) x_ticks: i128,
+    /// Whether rows have their names beside them, not above.
+    pub(super) names_beside: bool,
+}
+
+/// For screens and paper.
+pub(super) const WIDE: Layout = Layout {
+    class: "wide",
+    width: 960.0,
+    left: 78.0,
+    right: 62.0,
+    size: 12.0,
+    stop_width: 21.0,
+    x_ticks: 11,
+    names_beside: true,
+};
+
+/// For phones.
+pub(super) const NARROW: Layout = Layout {
+    class: "narrow",
+    width: 360.0,
+    left: 38.0,
+    right: 8.0,
+    size: 11.0,
+    stop_width: 9.0,
+    x_ticks: 5,
+    names_beside: false,
+};
+
+impl Layout {
+    /// The right end of the axis.
+    pub(super) fn end(&self) -> f64 {
+        self.width - self.right
+    }
+}
+
+/// A stop on the axis.
+struct Band {
+    x_mm: u64,
+    start_us: u64,
+    end_us: u64,
+    left: f64,
+    width: f64,
+    reached: bool,
+}
+
+/// The axis along the path: distance, and at each stop a piece of time in between.
+///
+/// The pieces of time get the share of the width that they have of the time of the run, but at most six tenths
+/// when there is a path to show, and never less than so much for an activity.
+pub(super) struct Axis {
+    left: f64,
+    per_mm: f64,
+    bands: Vec<Band>,
+    length_mm: u64,
+    layout: Layout,
+}
+
+impl Axis {
+    pub(super) fn new(view: &View<'_>, layout: Layout) -> Self {
+        let whole = layout.end() - layout.left;
+        let total_us = view.last().1.max(view.activities.iter().map(|step| step.end_us).max().unwrap_or(0));
+        let total_us = total_us.max(1) as f64;
+        let duration = |start: u64, end: u64| end.saturating_sub(start) as f64;
+        let wish = |stop: &super::view::Stop| {
+            let share = duration(stop.start_us, stop.end_us) / total_us * whole;
+            share.max(stop.count as f64 * layout.stop_width)
+        };
+        let wishes: f64 = view.stops.iter().map(wish).sum();
+        let most = if view.length_mm == 0 { whole } else { 0.6 * whole };
+        let shrink = if wishes > most || (view.length_mm == 0 && wishes > 0.0) { most / wishes } else { 1.0 };
+        let per_mm = (whole - wishes * shrink).max(0.0) / (view.length_mm.max(1) as f64);
+        let mut bands = Vec::new();
+        let mut before = 0.0;
+        for stop in &view.stops {
+            let width = wish(stop) * shrink;
+            let left = layout.left + stop.x_mm as f64 * per_mm + before;
+            let &super::view::Stop { x_mm, start_us, end_us, reached, .. } = stop;
+            bands.push(Band { x_mm, start_us, end_us, left, width, reached });
+            before += width;
+        }
+        Self { left: layout.left, per_mm, bands, length_mm: view.length_mm, layout }
+    }
+
+    /// Where a place is drawn, before what stops there.
+    pub(super) fn before(&self, x_mm: u64) -> f64 {
+        let bands = self.bands.iter().take_while(|band| band.x_mm < x_mm);
+        self.left + x_mm as f64 * self.per_mm + bands.map(|band| band.width).sum::<f64>()
+    }
+
+    /// Where a place is drawn, after what stops there.
+    pub(super) fn after(&self, x_mm: u64) -> f64 {
+        let band = self.bands.iter().find(|band| band.x_mm == x_mm);
+        self.before(x_mm) + band.map_or(0.0, |band| band.width)
+    }
+
+    /// Where a place is drawn at a time.
+    pub(super) fn at(&self, x_mm: u64, t_us: u64) -> f64 {
+        let within = self.bands.iter().find(|band| band.x_mm == x_mm).map_or(0.0, |band| {
+            let passed = t_us.saturating_sub(band.start_us).min(band.end_us.saturating_sub(band.start_us));
+            let whole = band.end_us.saturating_sub(band.start_us).max(1);
+            passed as f64 / whole as f64 * band.width
+        });
+        self.before(x_mm) + within
+    }
+
+    /// Stops as bands from `top` to `bottom`.
+    pub(super) fn draw_stops(&self, svg: &mut Svg, top: f64, bottom: f64) {
+        for band in &self.bands {
+            svg.rect("stop", [band.left, top], [band.width, bottom - top]);
+        }
+    }
+
+    /// The durations of the stops, written with this base line.
+    pub(super) fn draw_stop_labels(&self, svg: &mut Svg, y: f64) {
+        let mut free = f64::MIN;
+        for band in &self.bands {
+            let middle = band.left + band.width / 2.0;
+            let duration =
+                super::format::seconds(band.end_us.saturating_sub(band.start_us).saturating_add(500) / 1000);
+            let planned = if band.reached { "" } else { " planned" };
+            let label = format!("stop {duration}{planned}");
+            let half = text_width(&label, self.layout.size - 1.0) / 2.0;
+            if middle - half > free {
+                svg.text("m small muted", [middle, y], &label);
+                free = middle + half + 6.0;
+            }
+        }
+    }
+
+    /// The axis line and its ticks, with grid lines up to `top`.
+    pub(super) fn draw(&self, svg: &mut Svg, top: f64, bottom: f64) {
+        let (numbers, step) = ticks(0, i128::from(self.length_mm), self.layout.x_ticks);
+        svg.line("axis", [self.left, bottom], [self.layout.end(), bottom]);
+        let last = numbers.last().copied().unwrap_or(0);
+        for number in numbers {
+            let x_mm = u64::try_from(number).unwrap_or(0);
+            let x = self.before(x_mm);
+            if number > 0 && top < bottom {
+                svg.line("grid", [x, top], [x, bottom]);
+            }
+            svg.line("axis", [x, bottom], [x, bottom + 4.0]);
+            let unit = if number == last { " m" } else { "" };
+            svg.text("m small muted", [x, bottom + 16.0], &format!("{}{unit}", tick_label(number, step)));
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_round_and_no_more_than_asked() {
+        assert_eq!(ticks(0, 187_000, 11), ((0..10).map(|it| it * 20_000).collect(), 20_000));
+        assert_eq!(ticks(-86, 240, 5), (vec![0, 100, 200], 100));
+        assert_eq!(ticks(0, 0, 5), (vec![0], 1));
+        assert_eq!(ticks(-7, 7, 1), (vec![0], 10));
+        assert!(ticks(i128::from(i64::MIN), i128::from(i64::MAX), 6).0.len() <= 6);
+    }
+
+    #[test]
+    fn ticks_have_the_decimals_of_their_step() {
+        assert_eq!(tick_label(20_000, 20_000), "20");
+        assert_eq!(tick_label(100, 100), "0.1");
+        assert_eq!(tick_label(-50, 50), "\u{2212}0.05");
+    }
+}

@@ -1,0 +1,118 @@
+//! A run as one page: what was planned, what happened, what changed and why.
+//!
+//! The page is made from a [`Trace`] alone and needs nothing else: no network, no fonts, no scripts but one
+//! that opens everything for printing. Equal traces give equal bytes. It suits wide and narrow screens, light
+//! and dark ones, and paper. The table of plans follows Tables 6 and 7 of Lambert et al., J. Intell. Robot.
+//! Syst. 110, 2024.
+
+use crate::options::{Aim, Planner};
+use crate::trace::{Header, Trace};
+use std::fmt::Write;
+use svg::escape;
+use view::View;
+
+mod activities;
+mod axis;
+mod charts;
+mod events;
+mod format;
+mod headline;
+mod plans;
+mod replans;
+mod series;
+mod strip;
+mod svg;
+mod view;
+
+#[cfg(test)]
+mod tests;
+
+/// The most replans that are drawn.
+const MAX_PINS: usize = 200;
+/// The most plans that are explained and listed.
+const MAX_PLANS: usize = 100;
+/// The most zones and the most events that are drawn.
+const MAX_MARKS: usize = 400;
+/// The most rows of a list.
+const MAX_ROWS: usize = 500;
+/// The most columns of the table of plans.
+const MAX_COLUMNS: usize = 400;
+/// The most cells of the table of plans.
+const MAX_CELLS: usize = 20_000;
+/// The most candidates that are listed with their costs.
+const MAX_CANDIDATES: usize = 2_000;
+
+/// Writes the report of a run as an HTML page.
+///
+/// Whatever the trace says is written as text. Parts that would make the page unwieldy are cut, and the page
+/// says so. A mission that cannot be read leaves out what only it tells.
+pub fn html(trace: &Trace) -> String {
+    let view = View::new(trace);
+    let mut page = format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}: mission report</title>\n\
+         <style>\n{}</style>\n</head>\n<body>\n<main>\n",
+        escape(headline::name(&view)),
+        include_str!("style.css")
+    );
+    page.push_str(&headline::section(&view));
+    page.push_str(&strip::section(&view));
+    page.push_str(&charts::section(&view));
+    page.push_str(&replans::section(&view));
+    page.push_str(&plans::section(&view));
+    page.push_str(&activities::section(&view));
+    page.push_str(&events::section(&view));
+    footer(&mut page, &trace.header);
+    page.push_str(
+        "</main>\n<script>addEventListener(\"beforeprint\",()=>{for(const it of \
+         document.querySelectorAll(\"details\"))it.open=true})</script>\n</body>\n</html>\n",
+    );
+    page
+}
+
+fn planner(planner: Planner) -> String {
+    match planner {
+        Planner::Panorama => "the paper’s rule".into(),
+        Planner::PanoramaThenExact { steps } => {
+            format!("the paper’s rule, then a complete search of at most {steps} steps")
+        }
+        Planner::Exact { aim, steps } => {
+            let aim = match aim {
+                Aim::Quality => "the most quality",
+                Aim::MinEnergy => "the least energy",
+            };
+            format!("a complete search for {aim}, of at most {steps} steps")
+        }
+    }
+}
+
+fn footer(page: &mut String, header: &Header) {
+    let options = &header.options;
+    let upward = options.upward.map_or("never".into(), |it| {
+        format!(
+            "when a margin grew by {} or {}, with {} and {} left unspent",
+            format::seconds(it.growth.duration_ms),
+            format::joules(it.growth.energy_mj),
+            format::seconds(it.reserve.duration_ms),
+            format::joules(it.reserve.energy_mj)
+        )
+    });
+    let rows = [
+        ("Program", format!("cotama {}", header.version)),
+        ("Trace", header.schema.clone()),
+        ("Mission", format!("{}, whole in the trace", header.mission_source)),
+        ("Seed", options.seed.to_string()),
+        ("Faults", headline::faults(header)),
+        ("Monitor period", format::seconds(options.monitor_period_ms)),
+        ("Planner", planner(options.allocator)),
+        ("Better plans", upward),
+    ];
+    page.push_str("<footer><h2>How it was run</h2>\n<dl>\n");
+    for (name, value) in rows {
+        let _ = writeln!(page, "<div><dt>{name}</dt><dd>{}</dd></div>", escape(&value));
+    }
+    page.push_str(
+        "</dl>\n<p>The same run again, compared byte for byte: <code>cotama replay trace.jsonl</code></p>\n</footer>\n",
+    );
+}

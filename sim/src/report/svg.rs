@@ -1,0 +1,122 @@
+//! A small writer of inline SVG: shapes with classes, coordinates with one decimal, text escaped.
+//!
+//! Colours and line widths are in the style sheet, so that a drawing follows light, dark and print.
+
+use std::fmt::Write;
+
+/// Text made safe between tags and in attributes; characters that HTML does not allow become `U+FFFD`.
+pub(super) fn escape(text: &str) -> String {
+    let mut escaped = String::with_capacity(text.len());
+    for char in text.chars() {
+        match char {
+            '&' => escaped.push_str("&amp;"),
+            '<' => escaped.push_str("&lt;"),
+            '>' => escaped.push_str("&gt;"),
+            '"' => escaped.push_str("&quot;"),
+            '\'' => escaped.push_str("&#39;"),
+            '\n' | '\t' => escaped.push(' '),
+            control if control.is_control() => escaped.push('\u{fffd}'),
+            // Marks that turn the direction of what follows would escape their cell.
+            '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => escaped.push('\u{fffd}'),
+            other => escaped.push(other),
+        }
+    }
+    escaped
+}
+
+/// A coordinate: one decimal, without a needless one.
+pub(super) fn fixed(value: f64) -> String {
+    let tenths = (value.clamp(-1e6, 1e6) * 10.0).round() as i64;
+    let sign = if tenths < 0 { "-" } else { "" };
+    let (whole, tenth) = (tenths.abs() / 10, tenths.abs() % 10);
+    if tenth == 0 { format!("{sign}{whole}") } else { format!("{sign}{whole}.{tenth}") }
+}
+
+/// About how wide a text is in the style sheet's font.
+pub(super) fn text_width(text: &str, size: f64) -> f64 {
+    text.chars().count() as f64 * size * 0.56
+}
+
+/// A drawing under construction.
+pub(super) struct Svg {
+    body: String,
+}
+
+impl Svg {
+    /// An empty drawing.
+    pub(super) fn new() -> Self {
+        Self { body: String::new() }
+    }
+
+    /// A rectangle; a negative width or height is none.
+    pub(super) fn rect(&mut self, class: &str, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
+        let (x, y, width, height) = (fixed(x), fixed(y), fixed(width.max(0.0)), fixed(height.max(0.0)));
+        let _ = write!(
+            self.body,
+            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>"
+        );
+    }
+
+    /// A straight line.
+    pub(super) fn line(&mut self, class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) {
+        let (x1, y1, x2, y2) = (fixed(x1), fixed(y1), fixed(x2), fixed(y2));
+        let _ =
+            write!(self.body, "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>");
+    }
+
+    /// A path given by its commands.
+    pub(super) fn path(&mut self, class: &str, commands: &str) {
+        if !commands.is_empty() {
+            let _ = write!(self.body, "<path class=\"{class}\" d=\"{commands}\"/>");
+        }
+    }
+
+    /// A circle.
+    pub(super) fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
+        let (x, y, radius) = (fixed(x), fixed(y), fixed(radius));
+        let _ = write!(self.body, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>");
+    }
+
+    /// Text with its base line at `y`; classes `m` and `e` put its middle or its end at `x`.
+    pub(super) fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
+        let (x, y, text) = (fixed(x), fixed(y), escape(text));
+        let _ = write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{text}</text>");
+    }
+
+    /// Shapes that belong together, with words for those who point at them.
+    pub(super) fn titled(&mut self, title: &str, draw: impl FnOnce(&mut Self)) {
+        let _ = write!(self.body, "<g><title>{}</title>", escape(title));
+        draw(self);
+        self.body.push_str("</g>");
+    }
+
+    /// Draws another drawing on top.
+    pub(super) fn append(&mut self, other: Self) {
+        self.body.push_str(&other.body);
+    }
+
+    /// The element; `label` says in words what it shows.
+    pub(super) fn finish(self, class: &str, [width, height]: [f64; 2], label: &str) -> String {
+        let (width, height, label) = (fixed(width), fixed(height), escape(label));
+        format!(
+            "<svg class=\"{class}\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\">{}</svg>\n",
+            self.body
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn coordinates_have_one_decimal_at_most_and_no_negative_zero() {
+        let written = [1.0, 1.26, -0.04, -12.34, f64::NAN, f64::INFINITY].map(fixed);
+        assert_eq!(written, ["1", "1.3", "0", "-12.3", "0", "1000000"]);
+    }
+
+    #[test]
+    fn text_cannot_leave_its_element() {
+        assert_eq!(escape("</a b='\"&\u{7}\u{202e}"), "&lt;/a b=&#39;&quot;&amp;\u{fffd}\u{fffd}");
+    }
+}

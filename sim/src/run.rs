@@ -1,0 +1,193 @@
+//! What a run comes to.
+
+use crate::trace::Outcome;
+use cotama_models::mission::{AXES, Mission};
+
+/// The units of the performance axes.
+const UNITS: [&str; 2] = ["ms", "mJ"];
+
+/// What a run comes to: a few numbers and its plans.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Why it is not completed; none if it is.
+    pub reason: Option<Reason>,
+    /// The plans in the order of time: the first one is that of the start.
+    pub plans: Vec<PlanMade>,
+    /// How many plans there were after the first.
+    pub replans: u64,
+    /// How often the operator was asked.
+    pub operator_requests: u64,
+    /// Limits less used at the end (ms, mJ); nothing is planned any more.
+    pub margins: [i64; 2],
+    /// What was used (ms, mJ), rounded half up.
+    pub used: [u64; 2],
+    /// The time used, in µs, exact.
+    pub time_us: u64,
+    /// The energy used, in pJ, exact.
+    pub energy_pj: u128,
+    /// How far the robot came, in whole mm of path.
+    pub x_mm: u64,
+    /// What happened to the robot.
+    pub events: EventCounts,
+    /// How often the margins were checked.
+    pub checks: u64,
+}
+
+/// How many events of each kind happened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct EventCounts {
+    /// Obstacles.
+    pub obstacles: u64,
+    /// Faults of hardware.
+    pub faults: u64,
+    /// Repairs of hardware.
+    pub repairs: u64,
+    /// Wrong odometry.
+    pub odometry: u64,
+}
+
+impl EventCounts {
+    /// All of them.
+    pub const fn total(&self) -> u64 {
+        self.obstacles + self.faults + self.repairs + self.odometry
+    }
+}
+
+/// A plan that came into force.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlanMade {
+    /// Why.
+    pub cause: Cause,
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in whole mm of path.
+    pub x_mm: u64,
+    /// The index of its first activity.
+    pub first_activity: usize,
+    /// For each activity from the first on, the index of its alternative.
+    pub choice: Vec<u16>,
+    /// The margins that the plan before would have had (ms, mJ); none at the start.
+    pub before: Option<[i64; 2]>,
+    /// The margins of this plan (ms, mJ).
+    pub after: [i64; 2],
+    /// What was used so far (ms, mJ).
+    pub used: [u64; 2],
+    /// The planned cost of what is left of its first activity (ms, mJ); the others are whole.
+    pub first_cost: [u32; 2],
+    /// The steps of the allocator.
+    pub steps: u64,
+    /// The allocator that found it: `panorama` or `exact`.
+    pub allocator: &'static str,
+}
+
+/// Why a plan was needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Cause {
+    /// The mission starts.
+    Start,
+    /// The margin of this axis is below zero.
+    Margin {
+        /// The axis.
+        axis: usize,
+    },
+    /// The plan needs hardware that failed.
+    Hardware {
+        /// The index of the hardware.
+        hardware: usize,
+        /// The units lost.
+        units: u8,
+    },
+    /// The margins leave room for a better plan.
+    Room,
+}
+
+impl Cause {
+    /// In words: `start`, `energy margin below zero`, `one laser lost`, `room for a better plan`.
+    pub fn text(self, mission: &Mission) -> String {
+        match self {
+            Self::Start => "start".into(),
+            Self::Margin { axis } => format!("{} margin below zero", AXES[axis.min(1)]),
+            Self::Hardware { hardware, units } => {
+                const NUMBERS: [&str; 8] = ["no", "one", "two", "three", "four", "five", "six", "seven"];
+                let name = mission.hardware.get(hardware).map_or("hardware", |it| it.name.as_str());
+                let plural = if units == 1 || name.ends_with('s') { "" } else { "s" };
+                format!("{} {name}{plural} lost", NUMBERS[usize::from(units).min(7)])
+            }
+            Self::Room => "room for a better plan".into(),
+        }
+    }
+}
+
+/// Why a mission is not completed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Reason {
+    /// No plan was found for what is left.
+    NoPlan(NoPlan),
+    /// All is done, but a limit is exceeded.
+    LimitExceeded {
+        /// The axis.
+        axis: usize,
+        /// By how much, in ms or mJ.
+        by: u64,
+    },
+    /// [`MAX_REPLANS`](crate::world::MAX_REPLANS) plans were made, and one more was asked for.
+    TooManyReplans,
+    /// The margins were checked [`MAX_CHECKS`](crate::world::MAX_CHECKS) times.
+    TooManyChecks,
+}
+
+/// Why no plan was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum NoPlan {
+    /// A limit cannot be met, as far as the allocator can tell.
+    Limit {
+        /// The axis.
+        axis: usize,
+        /// What is missing on it, in ms or mJ.
+        short: u64,
+    },
+    /// The hardware that works covers no alternative of an activity.
+    Emptied {
+        /// The index of the activity.
+        activity: usize,
+    },
+    /// The search was cut short by its budget.
+    Unknown {
+        /// The steps taken.
+        steps: u64,
+    },
+}
+
+impl NoPlan {
+    /// In words, with ids of the mission.
+    pub fn text(self, mission: &Mission) -> String {
+        match self {
+            Self::Limit { axis, short } => {
+                let axis = axis.min(1);
+                format!("no plan within the {} limit: {short} {} short", AXES[axis], UNITS[axis])
+            }
+            Self::Emptied { activity } => {
+                let id = mission.scenario().activities.get(activity).map_or("?", |it| it.id.as_str());
+                format!("no alternative left for {id}")
+            }
+            Self::Unknown { steps } => format!("no plan found in {steps} steps"),
+        }
+    }
+}
+
+impl Reason {
+    /// In words, with ids of the mission.
+    pub fn text(self, mission: &Mission) -> String {
+        match self {
+            Self::NoPlan(none) => none.text(mission),
+            Self::LimitExceeded { axis, by } => {
+                let axis = axis.min(1);
+                format!("{} limit exceeded by {by} {}", AXES[axis], UNITS[axis])
+            }
+            Self::TooManyReplans => format!("stopped after {} replans", crate::world::MAX_REPLANS),
+            Self::TooManyChecks => format!("stopped after {} checks", crate::world::MAX_CHECKS),
+        }
+    }
+}

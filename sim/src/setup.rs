@@ -1,0 +1,239 @@
+//! A mission made ready to be run many times: everything that does not depend on the seed.
+
+use crate::options::{FaultChoice, Options, Planner};
+use crate::record::{Recorder, Silent};
+use crate::run::{NoPlan, Run};
+use crate::streams::Streams;
+use crate::world::World;
+use cotama_core::hardware::Units;
+use cotama_core::monitor::{AmountOverflow, Monitor};
+use cotama_core::problem::Candidate;
+use cotama_core::units::Millis;
+use cotama_models::faults::{EventKind, Faults};
+use cotama_models::mission::Mission;
+use cotama_models::tables::Activity;
+use std::borrow::Cow;
+
+/// Millimetres in units of position, which are nm: a speed in mm/s times a time in µs.
+pub(crate) const NM_PER_MM: u64 = 1_000_000;
+/// The most draws for random events in a run: metres of path times kinds of random events.
+pub const MAX_DRAWS: u64 = 10_000_000;
+
+/// A mission made ready to be run.
+///
+/// ```
+/// use cotama_models::{embedded, mission::Mission};
+/// use cotama_sim::{options::Options, setup::Simulation, trace::Outcome};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let simulation = Simulation::new(&mission, &Options::default()).unwrap();
+/// let run = simulation.run(0).unwrap();
+/// assert_eq!((run.outcome, run.replans), (Outcome::Completed, 3));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Simulation<'m> {
+    pub(crate) mission: &'m Mission,
+    pub(crate) activities: Vec<Activity<'m>>,
+    /// For each activity all its alternatives as candidates of the whole activity; the id is the index.
+    pub(crate) whole: Vec<Vec<Candidate<2>>>,
+    pub(crate) planner: Planner,
+    pub(crate) monitor: Monitor<2>,
+    pub(crate) period_us: u64,
+    /// Where the real power changes, in nm, and from there on its parts per thousand of the modelled one.
+    /// *Invariant:* sorted, strictly rising, the first one at 0.
+    pub(crate) segments: Vec<(u64, u64)>,
+    pub(crate) faults: Faults,
+    events: Vec<Pending>,
+}
+
+/// An event that waits for the robot.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Pending {
+    /// In nm.
+    pub(crate) x_nm: u64,
+    pub(crate) kind: EventKind,
+    /// The index of the random event that it comes from.
+    pub(crate) random: Option<usize>,
+}
+
+/// Why a mission cannot be made ready.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SetupError {
+    /// The monitor period is zero.
+    ZeroPeriod,
+    /// The random events would take more than [`MAX_DRAWS`] draws.
+    TooManyDraws {
+        /// So many.
+        draws: u64,
+    },
+    /// A limit is beyond [`MAX_AMOUNT`](cotama_core::monitor::MAX_AMOUNT).
+    LimitTooLarge(AmountOverflow),
+    /// The faults name a zone or a hardware that the mission does not have: they were read for another one.
+    ForeignFaults,
+}
+
+impl std::fmt::Display for SetupError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::ZeroPeriod => f.write_str("the monitor period is 0 ms; it must be at least 1 ms"),
+            Self::TooManyDraws { draws } => write!(
+                f,
+                "the random events need {draws} draws, at most {MAX_DRAWS} are made; name fewer of them"
+            ),
+            Self::LimitTooLarge(overflow) => write!(f, "a limit cannot be watched: {overflow}"),
+            Self::ForeignFaults => {
+                f.write_str("the faults name a zone or hardware that the mission does not have")
+            }
+        }
+    }
+}
+
+impl std::error::Error for SetupError {}
+
+impl<'m> Simulation<'m> {
+    /// Makes a mission ready. The seed of the options is not used here: it is given to each run.
+    ///
+    /// # Errors
+    /// A [`SetupError`] for a period of zero, too many random events, or faults of another mission.
+    pub fn new(mission: &'m Mission, options: &Options) -> Result<Self, SetupError> {
+        let faults = match &options.faults {
+            FaultChoice::Script => mission.run.faults.clone(),
+            FaultChoice::None => Faults::default(),
+            FaultChoice::Given { faults, .. } => faults.clone(),
+        };
+        let Millis(period_ms) = options.monitor_period.unwrap_or(mission.run.monitor_period);
+        if period_ms == 0 {
+            return Err(SetupError::ZeroPeriod);
+        }
+        if !belongs(&faults, mission) {
+            return Err(SetupError::ForeignFaults);
+        }
+        let draws = mission.path_length.0.div_ceil(1000).saturating_mul(faults.random.len() as u64);
+        if draws > MAX_DRAWS {
+            return Err(SetupError::TooManyDraws { draws });
+        }
+        let scenario = mission.scenario();
+        let mut monitor = Monitor::new(scenario.limits, scenario.order).map_err(SetupError::LimitTooLarge)?;
+        if let Some(upward) = options.upward {
+            monitor = monitor.with_upward(upward);
+        }
+        let activities = scenario.activities();
+        let mut simulation = Self {
+            mission,
+            whole: activities.iter().map(whole).collect(),
+            activities,
+            planner: options.planner,
+            monitor,
+            period_us: period_ms.saturating_mul(1000),
+            segments: segments(&faults, mission),
+            events: Vec::new(),
+            faults,
+        };
+        let scripted = simulation.faults.events.iter();
+        let pending = |x_mm: u64, kind| Pending { x_nm: x_mm.saturating_mul(NM_PER_MM), kind, random: None };
+        simulation.events = scripted.map(|event| pending(event.x.0, event.kind)).collect();
+        simulation.events.sort_by_key(|event| event.x_nm);
+        Ok(simulation)
+    }
+
+    /// The mission.
+    pub fn mission(&self) -> &'m Mission {
+        self.mission
+    }
+
+    /// The monitor period.
+    pub fn monitor_period(&self) -> Millis {
+        Millis(self.period_us / 1000)
+    }
+
+    /// Runs the mission, without a trace.
+    ///
+    /// # Errors
+    /// [`NoPlan`] when there is no plan at the start; nothing is run then.
+    pub fn run(&self, seed: u64) -> Result<Run, NoPlan> {
+        self.run_recorded(seed, &mut Silent)
+    }
+
+    /// Runs the mission and records what happens.
+    ///
+    /// # Errors
+    /// [`NoPlan`] when there is no plan at the start; nothing is run or recorded then.
+    pub fn run_recorded<R: Recorder>(&self, seed: u64, recorder: &mut R) -> Result<Run, NoPlan> {
+        let mut world = World::start(self, seed, recorder)?;
+        loop {
+            if let Some(run) = world.step(recorder) {
+                return Ok(run);
+            }
+        }
+    }
+
+    /// All hardware of the robot.
+    pub(crate) fn all_hardware(&self) -> Units {
+        self.mission.scenario().available
+    }
+
+    /// The events of a run, sorted by place; of equal places the scripted first, then the random ones in the
+    /// order of the file. Each random event is drawn from its own stream, named `event` and its name: for
+    /// each metre of path whether it happens there, then at which millimetre.
+    pub(crate) fn events(&self, seed: u64) -> Cow<'_, [Pending]> {
+        if self.faults.random.is_empty() {
+            return Cow::Borrowed(&self.events);
+        }
+        let streams = Streams::new(seed);
+        let mut events = self.events.clone();
+        let length = self.mission.path_length.0;
+        for (index, random) in self.faults.random.iter().enumerate() {
+            let mut stream = streams.stream(&format!("event {}", random.name));
+            for metre in (0..length).step_by(1000) {
+                if stream.below(1000) < u64::from(random.per_km) {
+                    let x_mm = metre + stream.below(1000);
+                    if x_mm < length {
+                        let x_nm = x_mm * NM_PER_MM;
+                        events.push(Pending { x_nm, kind: random.kind, random: Some(index) });
+                    }
+                }
+            }
+        }
+        events.sort_by_key(|event| event.x_nm);
+        Cow::Owned(events)
+    }
+}
+
+fn whole(activity: &Activity<'_>) -> Vec<Candidate<2>> {
+    let alternatives = activity.alternatives.iter().zip(0u16..);
+    alternatives.filter_map(|(it, id)| it.candidate(activity.whole(it), id)).collect()
+}
+
+fn belongs(faults: &Faults, mission: &Mission) -> bool {
+    let known = |kind: EventKind| match kind {
+        EventKind::Fault { hardware, .. } | EventKind::Repair { hardware, .. } => {
+            hardware < mission.hardware.len()
+        }
+        EventKind::Obstacle { .. } | EventKind::Odometry { .. } => true,
+    };
+    faults.power_errors.iter().all(|error| error.zone < mission.zones.len())
+        && faults.events.iter().all(|event| known(event.kind) && event.x <= mission.path_length)
+        && faults.random.iter().all(|random| known(random.kind))
+}
+
+/// The real power along the path. Zones are half-open, but the last place of the path belongs to the zones
+/// that end there; the errors of zones that overlap add up, and no power falls below zero.
+fn segments(faults: &Faults, mission: &Mission) -> Vec<(u64, u64)> {
+    let zone_ends = |index: usize| {
+        let zone = &mission.zones[index];
+        let end = if zone.x_end >= mission.path_length { u64::MAX } else { zone.x_end.0 };
+        (zone.x_start.0, end)
+    };
+    let errors: Vec<_> =
+        faults.power_errors.iter().map(|error| (zone_ends(error.zone), i64::from(error.permille))).collect();
+    let mut borders: Vec<u64> =
+        errors.iter().flat_map(|&((start, end), _)| [start, end]).chain([0]).collect();
+    borders.sort_unstable();
+    borders.dedup();
+    borders.retain(|&border| border < u64::MAX);
+    let factor = |x: u64| {
+        let inside = errors.iter().filter(|&&((start, end), _)| start <= x && x < end);
+        1000i64.saturating_add(inside.map(|&(_, permille)| permille).sum()).max(0).unsigned_abs()
+    };
+    borders.into_iter().map(|x| (x.saturating_mul(NM_PER_MM), factor(x))).collect()
+}

@@ -1,0 +1,98 @@
+//! The allocators behind one door, with their memory.
+
+use crate::options::{Aim, Planner};
+use cotama_core::allocation::{Allocator, Answer, Planned};
+use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::panorama::Panorama;
+use cotama_core::problem::Problem;
+use cotama_models::tables::ENERGY;
+
+/// Memory of the allocators; it grows to what a problem needs and is kept for the next.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Solver {
+    caps: Vec<[u32; 2]>,
+    sorted: Vec<u32>,
+    items: Vec<Item<2>>,
+    stages: Vec<Stage<2>>,
+    /// The plan found: the position of the chosen candidate of each activity.
+    pub(crate) plan: Vec<u16>,
+}
+
+/// A plan, in [`Solver::plan`], and who found it.
+pub(crate) struct Found {
+    pub(crate) planned: Planned<2>,
+    pub(crate) allocator: &'static str,
+}
+
+/// Why there is none.
+pub(crate) enum NotFound {
+    /// The least total found reachable on an axis.
+    Infeasible { axis: usize, least: u64 },
+    /// The search was cut short.
+    Unknown { steps: u64 },
+}
+
+impl Solver {
+    /// Looks for a plan.
+    pub(crate) fn solve(&mut self, planner: Planner, problem: &Problem<'_, 2>) -> Result<Found, NotFound> {
+        match planner {
+            Planner::Panorama => self.panorama(problem),
+            Planner::PanoramaThenExact { steps } => match self.panorama(problem) {
+                Ok(found) => Ok(found),
+                Err(_) => self.exact(problem, &[Objective::Most(problem.order()[1])], steps),
+            },
+            Planner::Exact { aim: Aim::Quality, steps } => {
+                self.exact(problem, &[Objective::MostQuality, Objective::Least(ENERGY)], steps)
+            }
+            Planner::Exact { aim: Aim::MinEnergy, steps } => {
+                self.exact(problem, &[Objective::Least(ENERGY), Objective::MostQuality], steps)
+            }
+        }
+    }
+
+    fn panorama(&mut self, problem: &Problem<'_, 2>) -> Result<Found, NotFound> {
+        let activities = problem.activities();
+        let widest = activities.iter().map(|candidates| candidates.len()).max().unwrap_or(0);
+        at_least(&mut self.caps, activities.len(), [0; 2]);
+        at_least(&mut self.sorted, widest, 0);
+        at_least(&mut self.plan, activities.len(), 0);
+        let mut rule = Panorama::new(&mut self.caps, &mut self.sorted);
+        found(&mut rule, "panorama", problem, &mut self.plan)
+    }
+
+    fn exact(
+        &mut self,
+        problem: &Problem<'_, 2>,
+        objectives: &[Objective],
+        steps: u64,
+    ) -> Result<Found, NotFound> {
+        let activities = problem.activities();
+        let candidates = activities.iter().map(|candidates| candidates.len()).sum();
+        at_least(&mut self.items, candidates, Item::EMPTY);
+        at_least(&mut self.stages, activities.len(), Stage::EMPTY);
+        at_least(&mut self.plan, activities.len(), 0);
+        let mut search = Exact::new(objectives, steps, &mut self.items, &mut self.stages);
+        found(&mut search, "exact", problem, &mut self.plan)
+    }
+}
+
+fn at_least<T: Clone>(memory: &mut Vec<T>, needed: usize, empty: T) {
+    if memory.len() < needed {
+        memory.resize(needed, empty);
+    }
+}
+
+fn found<A: Allocator<2>>(
+    rule: &mut A,
+    allocator: &'static str,
+    problem: &Problem<'_, 2>,
+    plan: &mut [u16],
+) -> Result<Found, NotFound> {
+    match rule.allocate(problem, plan) {
+        Ok(Answer::Planned(planned)) => Ok(Found { planned, allocator }),
+        Ok(Answer::Infeasible { axis, least, .. }) => Err(NotFound::Infeasible { axis, least }),
+        Ok(Answer::Unknown { steps, .. }) => Err(NotFound::Unknown { steps }),
+        // Its memory was sized for this problem above.
+        Err(_) => Err(NotFound::Unknown { steps: 0 }),
+    }
+}

@@ -1,0 +1,366 @@
+//! What a run leaves behind: JSON lines, `cotama-trace/1`, enough to draw it and to run it again.
+//!
+//! The first line is the [`Header`], every other line one [`Record`], the last one its [`End`]. Every
+//! record says when (`t_us`, µs since the start) and where (`x_mm`, whole mm of path that are behind the
+//! robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
+
+use serde::{Deserialize, Serialize};
+
+mod read;
+mod replay;
+
+pub use read::{Limits, TraceError};
+pub use replay::{RecordError, Replayed, replay};
+
+/// The schema that a trace names in its header.
+pub const SCHEMA: &str = "cotama-trace/1";
+
+/// A whole trace.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trace {
+    /// What was run.
+    pub header: Header,
+    /// What happened, in the order of time; the last one is [`Record::End`].
+    pub records: Vec<Record>,
+    /// Whether it is written as this program writes traces, byte for byte: true for every trace that was
+    /// recorded, false for one read from a file with other spacing or fields unknown here.
+    pub canonical: bool,
+}
+
+/// What was run: enough to run it again.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Header {
+    /// [`SCHEMA`].
+    pub schema: String,
+    /// The version of the package that wrote the trace.
+    pub version: String,
+    /// The name of the mission's source: that of an embedded mission, or of a file.
+    pub mission_source: String,
+    /// The whole text of the mission file.
+    pub mission: String,
+    /// How it was run.
+    pub options: RunOptions,
+    /// The limits on duration and energy.
+    pub limits: Used,
+    /// The length of the path, in mm.
+    pub path_length_mm: u64,
+}
+
+/// How a mission was run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RunOptions {
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// What went wrong.
+    pub faults: RunFaults,
+    /// How often margins were checked, in ms.
+    pub monitor_period_ms: u64,
+    /// Who planned.
+    pub allocator: crate::options::Planner,
+    /// When better plans were looked for; never if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub upward: Option<RunUpward>,
+}
+
+/// The faults of a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "mode", rename_all = "snake_case")]
+pub enum RunFaults {
+    /// Those of the mission's own `[run]`.
+    Script,
+    /// None, and power as modelled.
+    None,
+    /// Those of a `panorama-faults/1` text.
+    File {
+        /// The name of its source.
+        source: String,
+        /// The whole text.
+        text: String,
+    },
+}
+
+/// When better plans are looked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct RunUpward {
+    /// How much a margin must have grown since the last plan; zero: not on this axis.
+    pub growth: Used,
+    /// What a better plan leaves unspent.
+    pub reserve: Used,
+}
+
+/// An amount on both axes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Used {
+    /// In ms.
+    pub duration_ms: u64,
+    /// In mJ.
+    pub energy_mj: u64,
+}
+
+/// A margin on both axes: limit less used less planned rest.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Margins {
+    /// In ms.
+    pub duration_ms: i64,
+    /// In mJ.
+    pub energy_mj: i64,
+}
+
+impl From<[u64; 2]> for Used {
+    fn from([duration_ms, energy_mj]: [u64; 2]) -> Self {
+        Self { duration_ms, energy_mj }
+    }
+}
+
+impl From<Used> for [u64; 2] {
+    fn from(used: Used) -> Self {
+        [used.duration_ms, used.energy_mj]
+    }
+}
+
+impl From<[i64; 2]> for Margins {
+    fn from([duration_ms, energy_mj]: [i64; 2]) -> Self {
+        Self { duration_ms, energy_mj }
+    }
+}
+
+/// One line of a trace after the header.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "record", rename_all = "snake_case")]
+pub enum Record {
+    /// A new plan is in force.
+    Plan(Box<Plan>),
+    /// An activity starts.
+    Activity(Activity),
+    /// The margins were checked.
+    Sample(Sample),
+    /// Something happened to the robot; written when it is over.
+    Event(Event),
+    /// The operator is asked.
+    Request(Request),
+    /// The mission is over.
+    End(End),
+}
+
+impl Record {
+    /// When it was written, in µs since the start.
+    pub fn t_us(&self) -> u64 {
+        match self {
+            Self::Plan(it) => it.t_us,
+            Self::Activity(it) => it.t_us,
+            Self::Sample(it) => it.t_us,
+            Self::Event(it) => it.t_us,
+            Self::Request(it) => it.t_us,
+            Self::End(it) => it.t_us,
+        }
+    }
+
+    /// Where it was written, in whole mm of path.
+    pub fn x_mm(&self) -> u64 {
+        match self {
+            Self::Plan(it) => it.x_mm,
+            Self::Activity(it) => it.x_mm,
+            Self::Sample(it) => it.x_mm,
+            Self::Event(it) => it.x_mm,
+            Self::Request(it) => it.x_mm,
+            Self::End(it) => it.x_mm,
+        }
+    }
+}
+
+/// A new plan: the resource allocation solution of what is left of the mission.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Plan {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// Why: `start`, `energy margin below zero`, `duration margin below zero`, `one laser lost` and the like,
+    /// `room for a better plan`.
+    pub cause: String,
+    /// The id of the first activity of the plan: the current one, or the next if it is just done.
+    pub first_activity: String,
+    /// The margins that the plan before would have had; none at the start.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub before: Option<Margins>,
+    /// The margins of this plan: limits less used less the sum of its rows.
+    pub after: Margins,
+    /// What was used so far.
+    pub used: Used,
+    /// One row an activity, from the first on.
+    pub plan: Vec<PlanRow>,
+    /// The work that planning took, in steps of the allocator.
+    pub steps: u64,
+    /// The allocator that found the plan: `panorama` or `exact`.
+    pub allocator: String,
+    /// What would be left at each safe end if the robot went there the most expensive way.
+    pub return_margin: ReturnMargin,
+}
+
+/// One activity of a plan.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PlanRow {
+    /// The id of the activity.
+    pub activity: String,
+    /// The implementation alternative, as `M5 L2`.
+    pub choice: String,
+    /// The speed; zero when the activity does not travel.
+    pub speed_mm_s: u64,
+    /// The planned duration of what is left of the activity.
+    pub duration_ms: u64,
+    /// The planned energy of what is left of the activity.
+    pub energy_mj: u64,
+}
+
+/// The margins left at the safe ends of the mission, by the most expensive available way; below zero,
+/// reaching that end is not guaranteed. None if the available hardware offers no way.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct ReturnMargin {
+    /// Going on to the end of the mission, activities included.
+    pub end: Option<Margins>,
+    /// Travelling back to the start.
+    pub start: Option<Margins>,
+}
+
+/// An activity starts.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Activity {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// Its id.
+    pub activity: String,
+    /// The implementation alternative, as `M5 L2`.
+    pub choice: String,
+    /// The speed; zero when it does not travel.
+    pub speed_mm_s: u64,
+}
+
+/// The margins were checked: every period, after every event, at every new activity. Another sample follows
+/// every plan, with the margins and the power under it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Sample {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// What was used so far, rounded half up.
+    pub used: Used,
+    /// The margins under the plan in force.
+    pub margins: Margins,
+    /// The planned power, in mW.
+    pub planned_power_mw: u64,
+    /// The real power, rounded half up, in mW.
+    pub real_power_mw: u64,
+    /// The speed, in mm/s; zero when the activity does not travel.
+    pub speed_mm_s: u64,
+}
+
+/// Something happened to the robot.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Event {
+    /// When it was over, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// What.
+    pub event: Happening,
+    /// The name of the random event that it comes from; none for those with a given place.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub random: Option<String>,
+    /// The time that it took, in µs.
+    pub lost_us: u64,
+}
+
+/// What happened.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum Happening {
+    /// Something stood in the way.
+    Obstacle {
+        /// The time lost.
+        delay_ms: u64,
+    },
+    /// Hardware failed.
+    Fault {
+        /// Its name.
+        hardware: String,
+        /// The units that were lost: no more than there were.
+        units_lost: u8,
+        /// The units that still work.
+        units_left: u8,
+    },
+    /// Hardware works again.
+    Repair {
+        /// Its name.
+        hardware: String,
+        /// The units that came back: no more than were missing.
+        units_back: u8,
+        /// The units that work now.
+        units_left: u8,
+    },
+    /// The position was wrong.
+    Odometry {
+        /// The additional path.
+        extra_mm: u64,
+    },
+}
+
+/// The operator is asked, since no plan was found.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Request {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// Why a plan was needed, worded as in [`Plan::cause`].
+    pub cause: String,
+    /// Why there is none.
+    pub reason: String,
+}
+
+/// How a mission ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// All activities are done, within the limits.
+    Completed,
+    /// The robot stopped and asked its operator.
+    Safe,
+    /// All activities are done, but a limit is exceeded.
+    Failed,
+}
+
+impl Outcome {
+    /// Its name in traces and answers: `completed`, `safe`, `failed`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Safe => "safe",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// The mission is over.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct End {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// How.
+    pub outcome: Outcome,
+    /// Why it is not completed; none if it is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    /// Limits less used: nothing is planned any more.
+    pub margins: Margins,
+    /// What was used.
+    pub used: Used,
+    /// How many plans there were after the first.
+    pub replans: u64,
+    /// How often the operator was asked.
+    pub operator_requests: u64,
+}

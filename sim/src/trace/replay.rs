@@ -1,0 +1,151 @@
+//! Recording a run, and running a recorded one again.
+
+use super::{Header, RunFaults, RunOptions, RunUpward, SCHEMA, Trace};
+use crate::faults_text::faults_text;
+use crate::options::{FaultChoice, Options};
+use crate::run::{NoPlan, Run};
+use crate::setup::{SetupError, Simulation};
+use cotama_core::monitor::Upward;
+use cotama_core::units::Millis;
+use cotama_models::diagnostic::MissionErrors;
+use cotama_models::faults::Faults;
+use cotama_models::mission::Mission;
+use std::fmt;
+
+/// Why a recorded run cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RecordError {
+    /// The mission or the faults have errors.
+    Text(MissionErrors),
+    /// The run cannot be set up.
+    Setup(SetupError),
+    /// There is no plan at the start.
+    Infeasible {
+        /// Why.
+        reason: NoPlan,
+        /// The same in words.
+        text: String,
+    },
+}
+
+impl fmt::Display for RecordError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Text(errors) => errors.fmt(f),
+            Self::Setup(error) => error.fmt(f),
+            Self::Infeasible { text, .. } => write!(f, "infeasible from the start: {text}"),
+        }
+    }
+}
+
+impl std::error::Error for RecordError {}
+
+/// A run made again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Replayed {
+    /// What it came to this time.
+    pub run: Run,
+    /// The trace it left this time.
+    pub trace: Trace,
+    /// Whether that trace is the given one byte for byte, but for the version of the program.
+    pub identical: bool,
+}
+
+impl Trace {
+    /// Runs a mission from its text and records everything.
+    ///
+    /// # Errors
+    /// A [`RecordError`] for a text with errors, options that do not fit it, or no plan at the start.
+    ///
+    /// ```
+    /// use cotama_models::embedded;
+    /// use cotama_sim::{options::Options, trace::{Trace, replay}};
+    /// let patrol = embedded::mission("patrol").unwrap();
+    /// let (trace, run) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+    /// assert_eq!(run.replans, 3);
+    /// let read = Trace::parse("patrol.jsonl", &trace.to_json_lines()).unwrap();
+    /// assert!(replay(&read).unwrap().identical);
+    /// ```
+    pub fn record(mission_source: &str, text: &str, options: &Options) -> Result<(Self, Run), RecordError> {
+        let mission = Mission::parse(mission_source, text).map_err(RecordError::Text)?;
+        let simulation = Simulation::new(&mission, options).map_err(RecordError::Setup)?;
+        let mut records = Vec::new();
+        let run = simulation
+            .run_recorded(options.seed, &mut records)
+            .map_err(|reason| RecordError::Infeasible { reason, text: reason.text(&mission) })?;
+        let faults = match &options.faults {
+            FaultChoice::Script => RunFaults::Script,
+            FaultChoice::None => RunFaults::None,
+            FaultChoice::Given { source, faults } => {
+                RunFaults::File { source: source.clone(), text: faults_text(faults, &mission) }
+            }
+        };
+        let upward = options
+            .upward
+            .map(|Upward { growth, reserve }| RunUpward { growth: growth.into(), reserve: reserve.into() });
+        let header = Header {
+            schema: SCHEMA.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            mission_source: mission_source.into(),
+            mission: text.into(),
+            options: RunOptions {
+                seed: options.seed,
+                faults,
+                monitor_period_ms: simulation.monitor_period().0,
+                allocator: options.planner,
+                upward,
+            },
+            limits: mission.limits.into(),
+            path_length_mm: mission.path_length.0,
+        };
+        Ok((Self { header, records, canonical: true }, run))
+    }
+
+    /// The mission of this trace.
+    ///
+    /// # Errors
+    /// All errors of its text.
+    pub fn mission(&self) -> Result<Mission, MissionErrors> {
+        Mission::parse(&self.header.mission_source, &self.header.mission)
+    }
+
+    /// The options of this trace, for its mission.
+    ///
+    /// # Errors
+    /// All errors of the text of its faults.
+    pub fn options(&self, mission: &Mission) -> Result<Options, MissionErrors> {
+        let recorded = &self.header.options;
+        let faults = match &recorded.faults {
+            RunFaults::Script => FaultChoice::Script,
+            RunFaults::None => FaultChoice::None,
+            RunFaults::File { source, text } => {
+                let faults = Faults::parse(source, text, mission)?;
+                FaultChoice::Given { source: source.clone(), faults }
+            }
+        };
+        let upward = recorded
+            .upward
+            .map(|upward| Upward { growth: upward.growth.into(), reserve: upward.reserve.into() });
+        Ok(Options {
+            seed: recorded.seed,
+            faults,
+            monitor_period: Some(Millis(recorded.monitor_period_ms)),
+            planner: recorded.allocator,
+            upward,
+        })
+    }
+}
+
+/// Runs a recorded mission again, from nothing but its header, and compares.
+///
+/// # Errors
+/// A [`RecordError`] when the header is not that of a run that can be made.
+pub fn replay(trace: &Trace) -> Result<Replayed, RecordError> {
+    let mission = trace.mission().map_err(RecordError::Text)?;
+    let options = trace.options(&mission).map_err(RecordError::Text)?;
+    let header = &trace.header;
+    let (again, run) = Trace::record(&header.mission_source, &header.mission, &options)?;
+    let expected = Header { version: header.version.clone(), ..again.header.clone() };
+    let identical = trace.canonical && *header == expected && trace.records == again.records;
+    Ok(Replayed { run, trace: again, identical })
+}

@@ -1,0 +1,337 @@
+//! The robot on its mission: where it is, what it used, what it plans; one step after the other.
+//!
+//! *Exactness.* Time is counted in µs, positions in nm (mm/s times µs), energy in pJ (µW times µs), all without
+//! rounding, but that a leg ends at the first whole µs at which its end is reached. The monitor sees the time and
+//! the energy used, rounded half up to ms and mJ. The planned rest of the current activity is rounded as the
+//! mission files say: the duration of the rest of the way, half up to ms, and the energy that the modelled
+//! power takes in it, half up to mJ. A replan takes the rest of the way rounded up to mm.
+//!
+//! *Order.* On arrival at a place, first what happens there, with a check after each event, then the next
+//! activity, with a check as it starts. An event on the border of two activities happens at the end of the one
+//! that arrives. Hindrances are atomic: no check falls inside them.
+
+use crate::kernel::Queue;
+use crate::record::Recorder;
+use crate::run::{Cause, EventCounts, NoPlan, PlanMade, Reason, Run};
+use crate::setup::{NM_PER_MM, Pending, Simulation};
+use crate::solver::Solver;
+use crate::trace::Outcome;
+use cotama_core::hardware::Units;
+use cotama_core::monitor::Monitor;
+use cotama_models::tables::Alternative;
+use std::borrow::Cow;
+
+mod checks;
+mod happenings;
+mod planning;
+mod records;
+
+/// The most replans of a run; the robot stops safely when one more is asked for.
+pub const MAX_REPLANS: u64 = 10_000;
+/// The most checks of the margins in a run; the robot stops safely when one more is due.
+pub const MAX_CHECKS: u64 = 1_000_000;
+
+/// What comes next.
+#[derive(Clone, Copy, Debug)]
+enum Next {
+    /// The end of the leg: an event, a border, or the end of the activity.
+    Arrival,
+    /// A check of the margins.
+    Check,
+}
+
+/// What an activity does from here on: its alternative under the real power of this place.
+#[derive(Clone, Copy, Debug)]
+struct Leg {
+    alternative: Alternative,
+    /// The real power in µW.
+    real_uw: u64,
+}
+
+/// A robot on its mission. A clone goes on exactly as the original does.
+#[derive(Clone, Debug)]
+pub struct World<'s> {
+    simulation: &'s Simulation<'s>,
+    queue: Queue<Next>,
+    events: Cow<'s, [Pending]>,
+    next_event: usize,
+    time_us: u64,
+    energy_pj: u128,
+    x_nm: u64,
+    /// Where the current leg ends, in nm, if it travels.
+    leg_end_nm: u64,
+    /// What is left of the current activity, if it does not travel, in µs.
+    standing_us: u64,
+    /// Whether the current activity has not begun to take time; what does not travel is then replanned whole.
+    fresh: bool,
+    /// The current activity, and whether it is done (the next one starts after what happens here).
+    activity: usize,
+    done: bool,
+    leg: Leg,
+    segment: usize,
+    monitor: Monitor<2>,
+    available: Units,
+    /// The alternative of each activity.
+    choice: Vec<u16>,
+    /// For each activity, the planned cost and the needs from it on; one more element for the end.
+    rest: Vec<([u64; 2], Units)>,
+    solver: Solver,
+    /// The hardware that failed last, and how many units of it: what a request for it is about.
+    lost: (usize, u8),
+    checked_us: Option<u64>,
+    checks: u64,
+    counts: EventCounts,
+    plans: Vec<PlanMade>,
+    ended: Option<(Outcome, Option<Reason>)>,
+}
+
+impl<'s> World<'s> {
+    /// A robot at the start of its mission, with its first plan.
+    ///
+    /// # Errors
+    /// [`NoPlan`] when there is none.
+    pub fn start<R: Recorder>(
+        simulation: &'s Simulation<'s>,
+        seed: u64,
+        recorder: &mut R,
+    ) -> Result<Self, NoPlan> {
+        let count = simulation.activities.len();
+        let x_start = simulation.activities.first().map_or(0, |activity| activity.x_start.0);
+        let nothing = Alternative::standing(0, 0, Units::NONE, 0);
+        let mut world = Self {
+            simulation,
+            queue: Queue::new(),
+            events: simulation.events(seed),
+            next_event: 0,
+            time_us: 0,
+            energy_pj: 0,
+            x_nm: x_start * NM_PER_MM,
+            leg_end_nm: 0,
+            standing_us: 0,
+            fresh: true,
+            activity: 0,
+            done: false,
+            leg: Leg { alternative: nothing, real_uw: 0 },
+            segment: 0,
+            monitor: simulation.monitor,
+            available: simulation.all_hardware(),
+            choice: vec![0; count],
+            rest: vec![([0; 2], Units::NONE); count + 1],
+            solver: Solver::default(),
+            lost: (0, 0),
+            checked_us: None,
+            checks: 0,
+            counts: EventCounts::default(),
+            plans: Vec::new(),
+            ended: None,
+        };
+        world.find_segment();
+        world.plan(Cause::Start, None, recorder)?;
+        world.set_leg();
+        world.happen(recorder);
+        if world.ended.is_none() {
+            world.begin(recorder);
+        }
+        Ok(world)
+    }
+
+    /// Goes on to the next thing that happens; the result when the mission is over.
+    pub fn step<R: Recorder>(&mut self, recorder: &mut R) -> Option<Run> {
+        if self.ended.is_none() {
+            match self.queue.pop() {
+                Some((time_us, Next::Check)) => {
+                    self.advance(time_us);
+                    let plans = self.plans.len();
+                    self.check(recorder);
+                    if self.plans.len() > plans {
+                        self.schedule();
+                    } else if self.ended.is_none() {
+                        self.push_check();
+                    }
+                }
+                Some((time_us, Next::Arrival)) => {
+                    self.advance(time_us);
+                    self.arrive(recorder);
+                }
+                // An arrival always waits; without one there is nothing left to do.
+                None => self.finish(),
+            }
+        }
+        let (outcome, reason) = self.ended?;
+        let run = self.result(outcome, reason);
+        if R::WANTED {
+            recorder.record(self.end_record(&run));
+        }
+        Some(run)
+    }
+
+    /// The time since the start, in µs.
+    pub fn time_us(&self) -> u64 {
+        self.time_us
+    }
+
+    /// The position, in nm of path.
+    pub fn x_nm(&self) -> u64 {
+        self.x_nm
+    }
+
+    /// The energy used, in pJ.
+    pub fn energy_pj(&self) -> u128 {
+        self.energy_pj
+    }
+
+    /// The hardware that works.
+    pub fn available(&self) -> Units {
+        self.available
+    }
+
+    /// Lets time pass on the current leg.
+    fn advance(&mut self, time_us: u64) {
+        let passed = time_us.saturating_sub(self.time_us);
+        if passed == 0 {
+            return;
+        }
+        self.fresh = false;
+        self.time_us = time_us;
+        self.take(passed, self.leg.real_uw);
+        if self.travels() {
+            let way = self.leg.alternative.speed.0.saturating_mul(passed);
+            self.x_nm = self.x_nm.saturating_add(way).min(self.leg_end_nm);
+        } else {
+            self.standing_us = self.standing_us.saturating_sub(passed);
+        }
+    }
+
+    fn take(&mut self, us: u64, power_uw: u64) {
+        self.energy_pj = self.energy_pj.saturating_add(u128::from(us) * u128::from(power_uw));
+    }
+
+    fn travels(&self) -> bool {
+        self.simulation.activities[self.activity].travels()
+    }
+
+    fn end_nm(&self) -> u64 {
+        self.simulation.activities[self.activity].x_end.0 * NM_PER_MM
+    }
+
+    /// The end of a leg is reached.
+    fn arrive<R: Recorder>(&mut self, recorder: &mut R) {
+        self.done = if self.travels() { self.x_nm >= self.end_nm() } else { self.standing_us == 0 };
+        self.find_segment();
+        self.happen(recorder);
+        if self.ended.is_some() {
+            return;
+        }
+        if !self.done {
+            self.set_leg();
+            self.schedule();
+        } else if self.activity + 1 < self.choice.len() {
+            self.activity += 1;
+            self.done = false;
+            self.fresh = true;
+            self.begin(recorder);
+        } else {
+            self.finish();
+        }
+    }
+
+    /// The current activity starts.
+    fn begin<R: Recorder>(&mut self, recorder: &mut R) {
+        self.set_leg();
+        if R::WANTED {
+            recorder.record(self.activity_record());
+        }
+        self.check(recorder);
+        if self.ended.is_none() {
+            self.schedule();
+        }
+    }
+
+    /// The alternative that is planned for an activity.
+    fn chosen(&self, activity: usize) -> Alternative {
+        self.simulation.activities[activity].alternatives[usize::from(self.choice[activity])]
+    }
+
+    fn real_uw(&self, alternative: &Alternative) -> u64 {
+        alternative.power.0.saturating_mul(self.simulation.segments[self.segment].1)
+    }
+
+    /// The current activity goes on from here as it is planned now.
+    fn set_leg(&mut self) {
+        let alternative = self.chosen(self.activity);
+        self.leg = Leg { alternative, real_uw: self.real_uw(&alternative) };
+        if self.fresh {
+            self.standing_us = alternative.duration.0.saturating_mul(1000);
+        }
+    }
+
+    /// The stretch of constant power error that holds this place.
+    fn find_segment(&mut self) {
+        let segments = &self.simulation.segments;
+        while segments.get(self.segment + 1).is_some_and(|&(start, _)| start <= self.x_nm) {
+            self.segment += 1;
+        }
+    }
+
+    /// Plans the end of the leg and the next check.
+    fn schedule(&mut self) {
+        self.queue.clear();
+        let left_us = if self.travels() {
+            let mut end = self.end_nm();
+            if let Some(event) = self.events.get(self.next_event) {
+                end = end.min(event.x_nm);
+            }
+            if let Some(&(border, _)) = self.simulation.segments.get(self.segment + 1) {
+                end = end.min(border);
+            }
+            self.leg_end_nm = end;
+            end.saturating_sub(self.x_nm).div_ceil(self.leg.alternative.speed.0.max(1))
+        } else {
+            self.standing_us
+        };
+        self.queue.push(self.time_us.saturating_add(left_us), 0, Next::Arrival);
+        self.push_check();
+    }
+
+    /// The next check: the next multiple of the period at which there was none.
+    fn push_check(&mut self) {
+        let period = self.simulation.period_us;
+        let mut next = self.time_us.div_ceil(period).saturating_mul(period);
+        if self.checked_us == Some(next) {
+            next = next.saturating_add(period);
+        }
+        self.queue.push(next, 1, Next::Check);
+    }
+
+    /// All activities are done.
+    fn finish(&mut self) {
+        self.account();
+        let margins = self.margins(&[0; 2]);
+        let order = self.simulation.mission.scenario().order;
+        self.ended = match order.into_iter().find(|&axis| margins[axis] < 0) {
+            Some(axis) => {
+                let by = margins[axis].unsigned_abs();
+                Some((Outcome::Failed, Some(Reason::LimitExceeded { axis, by })))
+            }
+            None => Some((Outcome::Completed, None)),
+        };
+    }
+
+    fn result(&mut self, outcome: Outcome, reason: Option<Reason>) -> Run {
+        self.account();
+        Run {
+            outcome,
+            reason,
+            replans: (self.plans.len() as u64).saturating_sub(1),
+            plans: std::mem::take(&mut self.plans),
+            operator_requests: u64::from(outcome == Outcome::Safe),
+            margins: self.margins(&[0; 2]),
+            used: self.monitor.used(),
+            time_us: self.time_us,
+            energy_pj: self.energy_pj,
+            x_mm: self.x_nm / NM_PER_MM,
+            events: self.counts,
+            checks: self.checks,
+        }
+    }
+}

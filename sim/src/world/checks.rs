@@ -1,0 +1,110 @@
+//! The checks of the margins, and what follows from them (rule 5 of the paper's algorithm).
+
+use super::{MAX_CHECKS, MAX_REPLANS, World};
+use crate::record::Recorder;
+use crate::run::{Cause, Reason};
+use crate::trace::Outcome;
+use cotama_core::hardware::Units;
+use cotama_core::monitor::{self, MAX_AMOUNT, Request};
+use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
+use cotama_models::tables::{DURATION, ENERGY};
+
+impl World<'_> {
+    /// Compares consumption with the plan, and replans when it no longer holds.
+    pub(super) fn check<R: Recorder>(&mut self, recorder: &mut R) {
+        if self.checks >= MAX_CHECKS {
+            let cause = self.plans.last().map_or(Cause::Start, |plan| plan.cause);
+            self.stop(cause, Reason::TooManyChecks, recorder);
+            return;
+        }
+        self.checks += 1;
+        self.checked_us = Some(self.time_us);
+        self.account();
+        let (rest, needs) = self.remaining();
+        let margins = self.margins(&rest);
+        if R::WANTED {
+            recorder.record(self.sample_record(margins));
+        }
+        let request = self.monitor.assess(&rest, needs, self.available);
+        match request {
+            Ok(Request::Keep) | Err(_) => {}
+            Ok(_) if self.first_remaining() == self.choice.len() => {}
+            Ok(Request::Up) => self.plan_upwards(&rest, margins, recorder),
+            Ok(Request::Down(cause)) => {
+                let cause = match cause {
+                    monitor::Cause::Margin { axis } => Cause::Margin { axis },
+                    monitor::Cause::Hardware => Cause::Hardware { hardware: self.lost.0, units: self.lost.1 },
+                };
+                if self.plans.len() as u64 > MAX_REPLANS {
+                    self.stop(cause, Reason::TooManyReplans, recorder);
+                } else if let Err(none) = self.plan(cause, Some(margins), recorder) {
+                    self.stop(cause, Reason::NoPlan(none), recorder);
+                }
+            }
+        }
+    }
+
+    /// Tells the monitor what was used.
+    pub(super) fn account(&mut self) {
+        let before = self.monitor.used();
+        let used = self.used();
+        // Both sides are at most MAX_AMOUNT, so this cannot be refused.
+        let _ = self.monitor.spend(&std::array::from_fn(|axis| used[axis].saturating_sub(before[axis])));
+    }
+
+    /// What was used, in ms and mJ, rounded half up; at most what the monitor can count.
+    pub(super) fn used(&self) -> [u64; 2] {
+        const PJ_PER_MJ: u64 = 1_000_000_000;
+        let energy_mj = match u64::try_from(self.energy_pj) {
+            Ok(pj) => mul_div_half_up(pj, 1, PJ_PER_MJ).unwrap_or(u64::MAX),
+            Err(_) => {
+                u64::try_from((self.energy_pj + 500_000_000) / u128::from(PJ_PER_MJ)).unwrap_or(u64::MAX)
+            }
+        };
+        let time_ms = mul_div_half_up(self.time_us, 1, 1000).unwrap_or(u64::MAX);
+        [time_ms.min(MAX_AMOUNT), energy_mj.min(MAX_AMOUNT)]
+    }
+
+    pub(super) fn margins(&self, rest: &[u64; 2]) -> [i64; 2] {
+        self.monitor.margins(rest).unwrap_or([i64::MIN; 2])
+    }
+
+    /// The first activity that is not done.
+    pub(super) fn first_remaining(&self) -> usize {
+        self.activity + usize::from(self.done)
+    }
+
+    /// The planned cost and the needs of what is left.
+    fn remaining(&self) -> ([u64; 2], Units) {
+        let first = self.first_remaining();
+        let (later, needs) = self.rest[(self.activity + 1).min(self.choice.len())];
+        if first > self.activity {
+            return (later, needs);
+        }
+        let alternative = &self.leg.alternative;
+        let duration = if self.travels() {
+            // nm over mm/s is µs; half up to ms.
+            mul_div_half_up(
+                self.end_nm().saturating_sub(self.x_nm),
+                1,
+                alternative.speed.0.saturating_mul(1000),
+            )
+        } else {
+            mul_div_half_up(self.standing_us, 1, 1000)
+        };
+        let duration = duration.unwrap_or(MAX_AMOUNT);
+        let energy = Millijoules::spent(alternative.power, Millis(duration)).map_or(MAX_AMOUNT, |it| it.0);
+        let mut cost = later;
+        cost[DURATION] = cost[DURATION].saturating_add(duration);
+        cost[ENERGY] = cost[ENERGY].saturating_add(energy);
+        (cost, needs.union(alternative.needs))
+    }
+
+    /// The operator is asked, and the robot stops.
+    fn stop<R: Recorder>(&mut self, cause: Cause, reason: Reason, recorder: &mut R) {
+        if R::WANTED {
+            recorder.record(self.request_record(cause, reason));
+        }
+        self.ended = Some((Outcome::Safe, Some(reason)));
+    }
+}

@@ -1,0 +1,208 @@
+//! How the robot plans what is left of its mission (rules 4 and 5 of the paper's algorithm).
+
+use super::{MAX_REPLANS, World};
+use crate::record::Recorder;
+use crate::run::{Cause, NoPlan, PlanMade};
+use crate::setup::NM_PER_MM;
+use crate::solver::NotFound;
+use crate::trace::Record;
+use cotama_core::hardware::Units;
+use cotama_core::monitor::worst;
+use cotama_core::problem::{Candidate, Problem};
+use cotama_core::units::{Millimetres, mul_div_half_up};
+use cotama_models::tables::{Activity, ENERGY, Rest};
+
+/// A plan for what is left, not yet in force.
+struct Proposal {
+    /// The alternative of each activity from the first on.
+    choice: Vec<u16>,
+    cost: [u64; 2],
+    quality: u64,
+    first_cost: [u32; 2],
+    steps: u64,
+    allocator: &'static str,
+    /// The most that any plan of what is left can cost; only for the record.
+    worst: [u64; 2],
+}
+
+impl World<'_> {
+    /// Plans within what is left of the limits, and goes by that plan from now on.
+    pub(super) fn plan<R: Recorder>(
+        &mut self,
+        cause: Cause,
+        before: Option<[i64; 2]>,
+        recorder: &mut R,
+    ) -> Result<(), NoPlan> {
+        let proposal = self.propose::<R>(self.monitor.left())?;
+        self.adopt(cause, before, proposal, recorder);
+        Ok(())
+    }
+
+    /// Plans within the room that an upward plan may use. The new plan comes into force if it has more quality
+    /// than the rest of the present one or, at equal quality, if it is higher on the axis treated last.
+    pub(super) fn plan_upwards<R: Recorder>(&mut self, rest: &[u64; 2], before: [i64; 2], recorder: &mut R) {
+        if self.plans.len() as u64 <= MAX_REPLANS
+            && let Ok(proposal) = self.propose::<R>(self.monitor.room())
+        {
+            let axis = self.simulation.mission.scenario().order.last().copied().unwrap_or(ENERGY);
+            let present = (self.planned_quality(), rest[axis]);
+            // A replan rounds the rest of the way up to whole mm, which alone is no improvement.
+            let differs = proposal.choice != self.choice[self.first_remaining()..];
+            if differs && (proposal.quality, proposal.cost[axis]) > present {
+                self.adopt(Cause::Room, Some(before), proposal, recorder);
+                return;
+            }
+        }
+        // Kept: the margins of now are what must grow before the next request.
+        let _ = self.monitor.planned(rest);
+    }
+
+    /// What is left of the current activity, if it is not done; none if it is whole.
+    fn rest_of_current(&self) -> Option<Rest> {
+        let activity = &self.simulation.activities[self.activity];
+        if self.fresh {
+            None
+        } else if activity.travels() {
+            let left_nm = self.end_nm().saturating_sub(self.x_nm);
+            Some(Rest::Travel(Millimetres(left_nm.div_ceil(NM_PER_MM))))
+        } else {
+            let left_ms = mul_div_half_up(self.standing_us, 1, 1000).unwrap_or(u64::MAX);
+            Some(Rest::Time(cotama_core::units::Millis(left_ms)))
+        }
+    }
+
+    /// Asks the planner for a plan of what is left within these limits.
+    fn propose<R: Recorder>(&mut self, limits: [u64; 2]) -> Result<Proposal, NoPlan> {
+        let simulation = self.simulation;
+        let first = self.first_remaining();
+        let everything = self.available == simulation.all_hardware();
+        // Candidates of the first activity if it is under way, and of those that lost hardware thins out.
+        let mut own: Vec<Option<Vec<Candidate<2>>>> = Vec::with_capacity(self.choice.len() - first);
+        for activity in first..self.choice.len() {
+            let alternatives = simulation.activities[activity].alternatives;
+            let works = |id: u16| self.available.covers(alternatives[usize::from(id)].needs);
+            let rest = if activity == self.activity { self.rest_of_current() } else { None };
+            own.push(match rest {
+                Some(rest) => Some(candidates(&simulation.activities[activity], rest, self.available)),
+                None if everything => None,
+                None => {
+                    let whole = simulation.whole[activity].iter();
+                    Some(whole.filter(|candidate| works(candidate.id)).copied().collect())
+                }
+            });
+        }
+        let lists: Vec<&[Candidate<2>]> = own
+            .iter()
+            .zip(&simulation.whole[first..])
+            .map(|(own, whole)| own.as_deref().unwrap_or(whole))
+            .collect();
+        if let Some(emptied) = lists.iter().position(|list| list.is_empty()) {
+            return Err(NoPlan::Emptied { activity: first + emptied });
+        }
+        let order = simulation.mission.scenario().order;
+        let Ok(problem) = Problem::new(&lists, limits, order) else {
+            // Lists were checked above, the order when the mission was read, the counts by their limits.
+            return Err(NoPlan::Unknown { steps: 0 });
+        };
+        let found = self.solver.solve(simulation.planner, &problem).map_err(|none| match none {
+            NotFound::Infeasible { axis, least } => {
+                NoPlan::Limit { axis, short: least.saturating_sub(limits[axis]) }
+            }
+            NotFound::Unknown { steps } => NoPlan::Unknown { steps },
+        })?;
+        let picked = lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]);
+        Ok(Proposal {
+            choice: picked.clone().map(|candidate| candidate.id).collect(),
+            first_cost: picked.clone().next().map_or([0; 2], |candidate| candidate.cost),
+            cost: found.planned.cost,
+            quality: found.planned.quality,
+            steps: found.planned.steps,
+            allocator: found.allocator,
+            worst: if R::WANTED { worst(&lists) } else { [0; 2] },
+        })
+    }
+
+    /// Goes by a plan from now on.
+    fn adopt<R: Recorder>(
+        &mut self,
+        cause: Cause,
+        before: Option<[i64; 2]>,
+        proposal: Proposal,
+        recorder: &mut R,
+    ) {
+        let first = self.first_remaining();
+        self.choice[first..].copy_from_slice(&proposal.choice);
+        for activity in (first..self.choice.len()).rev() {
+            let (mut cost, needs) = self.rest[activity + 1];
+            let id = usize::from(self.choice[activity]);
+            for (sum, &part) in cost.iter_mut().zip(&self.simulation.whole[activity][id].cost) {
+                *sum += u64::from(part);
+            }
+            self.rest[activity] = (cost, needs.union(self.chosen(activity).needs));
+        }
+        let after = self.margins(&proposal.cost);
+        let _ = self.monitor.planned(&proposal.cost);
+        if !self.done {
+            self.set_leg();
+        }
+        self.plans.push(PlanMade {
+            cause,
+            t_us: self.time_us,
+            x_mm: self.x_nm / NM_PER_MM,
+            first_activity: first,
+            choice: proposal.choice,
+            before,
+            after,
+            used: self.monitor.used(),
+            first_cost: proposal.first_cost,
+            steps: proposal.steps,
+            allocator: proposal.allocator,
+        });
+        if R::WANTED
+            && let Some(plan) = self.plans.last()
+        {
+            recorder.record(Record::Plan(Box::new(self.plan_record(plan, &proposal.worst))));
+            recorder.record(self.sample_record(after));
+        }
+    }
+
+    /// The quality of what is left of the present plan.
+    fn planned_quality(&self) -> u64 {
+        let first = self.first_remaining();
+        let quality = |activity: usize| {
+            let id = usize::from(self.choice[activity]);
+            let rest = if activity == self.activity { self.rest_of_current() } else { None };
+            let partial = rest.and_then(|rest| self.chosen(activity).quality_of(rest));
+            u64::from(partial.unwrap_or(self.simulation.whole[activity][id].quality))
+        };
+        (first..self.choice.len()).map(quality).sum()
+    }
+
+    /// The most that travelling back to the start can cost with the hardware that works; none if some part of the
+    /// way has no alternative.
+    pub(super) fn way_back(&self) -> Option<[u64; 2]> {
+        let mut total = [0u64; 2];
+        for activity in &self.simulation.activities[..=self.activity] {
+            let start_nm = activity.x_start.0 * NM_PER_MM;
+            let done_nm = (activity.x_end.0 * NM_PER_MM).min(self.x_nm).saturating_sub(start_nm);
+            if done_nm == 0 {
+                continue;
+            }
+            let way = Rest::Travel(Millimetres(done_nm.div_ceil(NM_PER_MM)));
+            let list = candidates(activity, way, self.available);
+            if list.is_empty() {
+                return None;
+            }
+            for (sum, part) in total.iter_mut().zip(worst(&[&list])) {
+                *sum += part;
+            }
+        }
+        Some(total)
+    }
+}
+
+/// The candidates of a rest with this hardware; one whose cost does not fit is none.
+fn candidates(activity: &Activity<'_>, rest: Rest, available: Units) -> Vec<Candidate<2>> {
+    let working = activity.alternatives.iter().zip(0u16..).filter(|(it, _)| available.covers(it.needs));
+    working.filter_map(|(it, id)| it.candidate(rest, id)).collect()
+}

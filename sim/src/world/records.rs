@@ -1,0 +1,138 @@
+//! What the robot tells the trace.
+
+use super::World;
+use crate::run::{Cause, PlanMade, Reason, Run};
+use crate::setup::{NM_PER_MM, Pending};
+use crate::trace::{
+    Activity, End, Event, Happening, Margins, Plan, PlanRow, Record, Request, ReturnMargin, Sample,
+};
+use cotama_core::units::mul_div_half_up;
+use cotama_models::faults::EventKind;
+use cotama_models::mission::Mission;
+
+impl PlanMade {
+    /// The plan in words and numbers: one row an activity. `mission` must be the mission that was run.
+    pub fn rows(&self, mission: &Mission) -> Vec<PlanRow> {
+        let activities = mission.scenario().activities.iter().skip(self.first_activity);
+        let rows = activities.zip(&self.choice).enumerate();
+        rows.filter_map(|(row, (activity, &id))| {
+            let alternative = activity.alternatives.get(usize::from(id))?;
+            let whole = alternative.cost(activity.table().whole(alternative))?;
+            let [duration, energy] = if row == 0 { self.first_cost } else { whole };
+            Some(PlanRow {
+                activity: activity.id.clone(),
+                choice: activity.labels.get(usize::from(id)).cloned().unwrap_or_default(),
+                speed_mm_s: alternative.speed.0,
+                duration_ms: u64::from(duration),
+                energy_mj: u64::from(energy),
+            })
+        })
+        .collect()
+    }
+}
+
+impl World<'_> {
+    fn x_mm(&self) -> u64 {
+        self.x_nm / NM_PER_MM
+    }
+
+    fn id(&self, activity: usize) -> String {
+        self.simulation
+            .mission
+            .scenario()
+            .activities
+            .get(activity)
+            .map_or_else(String::new, |it| it.id.clone())
+    }
+
+    pub(super) fn plan_record(&self, plan: &PlanMade, worst: &[u64; 2]) -> Plan {
+        let mission = self.simulation.mission;
+        let margins = |way: &[u64; 2]| self.monitor.return_margin(way).ok().map(Margins::from);
+        Plan {
+            t_us: plan.t_us,
+            x_mm: plan.x_mm,
+            cause: plan.cause.text(mission),
+            first_activity: self.id(plan.first_activity),
+            before: plan.before.map(Margins::from),
+            after: plan.after.into(),
+            used: plan.used.into(),
+            plan: plan.rows(mission),
+            steps: plan.steps,
+            allocator: plan.allocator.into(),
+            return_margin: ReturnMargin {
+                end: margins(worst),
+                start: self.way_back().and_then(|way| margins(&way)),
+            },
+        }
+    }
+
+    pub(super) fn activity_record(&self) -> Record {
+        let labels = &self.simulation.mission.scenario().activities[self.activity].labels;
+        let choice = usize::from(self.choice[self.activity]);
+        Record::Activity(Activity {
+            t_us: self.time_us,
+            x_mm: self.x_mm(),
+            activity: self.id(self.activity),
+            choice: labels.get(choice).cloned().unwrap_or_default(),
+            speed_mm_s: self.leg.alternative.speed.0,
+        })
+    }
+
+    pub(super) fn sample_record(&self, margins: [i64; 2]) -> Record {
+        Record::Sample(Sample {
+            t_us: self.time_us,
+            x_mm: self.x_mm(),
+            used: self.monitor.used().into(),
+            margins: margins.into(),
+            planned_power_mw: self.leg.alternative.power.0,
+            real_power_mw: mul_div_half_up(self.leg.real_uw, 1, 1000).unwrap_or(u64::MAX),
+            speed_mm_s: self.leg.alternative.speed.0,
+        })
+    }
+
+    pub(super) fn event_record(&self, pending: &Pending, units: u8, lost_us: u64) -> Record {
+        let name = |kind: usize| {
+            self.simulation.mission.hardware.get(kind).map_or_else(String::new, |it| it.name.clone())
+        };
+        let event = match pending.kind {
+            EventKind::Obstacle { delay } => Happening::Obstacle { delay_ms: delay.0 },
+            EventKind::Odometry { extra } => Happening::Odometry { extra_mm: extra.0 },
+            EventKind::Fault { hardware, .. } => Happening::Fault {
+                hardware: name(hardware),
+                units_lost: units,
+                units_left: self.available.of(hardware),
+            },
+            EventKind::Repair { hardware, .. } => Happening::Repair {
+                hardware: name(hardware),
+                units_back: units,
+                units_left: self.available.of(hardware),
+            },
+        };
+        let random = pending.random.and_then(|index| self.simulation.faults.random.get(index));
+        let random = random.map(|random| random.name.clone());
+        Record::Event(Event { t_us: self.time_us, x_mm: self.x_mm(), event, random, lost_us })
+    }
+
+    pub(super) fn request_record(&self, cause: Cause, reason: Reason) -> Record {
+        let mission = self.simulation.mission;
+        Record::Request(Request {
+            t_us: self.time_us,
+            x_mm: self.x_mm(),
+            cause: cause.text(mission),
+            reason: reason.text(mission),
+        })
+    }
+
+    pub(super) fn end_record(&self, run: &Run) -> Record {
+        Record::End(End {
+            t_us: run.time_us,
+            x_mm: run.x_mm,
+            outcome: run.outcome,
+            reason: run.reason.map(|reason| reason.text(self.simulation.mission)),
+            margins: run.margins.into(),
+            used: run.used.into(),
+            replans: run.replans,
+            operator_requests: run.operator_requests,
+        })
+    }
+}

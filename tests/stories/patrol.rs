@@ -1,0 +1,64 @@
+//! The patrol of the paper through the allocators.
+
+use super::allocators::{exact, panorama};
+use cotama_core::allocation::Answer;
+use cotama_core::exact::Objective;
+use cotama_core::front::{Front, Node};
+use cotama_core::problem::{Candidate, Problem};
+use cotama_models::embedded;
+use cotama_models::mission::Mission;
+use cotama_models::tables::{DURATION, EMPTY, ENERGY, buffer_sizes, remaining};
+
+/// Runs `story` on the allocation problem of the embedded patrol.
+fn with_patrol(story: impl Fn(&Problem<2>)) {
+    let text = embedded::mission("patrol").expect("the patrol is embedded").text;
+    let mission = Mission::parse("patrol", text).expect("it parses");
+    let scenario = mission.scenario();
+    let tables = scenario.activities();
+    let (candidates, lists) = buffer_sizes(&tables);
+    let mut candidates: Vec<Candidate<2>> = vec![EMPTY; candidates];
+    let mut lists: Vec<&[Candidate<2>]> = vec![&[]; lists];
+    let first = tables[0].whole(&tables[0].alternatives[0]);
+    let activities = remaining(&tables, first, scenario.available(), &mut candidates, &mut lists)
+        .expect("every activity has candidates");
+    story(&Problem::new(activities, scenario.limits, scenario.order).expect("a mission is a problem"));
+}
+
+fn best(problem: &Problem<2>, objective: Objective) -> ([u64; 2], u64) {
+    match exact(problem, &[objective], u64::MAX).0 {
+        Answer::Planned(planned) if planned.optimal => (planned.cost, planned.quality),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn the_rule_of_the_paper_gives_its_first_plan() {
+    with_patrol(|problem| {
+        assert_eq!(problem.combinations(), Some(768_288_795_144_192));
+        let plan = panorama(problem).expect("Table 6");
+        assert_eq!(problem.totals(&plan), Some(([527_924, 8_563_613], 19_190)));
+    });
+}
+
+#[test]
+fn the_best_plans_are_proven() {
+    with_patrol(|problem| {
+        assert_eq!(best(problem, Objective::Least(ENERGY)).0[ENERGY], 4_675_896);
+        assert_eq!(best(problem, Objective::Most(ENERGY)).0[ENERGY], 8_640_000);
+        assert_eq!(best(problem, Objective::MostQuality).1, 21_830);
+        let fastest = best(problem, Objective::Least(DURATION)).0[DURATION];
+        assert_eq!(fastest, problem.least(DURATION));
+    });
+}
+
+#[test]
+fn its_front_has_607_plans() {
+    with_patrol(|problem| {
+        let mut nodes = vec![Node::EMPTY; 200_000];
+        let mut front = Front::new(&mut nodes);
+        let plans = front.find(problem).expect("enough memory");
+        assert_eq!(plans.len(), 607);
+        let most = (0..plans.len()).filter_map(|index| plans.totals(index)).map(|(_, quality)| quality).max();
+        assert_eq!(most, Some(21_830));
+    });
+}
