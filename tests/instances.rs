@@ -4,7 +4,7 @@
 
 use cotama_core::problem::{Candidate, Problem};
 
-/// A small deterministic generator (SplitMix64: Steele, Lea, Flood, OOPSLA 2014).
+/// A small deterministic generator (`SplitMix64`: Steele, Lea, Flood, OOPSLA 2014).
 #[derive(Clone, Debug)]
 pub struct Draw(u64);
 
@@ -192,7 +192,7 @@ pub fn correlated(activities: usize, candidates: usize, correlation: Correlation
 #[must_use]
 pub fn small<const A: usize>(seed: u64) -> Instance<A> {
     let mut draw = Draw::new(seed);
-    let largest = [3, 10, 100, 1_000_000][draw.between(0, 3) as usize];
+    let largest = [3, 10, 100, 1_000_000, u64::from(u32::MAX)][draw.between(0, 4) as usize];
     let activities = (0..draw.between(1, 5))
         .map(|_| {
             (0..draw.between(1, 5))

@@ -1,3 +1,21 @@
-//! What the tests and benchmarks across the crates share: seeded problem instances.
+//! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol as one.
 
 pub mod instances;
+
+use cotama_core::problem::{Candidate, Problem};
+use cotama_models::patrol_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
+use cotama_models::tables::{EMPTY, buffer_sizes, remaining};
+
+/// Runs `story` on the allocation problem of the patrol, from its compiled tables.
+///
+/// # Panics
+/// When the compiled tables are not those of a mission.
+pub fn with_patrol<R>(story: impl FnOnce(&Problem<'_, 2>) -> R) -> R {
+    let (candidates, lists) = buffer_sizes(&ACTIVITIES);
+    let mut candidates: Vec<Candidate<2>> = vec![EMPTY; candidates];
+    let mut lists: Vec<&[Candidate<2>]> = vec![&[]; lists];
+    let first = ACTIVITIES[0].whole(&ACTIVITIES[0].alternatives[0]);
+    let activities = remaining(&ACTIVITIES, first, AVAILABLE, &mut candidates, &mut lists)
+        .expect("every activity of the patrol has candidates");
+    story(&Problem::new(activities, LIMITS, ORDER).expect("the patrol is a problem"))
+}

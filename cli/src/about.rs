@@ -6,38 +6,40 @@ use crate::exit::{Exit, Failure};
 use crate::mission;
 use crate::output::Screen;
 use clap::CommandFactory;
-use schemars::schema_for;
+use schemars::generate::SchemaSettings;
 
 /// `cotama table`: the tables of a mission as Rust source.
-pub(crate) fn table(args: &MissionArg, screen: &Screen) -> Result<Exit, Failure> {
+pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
     let loaded = mission::load(&args.mission)?;
-    screen.raw(loaded.mission.scenario().to_rust(&loaded.mission.name).as_bytes())?;
+    Screen::raw(loaded.mission.scenario().to_rust(&loaded.mission.name).as_bytes())?;
     Ok(Exit::Success)
 }
 
 /// `cotama schema`: the JSON schema of an answer.
-pub(crate) fn schema(args: &SchemaArgs, screen: &Screen) -> Result<Exit, Failure> {
+pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
+    // Of what is written, not of what could be read: a field that is always written is required.
+    let schemas = SchemaSettings::draft2020_12().for_serialize().into_generator();
     let schema = match args.command {
-        SchemaName::List => schema_for!(ListAnswer),
-        SchemaName::Plan => schema_for!(PlanAnswer),
-        SchemaName::Run => schema_for!(RunAnswer),
-        SchemaName::Allocate => schema_for!(AllocateAnswer),
-        SchemaName::Replay => schema_for!(ReplayAnswer),
+        SchemaName::List => schemas.into_root_schema_for::<ListAnswer>(),
+        SchemaName::Plan => schemas.into_root_schema_for::<PlanAnswer>(),
+        SchemaName::Run => schemas.into_root_schema_for::<RunAnswer>(),
+        SchemaName::Allocate => schemas.into_root_schema_for::<AllocateAnswer>(),
+        SchemaName::Replay => schemas.into_root_schema_for::<ReplayAnswer>(),
     };
-    screen.json(&schema)?;
+    Screen::json(&schema)?;
     Ok(Exit::Success)
 }
 
 /// `cotama completions`: a completion script.
-pub(crate) fn completions(args: &CompletionsArgs, screen: &Screen) -> Result<Exit, Failure> {
+pub(crate) fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "cotama", &mut script);
-    screen.raw(&script)?;
+    Screen::raw(&script)?;
     Ok(Exit::Success)
 }
 
 /// `cotama man`: a manual page.
-pub(crate) fn man(args: &ManArgs, screen: &Screen) -> Result<Exit, Failure> {
+pub(crate) fn man(args: &ManArgs) -> Result<Exit, Failure> {
     let mut program = Cli::command();
     program.build();
     let command = match &args.command {
@@ -50,6 +52,6 @@ pub(crate) fn man(args: &ManArgs, screen: &Screen) -> Result<Exit, Failure> {
     clap_mangen::Man::new(command)
         .render(&mut page)
         .map_err(|error| Failure::new(format!("the page cannot be made: {error}")))?;
-    screen.raw(&page)?;
+    Screen::raw(&page)?;
     Ok(Exit::Success)
 }

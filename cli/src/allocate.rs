@@ -17,7 +17,7 @@ use instance::Instance;
 
 /// Solves one allocation problem.
 pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let text = input::text(&args.instance, "instance", input::INSTANCE_BYTES)?;
+    let text = input::text(&args.instance, "an instance", input::INSTANCE_BYTES)?;
     let instance = Instance::parse(&args.instance, &text)?;
     drop(text);
     let slices: Vec<_> = instance.activities.iter().map(Vec::as_slice).collect();
@@ -51,9 +51,14 @@ pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Fai
         choice: solution.plan,
     };
     if args.json.json {
-        screen.json(&answer)?;
+        Screen::json(&answer)?;
     } else {
-        screen.print(&render::allocate::screen(&answer, problem.limits(), args.objective.name()))?;
+        screen.print(&render::allocate::screen(
+            &answer,
+            problem.limits(),
+            args.objective.name(),
+            screen.width(),
+        ))?;
     }
     if solution.verdict == Verdict::Missed {
         screen.note("the rule of PANORAMA found no plan, but there is one: leave out `--allocator panorama`");

@@ -69,7 +69,7 @@ pub(crate) struct PlanAnswer {
     pub(crate) energy_margin_mj: Option<i64>,
     /// No plan within the limits has more of the objective (less, for `min-energy`); none if nothing is proven.
     pub(crate) bound: Option<u64>,
-    /// The work done, in steps of the allocator.
+    /// The work done, in steps of the allocator; not counted for a front.
     pub(crate) steps: u64,
     /// For the objective `front`: all plans of which none is better in duration, energy and quality, by duration.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,11 +109,13 @@ pub(crate) struct PlanRow {
 }
 
 /// A plan of the front.
-#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, PartialOrd, Ord, Serialize)]
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct FrontRow {
     pub(crate) duration_ms: u64,
     pub(crate) energy_mj: u64,
     pub(crate) quality: u64,
+    /// For each activity the options taken together, as `M5 L2`.
+    pub(crate) choice: Vec<String>,
 }
 
 /// Why there is no plan.
@@ -137,10 +139,8 @@ pub(crate) struct Reason {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) gap: Option<u64>,
     /// The activities that need the most, the heaviest first.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) heaviest: Vec<Heavy>,
     /// What would make a plan possible, the smallest change first.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) relaxations: Vec<Relaxation>,
 }
 

@@ -72,9 +72,13 @@ Examples:
     Run(RunArgs),
     /// Solves a bare allocation problem, without a mission
     ///
-    /// The instance is a JSON object: {\"limits\":{\"duration_ms\":D,\"energy_mj\":E}, \"activities\":[[[quality,
-    /// duration_ms,energy_mj],...],...]}. One candidate is chosen for each activity; both sums are at most the limits.
+    /// One candidate is chosen for each activity, so that both sums are at most the limits. The instance is a JSON
+    /// object, as below; each candidate is a list of its quality, its duration and its energy.
     #[command(after_long_help = "\
+Instance:
+  {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},
+   \"activities\":[[[quality,duration_ms,energy_mj],...],...]}
+
 Examples:
   $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[3,5,8],[1,4,2]]]}' > small.json
   $ cotama allocate small.json --objective quality

@@ -11,7 +11,7 @@ pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
 /// The most bytes of a trace.
 pub(crate) const TRACE_BYTES: u64 = 256 << 20;
 
-/// The text of a file, or of standard input for `-`; `what` says what it should be, as `mission`.
+/// The text of a file, or of standard input for `-`; `what` says what it should be, as `a mission file`.
 pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure> {
     let mut bytes = Vec::new();
     let read = if path == "-" {
@@ -27,8 +27,8 @@ pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure
     let name = if path == "-" { "standard input" } else { path };
     read.map_err(|error| unreadable(name, what, &error))?;
     if bytes.len() as u64 > limit {
-        let message = format!("{name}: more than {} MiB, the most that is read of a {what}", limit >> 20);
-        return Err(Failure::new(message).help(format!("is this really a {what}?")));
+        let message = format!("{name}: too large: at most {} MiB are read of {what}", limit >> 20);
+        return Err(Failure::new(message).help(format!("is this really {what}?")));
     }
     String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
@@ -36,16 +36,17 @@ pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure
         Failure::new(format!(
             "{name}: not a text: the byte at offset {offset} is 0x{byte:02x}, which is not UTF-8"
         ))
-        .help(format!("a {what} is a text file in UTF-8"))
+        .help(format!("{what} is text in UTF-8"))
     })
 }
 
 fn unreadable(name: &str, what: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
-        ErrorKind::NotFound => Failure::new(format!("{name}: there is no such file"))
-            .help(format!("give the path of a {what} file")),
+        ErrorKind::NotFound => {
+            Failure::new(format!("{name}: there is no such file")).help(format!("give the path of {what}"))
+        }
         ErrorKind::IsADirectory => Failure::new(format!("{name}: this is a directory, not a file"))
-            .help(format!("give the path of a {what} file in it")),
+            .help(format!("give the path of {what} in it")),
         _ => Failure::new(format!("{name}: it cannot be read: {}", plain(error))),
     }
 }

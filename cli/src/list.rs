@@ -15,7 +15,7 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
     let answer =
         ListAnswer { schema: "cotama/list/1", missions, models: vec![], scenarios: vec![], maps: vec![] };
     if args.json.json {
-        screen.json(&answer)?;
+        Screen::json(&answer)?;
         return Ok(Exit::Success);
     }
     let mut text = String::new();

@@ -33,10 +33,10 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args, &screen),
         Command::Allocate(args) => allocate::allocate(&args, &screen),
         Command::Replay(args) => replay::replay(&args, &screen),
-        Command::Table(args) => about::table(&args, &screen),
-        Command::Schema(args) => about::schema(&args, &screen),
-        Command::Completions(args) => about::completions(&args, &screen),
-        Command::Man(args) => about::man(&args, &screen),
+        Command::Table(args) => about::table(&args),
+        Command::Schema(args) => about::schema(&args),
+        Command::Completions(args) => about::completions(&args),
+        Command::Man(args) => about::man(&args),
     };
     ended
         .unwrap_or_else(|failure| {

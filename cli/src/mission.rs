@@ -25,7 +25,7 @@ pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
     let text = match embedded::mission(name) {
         Some(known) => known.text.to_owned(),
         None if name != "-" && is_name(name) && !Path::new(name).exists() => return Err(unknown(name)),
-        None => input::text(name, "mission", input::MISSION_BYTES)?,
+        None => input::text(name, "a mission file", input::MISSION_BYTES)?,
     };
     let source = if name == "-" { "standard input" } else { name };
     let mission = Mission::parse(source, &text)?;

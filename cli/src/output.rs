@@ -48,14 +48,14 @@ impl Screen {
     }
 
     /// Writes one JSON object to standard output.
-    pub(crate) fn json(&self, answer: &impl Serialize) -> Result<(), Failure> {
+    pub(crate) fn json(answer: &impl Serialize) -> Result<(), Failure> {
         let text = serde_json::to_string_pretty(answer)
             .map_err(|error| Failure::new(format!("the answer cannot be written as JSON: {error}")))?;
-        self.raw(format!("{text}\n").as_bytes())
+        Self::raw(format!("{text}\n").as_bytes())
     }
 
     /// Writes to standard output as it is.
-    pub(crate) fn raw(&self, bytes: &[u8]) -> Result<(), Failure> {
+    pub(crate) fn raw(bytes: &[u8]) -> Result<(), Failure> {
         written(write_to(&mut io::stdout(), bytes))
     }
 

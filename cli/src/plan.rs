@@ -10,6 +10,7 @@ use crate::output::Screen;
 use crate::render;
 use crate::solve::{Method, Solution, Verdict, solve};
 use cotama_core::exact::Objective;
+use cotama_core::front::{Front, Node};
 use cotama_core::problem::{Candidate, Problem};
 use cotama_models::mission::Mission;
 use cotama_models::scenario::PlannedActivity;
@@ -20,7 +21,7 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
     let answer = answer(args, &loaded)?;
     if args.json.json {
-        screen.json(&answer)?;
+        Screen::json(&answer)?;
     } else {
         let words = mission::words(&args.mission.mission, &args.planning);
         screen.print(&render::plan::screen(&answer, &words, screen.width()))?;
@@ -75,11 +76,11 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
     let slices: Vec<_> = candidates.iter().map(Vec::as_slice).collect();
     if let Ok(problem) = Problem::new(&slices, scenario.limits, scenario.order) {
         if args.objective == Wanted::Front {
-            front(&mut answer, &problem, args.planning.steps)?;
+            front(&mut answer, mission, &problem);
         } else {
             let failed = |error: cotama_core::allocation::MemoryError| Failure::new(error.to_string());
             let solution = solve_for(args, &problem).map_err(failed)?;
-            fill(&mut answer, mission, &problem, &solution);
+            fill(&mut answer, mission, &problem, &solution, args.planning.steps);
         }
     }
     if answer.status == Status::Infeasible {
@@ -123,7 +124,13 @@ fn solve_for(
     solve(problem, method, args.planning.steps)
 }
 
-fn fill(answer: &mut PlanAnswer, mission: &Mission, problem: &Problem<'_, 2>, solution: &Solution) {
+fn fill(
+    answer: &mut PlanAnswer,
+    mission: &Mission,
+    problem: &Problem<'_, 2>,
+    solution: &Solution,
+    steps: u64,
+) {
     answer.status = solution.status();
     answer.bound = solution.bound();
     answer.steps = solution.steps;
@@ -155,8 +162,7 @@ fn fill(answer: &mut PlanAnswer, mission: &Mission, problem: &Problem<'_, 2>, so
         }
         Verdict::Unknown { .. } => {
             let text = format!(
-                "neither a plan nor the proof that there is none was found in {} steps: use more `--steps`",
-                solution.steps
+                "neither a plan nor the proof that there is none was found in {steps} steps: use more `--steps`"
             );
             answer.reason = Some(Reason { text, ..Reason::default() });
         }
@@ -175,8 +181,49 @@ fn plan_row(activity: &PlannedActivity, candidate: &Candidate<2>) -> Option<Plan
     })
 }
 
+/// The most partial plans that a search for a front may keep, and how many it is given at first.
+const MOST_NODES: usize = 1 << 20;
+const FIRST_NODES: usize = 1 << 16;
+
 /// All plans of which none is better in duration, energy and quality.
-fn front(answer: &mut PlanAnswer, problem: &Problem<'_, 2>, steps: u64) -> Result<(), Failure> {
-    let _ = (answer, problem, steps, Vec::<FrontRow>::new());
-    Err(Failure::new("the front of all plans is not there yet"))
+fn front(answer: &mut PlanAnswer, mission: &Mission, problem: &Problem<'_, 2>) {
+    let mut size = FIRST_NODES;
+    loop {
+        let mut nodes = vec![Node::EMPTY; size];
+        let mut front = Front::new(&mut nodes);
+        let plans = match front.find(problem) {
+            Ok(plans) => plans,
+            Err(_) if size < MOST_NODES => {
+                size *= 4;
+                continue;
+            }
+            Err(_) => {
+                let text =
+                    format!("the front needs more than {MOST_NODES} partial plans: too many to search");
+                answer.status = Status::Unknown;
+                answer.reason = Some(Reason { text, ..Reason::default() });
+                return;
+            }
+        };
+        let mut choice = vec![0; problem.activities().len()];
+        let rows = (0..plans.len()).filter_map(|index| {
+            let ([duration_ms, energy_mj], quality) = plans.totals(index)?;
+            plans.plan(index, &mut choice);
+            let choice = labels(mission, problem, &choice);
+            Some(FrontRow { duration_ms, energy_mj, quality, choice })
+        });
+        answer.front = Some(rows.collect());
+        answer.status = if plans.is_empty() { Status::Infeasible } else { Status::Optimal };
+        answer.allocator = (!plans.is_empty()).then_some("exact");
+        return;
+    }
+}
+
+fn labels(mission: &Mission, problem: &Problem<'_, 2>, choice: &[u16]) -> Vec<String> {
+    let rows = mission.scenario().activities.iter().zip(problem.activities()).zip(choice);
+    let label = |((activity, candidates), &place): ((&PlannedActivity, &&[Candidate<2>]), &u16)| {
+        let candidate = candidates.get(usize::from(place))?;
+        activity.labels.get(usize::from(candidate.id)).cloned()
+    };
+    rows.filter_map(label).collect()
 }

@@ -15,14 +15,14 @@ use cotama_sim::trace::{self, Trace};
 
 /// Runs a trace or faults again and compares.
 pub(crate) fn replay(args: &ReplayArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let text = input::text(&args.file, "trace", input::TRACE_BYTES)?;
+    let text = input::text(&args.file, "a trace", input::TRACE_BYTES)?;
     let (loaded, trace, run, identical) =
         if text.trim_start().starts_with('{') { again(&args.file, &text)? } else { twice(args, &text)? };
     let mut run_body = body(&trace, &run, &loaded.mission.name);
     write_files(args.report.as_deref(), args.trace.as_deref(), &trace, &mut run_body)?;
     let answer = ReplayAnswer { schema: "cotama/replay/1", identical, run: run_body };
     if args.json.json {
-        screen.json(&answer)?;
+        Screen::json(&answer)?;
     } else {
         let screen_text = render::run::screen(&answer.run, Some(&trace), &loaded.source, screen.width());
         screen.print(&(screen_text + &render::run::identical(identical)))?;

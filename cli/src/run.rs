@@ -13,6 +13,7 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::faults::{Event, EventKind, Faults};
 use cotama_models::mission::Mission;
 use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
+use cotama_sim::report;
 use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
 use std::path::{Path, PathBuf};
@@ -43,7 +44,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     write_files(report, args.trace.as_deref(), &trace, &mut body)?;
     let answer = RunAnswer { schema: "cotama/run/1", run: body };
     if args.json.json {
-        screen.json(&answer)?;
+        Screen::json(&answer)?;
     } else {
         let words = mission::words(&args.mission.mission, &args.planning);
         screen.print(&render::run::screen(&answer.run, Some(&trace), &words, screen.width()))?;
@@ -97,10 +98,13 @@ fn never_left(
     };
     let answer = RunAnswer { schema: "cotama/run/1", run: body };
     if args.json.json {
-        screen.json(&answer)?;
+        Screen::json(&answer)?;
     } else {
         let words = mission::words(&args.mission.mission, &args.planning);
         screen.print(&render::run::screen(&answer.run, None, &words, screen.width()))?;
+    }
+    if args.report.is_some() || args.trace.is_some() {
+        screen.note("nothing was run: neither a report nor a trace is written");
     }
     Ok(if matches!(reason, NoPlan::Unknown { .. }) { Exit::Unknown } else { Exit::Violated })
 }
@@ -113,10 +117,10 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         (Objective::MinEnergy, _) => Planner::Exact { aim: Aim::MinEnergy, steps },
         _ => Planner::Exact { aim: Aim::Quality, steps },
     };
-    // A better plan is looked for when a margin has grown by a fiftieth of its limit, and leaves half of that.
+    // A better plan is looked for when a margin has grown by a hundredth of its limit, and leaves half of that.
     let upward = Upward {
-        growth: mission.limits.map(|limit| (limit / 50).max(1)),
-        reserve: mission.limits.map(|limit| limit / 100),
+        growth: mission.limits.map(|limit| (limit / 100).max(1)),
+        reserve: mission.limits.map(|limit| limit / 200),
     };
     Ok(Options {
         seed: args.seed,
@@ -133,7 +137,7 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
         "script" => FaultChoice::Script,
         "none" => FaultChoice::None,
         path => {
-            let text = input::text(path, "file of faults", input::MISSION_BYTES)?;
+            let text = input::text(path, "a file of faults", input::MISSION_BYTES)?;
             FaultChoice::Given { source: path.into(), faults: Faults::parse(path, &text, mission)? }
         }
     };
@@ -153,7 +157,7 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
 
 /// Writes the report and the trace where they are wanted, and notes it in the answer.
 pub(crate) fn write_files(
-    report: Option<&Path>,
+    folder: Option<&Path>,
     trace_file: Option<&Path>,
     trace: &Trace,
     body: &mut RunBody,
@@ -162,9 +166,9 @@ pub(crate) fn write_files(
         output::file(path, trace.to_json_lines().as_bytes())?;
         body.trace = Some(path.display().to_string());
     }
-    if let Some(folder) = report {
+    if let Some(folder) = folder {
         let path = folder.join("index.html");
-        output::file(&path, html(trace)?.as_bytes())?;
+        output::file(&path, report::html(trace).as_bytes())?;
         body.report = Some(path.display().to_string());
     }
     Ok(())
@@ -175,9 +179,4 @@ fn default_folder(source: &str) -> PathBuf {
     let stem = Path::new(source).file_stem().and_then(|stem| stem.to_str()).unwrap_or("mission");
     let safe = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' };
     Path::new("report").join(stem.chars().map(safe).collect::<String>())
-}
-
-fn html(trace: &Trace) -> Result<String, Failure> {
-    let _ = trace;
-    Ok("<!doctype html>\n".into())
 }

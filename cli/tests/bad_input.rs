@@ -95,8 +95,11 @@ fn instances_that_are_none() {
         ("instance_pair", format!("{{{limits},\n \"activities\": [[[1,2]]]}}")),
         ("instance_four", format!("{{{limits},\n \"activities\": [[[1,2,3,4]]]}}")),
         ("instance_trailing", format!("{{{limits},\n \"activities\": []}} x")),
-        ("instance_many", format!("{{{limits},\n \"activities\": [{}]}}", ["[[1,1,1]]"; 65_536].join(","))),
-        ("instance_deep", "[".repeat(100_000)),
+        (
+            "instance_many",
+            format!("{{{limits},\n \"activities\": [{}]}}", vec!["[[1,1,1]]"; 65_536].join(",")),
+        ),
+        ("instance_deep", format!("{{\"x\": {}", "[".repeat(100_000))),
     ];
     for (name, text) in cases {
         folder.write("instance.json", text);

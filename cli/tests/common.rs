@@ -101,7 +101,10 @@ pub(crate) fn golden(name: &str, said: &str) {
 /// Compares with a stored file, or writes it.
 pub(crate) fn compare(path: &Path, said: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(path, said).unwrap();
+        // At once, since other tests may be reading it.
+        let new = path.with_extension(format!("{}.new", std::process::id()));
+        std::fs::write(&new, said).unwrap();
+        std::fs::rename(new, path).unwrap();
     } else {
         let stored = std::fs::read_to_string(path).unwrap_or_default();
         assert_eq!(stored, said, "{} differs; UPDATE_GOLDEN=1 writes it again", path.display());

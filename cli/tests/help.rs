@@ -21,7 +21,7 @@ fn every_example_runs_and_ends_as_it_says() {
         let examples = examples(&help.stdout);
         assert!(examples.len() >= 2, "`cotama {command} --help` has too few examples:\n{}", help.stdout);
         for example in examples {
-            let expected = if example.contains("exit code 1") { 1 } else { 0 };
+            let expected = i32::from(example.contains("exit code 1"));
             let ended = folder.shell(example);
             assert_eq!(ended.code, Some(expected), "{example}: {ended:?}");
             ran += 1;

@@ -11,6 +11,7 @@ pub mod faults_text;
 pub mod kernel;
 pub mod options;
 pub mod record;
+pub mod report;
 pub mod run;
 pub mod setup;
 mod solver;

@@ -1,11 +1,11 @@
 //! The allocators against plain transcriptions of what they promise.
 
 use cotama_core::allocation::{Allocator, Answer};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::front::{Front, Node};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
-use cotama_tests::instances::{Instance, small};
+use cotama_tests::instances::{Draw, Instance, Zones, paper_like, small};
 
 /// Every plan's choices, costs and quality.
 fn every_plan<const A: usize>(instance: &Instance<A>) -> Vec<(Vec<u16>, [u64; A], u64)> {
@@ -224,5 +224,98 @@ fn panorama_is_its_rules_on_20_000_small_problems() {
         let slices = instance.slices();
         let problem = instance.problem(&slices);
         assert_eq!(panorama(&problem), rules_of_the_paper(&problem), "seed {seed}");
+    }
+}
+
+/// A problem over two axes written as (duration, energy) pairs.
+fn pairs(activities: &[&[[u32; 2]]], limits: [u64; 2]) -> Instance<2> {
+    let candidate = |(id, &cost): (usize, &[u32; 2])| Candidate { cost, quality: 0, id: id as u16 };
+    Instance {
+        activities: activities.iter().map(|c| c.iter().enumerate().map(candidate).collect()).collect(),
+        limits,
+    }
+}
+
+/// Whether the rule of the paper finds a plan with the axes in this order.
+fn rule_finds(instance: &Instance<2>, order: [usize; 2]) -> bool {
+    let slices = instance.slices();
+    panorama(&Problem::new(&slices, instance.limits, order).unwrap()).is_some()
+}
+
+fn exact_finds(instance: &Instance<2>) -> bool {
+    let slices = instance.slices();
+    matches!(exact(&instance.problem(&slices), &[], u64::MAX).0, Answer::Planned(_))
+}
+
+#[test]
+fn the_rule_misses_plans_that_the_exact_allocator_finds() {
+    let one_order = pairs(&[&[[5, 1], [1, 2]], &[[5, 1], [1, 10]]], [6, 3]);
+    assert_eq!((rule_finds(&one_order, [0, 1]), rule_finds(&one_order, [1, 0])), (false, true));
+    assert!(exact_finds(&one_order));
+
+    let both_orders = pairs(&[&[[1, 3], [2, 5]], &[[1, 5], [4, 1], [3, 2]]], [4, 5]);
+    assert_eq!((rule_finds(&both_orders, [0, 1]), rule_finds(&both_orders, [1, 0])), (false, false));
+    assert!(exact_finds(&both_orders));
+}
+
+#[test]
+fn random_problems_have_more_plans_that_the_rule_misses_and_none_the_other_way() {
+    let (mut missed, mut missed_in_both_orders) = (0, 0);
+    for seed in 0..20_000 {
+        let instance = small::<2>(seed);
+        let found = [rule_finds(&instance, [0, 1]), rule_finds(&instance, [1, 0])];
+        if exact_finds(&instance) {
+            missed += u32::from(!found[0]);
+            missed_in_both_orders += u32::from(found == [false, false]);
+        } else {
+            assert_eq!(found, [false, false], "seed {seed}: a plan that is none");
+        }
+    }
+    assert_eq!((missed, missed_in_both_orders), (1497, 344));
+}
+
+/// The documented promise to firmware: 17 activities within 100,000 steps and this memory. Most missions are proven
+/// with far fewer; the others end with a plan and a bound.
+#[test]
+fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
+    let (mut proven, mut worst_gap, mut steps) = (0, 0, Vec::new());
+    for seed in 0..10_000 {
+        let mut draw = Draw::new(seed);
+        let zones = [Zones::Varied, Zones::Three][draw.between(0, 1) as usize];
+        let instance = paper_like(17, zones, [draw.between(0, 1000), draw.between(0, 1000)], seed);
+        let slices = instance.slices();
+        let problem = instance.problem(&slices);
+        let (mut items, mut stages, mut seen) =
+            ([Item::EMPTY; 17 * 21], [Stage::EMPTY; 17], [Seen::EMPTY; 4096]);
+        let mut plan = [0; 17];
+        let mut exact =
+            Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages).with_memory(&mut seen);
+        let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else { panic!("seed {seed}") };
+        let bound = planned.bound.expect("the exact allocator proves one");
+        proven += u32::from(planned.optimal);
+        worst_gap = worst_gap.max((bound - planned.quality) * 1000 / bound);
+        assert!(planned.steps <= 100_000);
+        steps.push(planned.steps);
+    }
+    steps.sort_unstable();
+    // Of 10,000: proven best, the worst gap in permille, the median and the 90th percentile of the steps.
+    assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9838, 26, 762, 9928));
+    assert_eq!((size_of::<Item<2>>(), size_of::<Stage<2>>(), size_of::<Seen<2>>()), (32, 120, 40));
+}
+
+/// The paper's rule looks at each candidate a fixed number of times: its steps have a proven bound.
+#[test]
+fn the_rule_takes_at_most_five_looks_at_each_candidate() {
+    for seed in 0..10_000 {
+        let instance = paper_like(17, Zones::Three, [seed % 1000, 999 - seed % 1000], seed);
+        let slices = instance.slices();
+        let problem = instance.problem(&slices);
+        let (mut caps, mut sorted, mut plan) = ([[0; 2]; 17], [0; 21], [0; 17]);
+        let steps = match Panorama::new(&mut caps, &mut sorted).allocate(&problem, &mut plan) {
+            Ok(Answer::Planned(planned)) => planned.steps,
+            Ok(Answer::Infeasible { steps, .. }) => steps,
+            other => panic!("seed {seed}: {other:?}"),
+        };
+        assert!(steps <= 5 * slices.iter().map(|c| c.len() as u64).sum::<u64>(), "seed {seed}");
     }
 }

@@ -4,25 +4,9 @@ use super::allocators::{exact, panorama};
 use cotama_core::allocation::Answer;
 use cotama_core::exact::Objective;
 use cotama_core::front::{Front, Node};
-use cotama_core::problem::{Candidate, Problem};
-use cotama_models::embedded;
-use cotama_models::mission::Mission;
-use cotama_models::tables::{DURATION, EMPTY, ENERGY, buffer_sizes, remaining};
-
-/// Runs `story` on the allocation problem of the embedded patrol.
-fn with_patrol(story: impl Fn(&Problem<2>)) {
-    let text = embedded::mission("patrol").expect("the patrol is embedded").text;
-    let mission = Mission::parse("patrol", text).expect("it parses");
-    let scenario = mission.scenario();
-    let tables = scenario.activities();
-    let (candidates, lists) = buffer_sizes(&tables);
-    let mut candidates: Vec<Candidate<2>> = vec![EMPTY; candidates];
-    let mut lists: Vec<&[Candidate<2>]> = vec![&[]; lists];
-    let first = tables[0].whole(&tables[0].alternatives[0]);
-    let activities = remaining(&tables, first, scenario.available(), &mut candidates, &mut lists)
-        .expect("every activity has candidates");
-    story(&Problem::new(activities, scenario.limits, scenario.order).expect("a mission is a problem"));
-}
+use cotama_core::problem::Problem;
+use cotama_models::tables::{DURATION, ENERGY};
+use cotama_tests::with_patrol;
 
 fn best(problem: &Problem<2>, objective: Objective) -> ([u64; 2], u64) {
     match exact(problem, &[objective], u64::MAX).0 {

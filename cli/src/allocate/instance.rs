@@ -2,7 +2,7 @@
 
 use crate::exit::Failure;
 use cotama_core::problem::{Candidate, Problem};
-use serde::de::{Deserialize, Deserializer, Error, SeqAccess, Visitor};
+use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
 use std::marker::PhantomData;
 
@@ -27,8 +27,34 @@ struct Limits {
 }
 
 /// Quality, duration, energy.
-#[derive(serde::Deserialize)]
 struct Triple(u32, u32, u32);
+
+impl<'de> Deserialize<'de> for Triple {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct Three;
+
+        impl<'de> Visitor<'de> for Three {
+            type Value = Triple;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("a candidate [quality,duration_ms,energy_mj]")
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Triple, A::Error> {
+                let mut next = |before: usize| {
+                    list.next_element::<u32>()?.ok_or_else(|| A::Error::invalid_length(before, &Three))
+                };
+                let triple = Triple(next(0)?, next(1)?, next(2)?);
+                match list.next_element::<IgnoredAny>()? {
+                    None => Ok(triple),
+                    Some(_) => Err(A::Error::invalid_length(4, &self)),
+                }
+            }
+        }
+
+        deserializer.deserialize_seq(Three)
+    }
+}
 
 /// What a list is, and how long it may be.
 trait List {

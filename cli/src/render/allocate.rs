@@ -9,7 +9,7 @@ use std::fmt::Write;
 const SHOWN: usize = 200;
 
 /// The screen.
-pub(crate) fn screen(answer: &AllocateAnswer, limits: [u64; 2], objective: &str) -> String {
+pub(crate) fn screen(answer: &AllocateAnswer, limits: [u64; 2], objective: &str, width: usize) -> String {
     let mut text = format!("{}, {} steps\n", status(answer.status), grouped(&answer.steps.to_string()));
     if let (Some(quality), Some(duration), Some(energy)) =
         (answer.quality, answer.duration_ms, answer.energy_mj)
@@ -31,7 +31,7 @@ pub(crate) fn screen(answer: &AllocateAnswer, limits: [u64; 2], objective: &str)
         let _ = writeln!(text, "  bound     {side} {}{unit}", grouped(&bound.to_string()));
     }
     if let Some(reason) = &answer.reason {
-        text += &super::reason::reason(reason);
+        text += &super::reason::reason(reason, width);
     }
     text
 }

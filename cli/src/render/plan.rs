@@ -4,7 +4,7 @@ use super::numbers::{count, grouped, milli, short_metres};
 use super::reason::reason;
 use super::style::{BAD, FAINT, Families, GOOD, HEADING, NAME, NOTICE};
 use super::table::{Cell, Table};
-use crate::answers::{FrontRow, PlanAnswer, Status};
+use crate::answers::{FrontRow, PlanAnswer, Relaxation, Status};
 use std::fmt::Write;
 
 /// The most activities and plans of a front that are shown.
@@ -41,14 +41,17 @@ pub(crate) fn screen(answer: &PlanAnswer, name: &str, width: usize) -> String {
         (_, "paper") => String::new(),
         (_, objective) => format!(" for the objective {objective}"),
     };
-    let steps = grouped(&answer.steps.to_string());
-    let _ = writeln!(text, "\n{}{who} {FAINT}({steps} steps){FAINT:#}", status(answer.status));
+    let steps = match answer.steps {
+        0 => String::new(),
+        steps => format!(" {FAINT}({} steps){FAINT:#}", grouped(&steps.to_string())),
+    };
+    let _ = writeln!(text, "\n{}{who}{steps}", status(answer.status));
     text += &totals(answer);
     if let Some(rows) = &answer.front {
         text += &front(rows, width);
     }
     if let Some(why) = &answer.reason {
-        text += &reason(why);
+        text += &reason(why, width);
     }
     text += &next(answer, name);
     text
@@ -129,7 +132,7 @@ fn front(rows: &[FrontRow], width: usize) -> String {
     let shown = rows.len().min(SHOWN_FRONT);
     for place in 0..shown {
         let number = if shown > 1 { place * (rows.len() - 1) / (shown - 1) } else { 0 };
-        let row = rows[number];
+        let row = &rows[number];
         table.row(vec![
             Cell::faint((number + 1).to_string()),
             Cell::plain(milli(row.duration_ms.into(), 3, "")),
@@ -150,12 +153,13 @@ fn next(answer: &PlanAnswer, name: &str) -> String {
     let advice = match (answer.status, answer.objective) {
         (Status::Infeasible, _) => {
             let raised =
-                answer.reason.iter().flat_map(|reason| &reason.relaxations).find_map(|it| it.raised());
+                answer.reason.iter().flat_map(|reason| &reason.relaxations).find_map(Relaxation::raised);
             match raised {
                 Some(flags) => format!("cotama plan {name}{flags}"),
                 None => return String::new(),
             }
         }
+        (Status::Unknown, "front") => format!("cotama plan {name} --objective quality"),
         (Status::Unknown, _) => format!("cotama plan {name} --allocator exact --steps 1000000000"),
         (_, "paper") => format!("cotama plan {name} --objective quality"),
         _ => format!("cotama run {name}"),

@@ -27,7 +27,7 @@ pub(crate) fn screen(body: &RunBody, trace: Option<&Trace>, name: &str, width: u
     text += &events(body, width);
     if let Some(why) = &body.infeasible {
         text.push('\n');
-        text += &reason(why);
+        text += &reason(why, width);
     }
     text += &ending(body, name);
     text
@@ -59,13 +59,15 @@ fn headline(body: &RunBody, trace: Option<&Trace>) -> String {
         None => String::new(),
     };
     let reason = body.reason.as_ref().map_or_else(String::new, |reason| format!(" ({reason})"));
+    let way = match trace {
+        Some(_) => format!(" after {} and {}", metres(body.x_mm), seconds(body.duration_ms)),
+        None => " before it left".to_owned(),
+    };
     format!(
-        "{HEADING}{}{HEADING:#}, seed {}{faults}: {}{reason} after {} and {}\n",
+        "{HEADING}{}{HEADING:#}, seed {}{faults}: {}{way}{reason}\n",
         body.mission,
         body.seed,
         outcome(body.outcome),
-        metres(body.x_mm),
-        seconds(body.duration_ms),
     )
 }
 

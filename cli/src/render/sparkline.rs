@@ -9,18 +9,20 @@ const LEVELS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█
 /// Draws the least value of each of `width` equal parts of the time from 0 to `end`; values below zero are `!`.
 /// `samples` are times with values, in the order of time.
 pub(crate) fn sparkline(samples: &[(u64, i64)], end: u64, width: usize, style: Style) -> String {
-    let mut least: Vec<Option<i64>> = vec![None; width];
+    // The least value of each part, and its last one, with which a gap after it goes on.
+    let mut parts: Vec<Option<(i64, i64)>> = vec![None; width];
     for &(time, value) in samples {
-        let place = column(time, end, width);
-        least[place] = Some(least[place].map_or(value, |known| known.min(value)));
+        if let Some(part) = parts.get_mut(column(time, end, width)) {
+            *part = Some((part.map_or(value, |(least, _)| least.min(value)), value));
+        }
     }
     let most = samples.iter().map(|&(_, value)| value).max().unwrap_or(0).max(1);
     let mut text = String::new();
     let mut before = samples.first().map_or(0, |&(_, value)| value);
     let mut drawn = PLAIN;
-    for value in least {
-        let value = value.unwrap_or(before);
-        before = value;
+    for part in parts {
+        let (value, last) = part.unwrap_or((before, before));
+        before = last;
         let (letter, style) = if value < 0 { ('!', BAD) } else { (level(value, most), style) };
         if style != drawn {
             let _ = write!(text, "{drawn:#}{style}");
@@ -33,7 +35,9 @@ pub(crate) fn sparkline(samples: &[(u64, i64)], end: u64, width: usize, style: S
 }
 
 fn level(value: i64, most: i64) -> char {
-    let place = i128::from(value) * LEVELS.len() as i128 / (i128::from(most) + 1);
+    // Half up to the nearest level.
+    let (steps, most) = (LEVELS.len() as i128 - 1, i128::from(most));
+    let place = (2 * steps * i128::from(value) + most) / (2 * most);
     LEVELS[usize::try_from(place).unwrap_or(0).min(LEVELS.len() - 1)]
 }
 
@@ -68,8 +72,8 @@ mod tests {
         let drawn = |samples, end, width| {
             anstream::adapter::strip_str(&sparkline(samples, end, width, PLAIN)).to_string()
         };
-        assert_eq!(drawn(&samples, 39, 4), "▁▇▇!");
-        assert_eq!(drawn(&[(0, 5)], 0, 3), "▇▇▇");
+        assert_eq!(drawn(&samples, 39, 4), "▂▇▇!");
+        assert_eq!(drawn(&[(0, 5)], 0, 3), "███");
     }
 
     #[test]

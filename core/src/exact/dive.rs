@@ -24,8 +24,8 @@ pub(super) struct Dive<'d, const A: usize> {
     root: Point<A>,
     /// Number of this dive, so that what an earlier one has seen is not taken for its own.
     number: u32,
-    /// Whether nodes are noted in `seen`.
-    remembers: bool,
+    /// How much of `seen` is in use.
+    noted: usize,
 }
 
 /// What a partial plan leaves, the open activities at their best items.
@@ -72,15 +72,17 @@ impl<'d, const A: usize> Dive<'d, A> {
             levels: 0,
             root,
             number: 0,
-            remembers: false,
+            noted: 0,
         }
     }
 
-    /// Begins to note nodes. Easy problems end before it would pay.
-    pub(super) fn remember(&mut self) {
-        if !self.remembers {
-            self.seen.fill(Seen::EMPTY);
-            self.remembers = !self.seen.is_empty();
+    /// Notes nodes from now on, in room for those of a turn of this many steps: clearing more would cost more than
+    /// it saves, and easy problems end before any pays.
+    pub(super) fn remember(&mut self, steps: u64) {
+        let room = usize::try_from(steps.saturating_mul(2)).unwrap_or(usize::MAX).min(self.seen.len());
+        if room > self.noted {
+            self.noted = room;
+            self.seen[..room].fill(Seen::EMPTY);
         }
     }
 
@@ -247,14 +249,14 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// activities that are worth the same, the one with less slack in every row is not needed.
     #[inline]
     fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
-        if !self.remembers || depth + NOT_KEPT > self.levels {
+        if self.noted == 0 || depth + NOT_KEPT > self.levels {
             return false;
         }
         let worth =
             (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack)) >> self.frame.fraction;
-        let mixed = (worth as u64).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        let mixed = worth.cast_unsigned().wrapping_mul(0x9E37_79B9_7F4A_7C15)
             ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let place = (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.seen.len() as u128) >> 64;
+        let place = (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.noted as u128) >> 64;
         let seen = &mut self.seen[place as usize];
         let same = seen.dive == self.number && seen.depth == depth as u32 && seen.worth == worth;
         if same && seen.slack.minus(&point.slack).none_negative() {
@@ -296,29 +298,27 @@ impl<'d, const A: usize> Dive<'d, A> {
             } else {
                 level.cursor += 1;
             }
-            let level = *level;
-            let stage = self.stages[level.stage as usize];
-            let own = stage.items(self.items);
-            if level.cursor >= stage.count {
-                self.stages[level.stage as usize].current = 0;
+            let (at, cursor, base, before) = (level.stage as usize, level.cursor, level.base, level.point);
+            let (first, count) = (self.stages[at].first as usize, self.stages[at].count);
+            entering = false;
+            if cursor >= count {
+                self.stages[at].current = 0;
                 if depth == 0 {
                     return true;
                 }
                 depth -= 1;
-                entering = false;
                 continue;
             }
             // The item of the best plan first, then the others by rising loss.
-            let index = match level.cursor {
-                0 => level.base,
-                cursor if cursor <= level.base => cursor - 1,
+            let index = match cursor {
+                0 => base,
+                cursor if cursor <= base => cursor - 1,
                 cursor => cursor,
             };
-            let item = &own[index as usize];
-            entering = false;
-            if level.point.loss + item.loss > self.allowance() {
-                if level.cursor > 0 {
-                    self.stages[depth].level.cursor = stage.count; // the ones behind lose even more
+            let item = &self.items[first + index as usize];
+            if before.loss + item.loss > self.allowance() {
+                if cursor > 0 {
+                    self.stages[depth].level.cursor = count; // the ones behind lose even more
                 }
                 continue;
             }
@@ -326,9 +326,9 @@ impl<'d, const A: usize> Dive<'d, A> {
                 return false;
             }
             *left -= 1;
-            let next = level.point.exchange(&own[0], item);
+            let next = before.exchange(&self.items[first], item);
             if self.promising(depth + 1, &next) && !self.seen_before(depth + 1, &next) {
-                self.stages[level.stage as usize].current = index;
+                self.stages[at].current = index;
                 point = next;
                 depth += 1;
                 entering = true;

@@ -74,7 +74,7 @@ pub(super) fn load<const A: usize>(
             items[first + count] = Item {
                 cost: core::array::from_fn(|axis| candidate.cost[axis] - cheapest[axis]),
                 deficit: if floored { best_quality - candidate.quality } else { 0 },
-                value: (value(candidate, aim.objective) - least) as u32,
+                value: (value(candidate, aim.objective) - least).unsigned_abs() as u32,
                 loss: 0,
                 choice: choice as u16,
             };
@@ -105,7 +105,9 @@ pub(super) fn load<const A: usize>(
     };
     for row in 0..Rows::<A>::COUNT {
         if largest.get(row) > room.get(row) {
-            frame.most_multiplier.set(row, (1 << 60) / Rows::<A>::COUNT as i64 / largest.get(row));
+            frame
+                .most_multiplier
+                .set(row, (1 << 60) / (Rows::<A>::COUNT as u64).cast_signed() / largest.get(row));
         }
     }
     Some(frame)

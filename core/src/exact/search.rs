@@ -11,13 +11,13 @@ use super::rows::Rows;
 use super::{Budget, Item, REPRICINGS, Seen, Stage};
 
 /// Steps that the first dive may take before its turn ends; the next ones may take more.
-const FIRST_TURN: u64 = 10_000;
+const FIRST_TURN: u64 = 500;
 const LONGER: u64 = 3;
 /// How many activities are free in a neighbourhood, and how many nodes one may visit.
 const FREE: usize = 10;
 const NEIGHBOURHOOD: u64 = 10_000;
 /// Neighbourhoods without a better plan after which the dive has its turn again.
-const FRUITLESS: u64 = 1_000;
+const FRUITLESS: u64 = 200;
 
 /// Searches until the best plan meets the bound, nothing is left, or the budget is spent. Takes the value of the
 /// plan in [`Stage::best`], if there is one, and returns the new one and whether the search was complete.
@@ -62,8 +62,8 @@ pub(super) fn search<const A: usize>(
             neighbours(&mut dive, *bound, &mut round, budget, turn);
             best = Some(dive.target - 1);
         }
-        dive.remember();
         turn = turn.saturating_mul(LONGER);
+        dive.remember(turn);
     }
 }
 

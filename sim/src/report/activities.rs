@@ -99,7 +99,7 @@ fn row(
         *budget -= kept;
         table(html, activity, last);
     } else {
-        let _ = write!(html, "<p>Kept: {}</p>\n", escape(&activity.labels.join(", ")));
+        let _ = writeln!(html, "<p>Kept: {}</p>", escape(&activity.labels.join(", ")));
     }
     dropped(html, activity);
     html.push_str("</div></details>\n");

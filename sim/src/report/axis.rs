@@ -83,12 +83,16 @@ impl Layout {
 }
 
 /// A stop on the axis.
+///
+/// *Invariant:* of the bands of an axis, each lies behind the one before.
 struct Band {
     x_mm: u64,
     start_us: u64,
     end_us: u64,
     left: f64,
     width: f64,
+    /// The widths of all stops up to this one.
+    stopped: f64,
     reached: bool,
 }
 
@@ -124,32 +128,40 @@ impl Axis {
             let width = wish(stop) * shrink;
             let left = layout.left + stop.x_mm as f64 * per_mm + before;
             let &super::view::Stop { x_mm, start_us, end_us, reached, .. } = stop;
-            bands.push(Band { x_mm, start_us, end_us, left, width, reached });
             before += width;
+            bands.push(Band { x_mm, start_us, end_us, left, width, stopped: before, reached });
         }
         Self { left: layout.left, per_mm, bands, length_mm: view.length_mm, layout }
     }
 
+    /// Where a place is drawn, before what stops there, and what stops there.
+    fn find(&self, x_mm: u64) -> (f64, Option<&Band>) {
+        let next = self.bands.partition_point(|band| band.x_mm < x_mm);
+        let stopped = next.checked_sub(1).map_or(0.0, |last| self.bands[last].stopped);
+        let here = self.bands.get(next).filter(|band| band.x_mm == x_mm);
+        (self.left + x_mm as f64 * self.per_mm + stopped, here)
+    }
+
     /// Where a place is drawn, before what stops there.
     pub(super) fn before(&self, x_mm: u64) -> f64 {
-        let bands = self.bands.iter().take_while(|band| band.x_mm < x_mm);
-        self.left + x_mm as f64 * self.per_mm + bands.map(|band| band.width).sum::<f64>()
+        self.find(x_mm).0
     }
 
     /// Where a place is drawn, after what stops there.
     pub(super) fn after(&self, x_mm: u64) -> f64 {
-        let band = self.bands.iter().find(|band| band.x_mm == x_mm);
-        self.before(x_mm) + band.map_or(0.0, |band| band.width)
+        let (before, band) = self.find(x_mm);
+        before + band.map_or(0.0, |band| band.width)
     }
 
     /// Where a place is drawn at a time.
     pub(super) fn at(&self, x_mm: u64, t_us: u64) -> f64 {
-        let within = self.bands.iter().find(|band| band.x_mm == x_mm).map_or(0.0, |band| {
-            let passed = t_us.saturating_sub(band.start_us).min(band.end_us.saturating_sub(band.start_us));
-            let whole = band.end_us.saturating_sub(band.start_us).max(1);
-            passed as f64 / whole as f64 * band.width
+        let (before, band) = self.find(x_mm);
+        let within = band.map_or(0.0, |band| {
+            let whole = band.end_us.saturating_sub(band.start_us);
+            let passed = t_us.saturating_sub(band.start_us).min(whole);
+            passed as f64 / whole.max(1) as f64 * band.width
         });
-        self.before(x_mm) + within
+        before + within
     }
 
     /// Stops as bands from `top` to `bottom`.

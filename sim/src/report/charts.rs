@@ -3,7 +3,7 @@
 use super::axis::{Axis, Layout, NARROW, WIDE, tick_label, ticks};
 use super::format::milli;
 use super::series::{Point, Scale, below_zero, line, steps, thinned};
-use super::strip::draw_pins;
+use super::strip::{draw_end, draw_pins};
 use super::svg::{Svg, text_width};
 use super::view::View;
 use crate::trace::{Margins, Record};
@@ -167,6 +167,7 @@ fn draw(chart: &Chart<'_>, view: &View<'_>, layout: Layout) -> String {
     }
     axis.draw(&mut svg, bottom, bottom);
     draw_pins(&mut svg, &axis, view, 10.0, bottom);
+    draw_end(&mut svg, &axis, view, [top, bottom], None);
     for (class, points) in &chart.held {
         svg.path(&format!("line {class}"), &steps(&placed(points, &axis), scale));
     }
@@ -185,7 +186,11 @@ fn draw(chart: &Chart<'_>, view: &View<'_>, layout: Layout) -> String {
         }
     }
     if chart.margin.is_empty() && chart.held.iter().all(|(_, points)| points.is_empty()) {
-        svg.text("m small muted", [layout.width / 2.0, (top + bottom) / 2.0], "no samples in this trace");
+        svg.text(
+            "m small muted",
+            [layout.width / 2.0, f64::midpoint(top, bottom)],
+            "no samples in this trace",
+        );
     }
     let label = format!("{} in {} along the path", chart.title, chart.unit);
     svg.finish(layout.class, [layout.width, bottom + 22.0], &label)

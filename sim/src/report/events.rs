@@ -69,7 +69,7 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
     match record {
         Record::Event(it) => {
             let (kind, _, words) = short(it);
-            let origin = it.random.as_ref().map_or("given place".into(), |name| format!("random: {name}"));
+            let origin = it.random.as_ref().map_or(String::new(), |name| format!("random: {name}"));
             let lost = moment(it.lost_us);
             let words = words.trim_end_matches(&format!(", {lost} lost"));
             Some(Row { mark: mark(kind), words: capital(words), lost, origin })
@@ -101,7 +101,7 @@ pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from(
         "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr><th></th>\
          <th class=\"n\">Time</th><th class=\"n\">Place</th><th>What</th><th class=\"n\">Time lost</th>\
-         <th>Origin</th></tr></thead>\n<tbody>\n",
+         <th></th></tr></thead>\n<tbody>\n",
     );
     let mut plans = 0;
     let mut shown = 0;

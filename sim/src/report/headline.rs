@@ -33,7 +33,6 @@ fn outcome(outcome: Option<Outcome>) -> (&'static str, &'static str, &'static st
 fn sentence(view: &View<'_>) -> String {
     let Some(end) = view.end else { return "The trace breaks off before the end of the run.".into() };
     let reason = end.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
-    let replans = count(end.replans, "replan");
     match end.outcome {
         Outcome::Completed => {
             let number = view.activities.len() as u64;
@@ -42,15 +41,14 @@ fn sentence(view: &View<'_>) -> String {
             } else {
                 format!("All {} activities are", grouped(number.into()))
             };
-            format!("{all} done, within both limits, with {replans}.")
+            let replans = match end.replans {
+                0 => "without a replan".into(),
+                some => format!("after {}", count(some, "replan")),
+            };
+            format!("{all} done, within both limits, {replans}.")
         }
-        Outcome::Safe => {
-            format!(
-                "The robot stopped at {} and asked its operator, after {replans}{reason}.",
-                metres(end.x_mm)
-            )
-        }
-        Outcome::Failed => format!("A limit is exceeded after {replans}{reason}."),
+        Outcome::Safe => format!("The robot stopped at {} and asked its operator{reason}.", metres(end.x_mm)),
+        Outcome::Failed => format!("The run ended at {}{reason}.", metres(end.x_mm)),
     }
 }
 

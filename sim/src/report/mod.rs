@@ -1,9 +1,11 @@
 //! A run as one page: what was planned, what happened, what changed and why.
 //!
-//! The page is made from a [`Trace`] alone and needs nothing else: no network, no fonts, no scripts but one
-//! that opens everything for printing. Equal traces give equal bytes. It suits wide and narrow screens, light
-//! and dark ones, and paper. The table of plans follows Tables 6 and 7 of Lambert et al., J. Intell. Robot.
+//! The page is made from a [`Trace`] alone and needs nothing else: no network, no fonts, no scripts. Equal
+//! traces give equal bytes. It suits wide and narrow screens, light and dark ones, and paper; every drawing is
+//! there twice, for wide and for narrow, so that its text can be read. The table of plans follows Tables 6 and 7 of Lambert et al., J. Intell. Robot.
 //! Syst. 110, 2024.
+
+#![allow(clippy::cast_precision_loss)] // places on a page need no more than 52 bits
 
 use crate::options::{Aim, Planner};
 use crate::trace::{Header, Trace};
@@ -46,6 +48,15 @@ const MAX_CANDIDATES: usize = 2_000;
 ///
 /// Whatever the trace says is written as text. Parts that would make the page unwieldy are cut, and the page
 /// says so. A mission that cannot be read leaves out what only it tells.
+///
+/// ```
+/// use cotama_models::embedded;
+/// use cotama_sim::{options::Options, report, trace::Trace};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let (trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+/// let page = report::html(&trace);
+/// assert!(page.contains("All 17 activities are done, within both limits, after 3 replans."));
+/// ```
 pub fn html(trace: &Trace) -> String {
     let view = View::new(trace);
     let mut page = format!(
@@ -64,10 +75,7 @@ pub fn html(trace: &Trace) -> String {
     page.push_str(&activities::section(&view));
     page.push_str(&events::section(&view));
     footer(&mut page, &trace.header);
-    page.push_str(
-        "</main>\n<script>addEventListener(\"beforeprint\",()=>{for(const it of \
-         document.querySelectorAll(\"details\"))it.open=true})</script>\n</body>\n</html>\n",
-    );
+    page.push_str("</main>\n</body>\n</html>\n");
     page
 }
 

@@ -1,6 +1,7 @@
 //! Values along the run as paths: no more points than a screen can show.
 
 use super::svg::fixed;
+use std::fmt::Write;
 
 /// A point of a series: where it is drawn along the axis, and its value in thousandths.
 pub(super) type Point = (f64, i64);
@@ -56,24 +57,24 @@ pub(super) fn steps(points: &[Point], scale: Scale) -> String {
     let mut last = String::new();
     let Some(&(first_x, first_value)) = points.first() else { return path };
     let y = fixed(scale.y(first_value.into()));
-    path.push_str(&format!("M{} {y}", fixed(first_x)));
+    let _ = write!(path, "M{} {y}", fixed(first_x));
     let mut drawn = fixed(first_x);
     last.push_str(&y);
     for &(x, value) in &points[1..] {
         let (x, y) = (fixed(x), fixed(scale.y(value.into())));
         if y != last {
             if x != drawn {
-                path.push_str(&format!("H{x}"));
+                let _ = write!(path, "H{x}");
                 drawn = x;
             }
-            path.push_str(&format!("V{y}"));
+            let _ = write!(path, "V{y}");
             last = y;
         }
     }
     if let Some(&(x, _)) = points.last()
         && fixed(x) != drawn
     {
-        path.push_str(&format!("H{}", fixed(x)));
+        let _ = write!(path, "H{}", fixed(x));
     }
     path
 }
@@ -110,16 +111,16 @@ pub(super) fn below_zero(points: &[Point], scale: Scale) -> String {
         });
         if value < 0 {
             if !inside {
-                path.push_str(&format!("M{} {zero}", fixed(crossing)));
+                let _ = write!(path, "M{} {zero}", fixed(crossing));
             }
-            path.push_str(&format!("L{} {}", fixed(x), fixed(scale.y(value.into()))));
+            let _ = write!(path, "L{} {}", fixed(x), fixed(scale.y(value.into())));
         } else if inside {
-            path.push_str(&format!("L{} {zero}Z", fixed(crossing)));
+            let _ = write!(path, "L{} {zero}Z", fixed(crossing));
         }
         inside = value < 0;
     }
     if let (true, Some(&(x, _))) = (inside, points.last()) {
-        path.push_str(&format!("L{} {zero}Z", fixed(x)));
+        let _ = write!(path, "L{} {zero}Z", fixed(x));
     }
     path
 }

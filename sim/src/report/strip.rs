@@ -19,19 +19,26 @@ pub(super) fn section(view: &View<'_>) -> String {
     html.push_str(&draw(view, WIDE));
     html.push_str(&draw(view, NARROW));
     html.push_str("<figcaption class=\"keys\">");
-    html.push_str("<span class=\"key\"><b class=\"pin\">1</b>replan</span>");
+    if view.plans.len() > 1 {
+        html.push_str("<span class=\"key\"><b class=\"pin\">1</b>replan</span>");
+    }
     for (kind, words) in [
         ("obstacle", "obstacle, time lost"),
         ("fault", "fault, units lost"),
         ("repair", "repair, units back"),
         ("odometry", "odometry, extra path"),
     ] {
+        if view.events.iter().all(|event| short(event).0 != kind) {
+            continue;
+        }
         let mut svg = Svg::new();
         svg.path(&format!("mark {kind}"), &glyph(kind, 7.0, 7.0));
         let glyph = svg.finish("glyph", [14.0, 14.0], words);
         let _ = write!(html, "<span class=\"key\">{}{words}</span>", glyph.trim_end());
     }
-    html.push_str("<span class=\"key\"><i class=\"swatch stop\"></i>stop: time passes, no path</span>");
+    if !view.stops.is_empty() {
+        html.push_str("<span class=\"key\"><i class=\"swatch stop\"></i>stop: time passes, no path</span>");
+    }
     html.push_str("</figcaption></figure></section>\n");
     html
 }
@@ -49,10 +56,15 @@ impl Lanes {
 
     /// The first lane where an interval is free.
     fn place(&mut self, from: f64, to: f64) -> Option<usize> {
+        self.place_within(self.most, from, to)
+    }
+
+    /// The same in the first lanes only.
+    fn place_within(&mut self, most: usize, from: f64, to: f64) -> Option<usize> {
         let clear = |lane: &Vec<(f64, f64)>| lane.iter().all(|&(start, end)| end <= from || to <= start);
-        let lane = match self.lanes.iter().position(clear) {
+        let lane = match self.lanes.iter().take(most).position(clear) {
             Some(lane) => lane,
-            None if self.lanes.len() < self.most => {
+            None if self.lanes.len() < self.most.min(most) => {
                 self.lanes.push(Vec::new());
                 self.lanes.len() - 1
             }
@@ -82,6 +94,28 @@ pub(super) fn draw_pins(svg: &mut Svg, axis: &Axis, view: &View<'_>, y: f64, bot
                 free = x + radius + 1.0;
             }
         });
+    }
+}
+
+/// Where the run ended, if that is not the end of the path; in words too, with a layout to write them in.
+pub(super) fn draw_end(
+    svg: &mut Svg,
+    axis: &Axis,
+    view: &View<'_>,
+    [y, bottom]: [f64; 2],
+    words: Option<Layout>,
+) {
+    let (x_mm, t_us) = view.last();
+    if x_mm >= view.length_mm {
+        return;
+    }
+    let x = axis.at(x_mm, t_us);
+    svg.line("stopped", [x, y], [x, bottom]);
+    if let Some(layout) = words {
+        let leftwards = x > layout.width / 2.0;
+        let (class, x) =
+            if leftwards { ("e small bad halo", x - 12.0) } else { ("small bad halo", x + 12.0) };
+        svg.text(class, [x, y + 4.0], "run ended");
     }
 }
 
@@ -189,23 +223,29 @@ impl Rows<'_> {
     fn events(&mut self, view: &View<'_>) {
         self.name("Events");
         let size = self.layout.size - 1.0;
-        let mut lanes = Lanes::new(3);
-        for event in view.events.iter().take(MAX_MARKS) {
+        let mut events: Vec<_> = view.events.iter().take(MAX_MARKS).collect();
+        // Those that change the hardware are labelled first; where it is crowded, the others lose their labels.
+        events.sort_by_key(|event| !matches!(short(event).0, "fault" | "repair"));
+        if events.is_empty() {
+            self.svg.text("small muted", [self.layout.left, self.y + 13.0], "none");
+        }
+        let mut lanes = Lanes::new(5);
+        for event in events {
             let x = self.axis.at(event.x_mm, event.t_us);
             let (kind, label, words) = short(event);
             let width = text_width(&label, size) + 9.0;
             let leftwards = x + width > self.layout.width;
             let (left, right) = if leftwards { (x - width, x + 7.0) } else { (x - 7.0, x + width) };
-            let lane = lanes.place(left, right + 4.0);
-            let y = self.y + 9.0 + lane.unwrap_or(0) as f64 * 17.0;
+            let labelled = lanes.place_within(3, left, right + 4.0);
+            let lane = labelled.or_else(|| lanes.place_within(5, x - 7.0, x + 7.0));
+            let y = self.y + 9.0 + lane.unwrap_or(4) as f64 * 17.0;
             let title = format!("{words} at {}, {}", metres(event.x_mm), moment(event.t_us));
             self.svg.titled(&title, |svg| {
                 svg.path(&format!("mark {kind}"), &glyph(kind, x, y));
-                if lane.is_none() {
-                } else if leftwards {
-                    svg.text("e small halo", [x - 8.0, y + 4.0], &label);
-                } else {
-                    svg.text("small halo", [x + 8.0, y + 4.0], &label);
+                match (labelled, leftwards) {
+                    (None, _) => {}
+                    (_, true) => svg.text("e small halo", [x - 8.0, y + 4.0], &label),
+                    (_, false) => svg.text("small halo", [x + 8.0, y + 4.0], &label),
                 }
             });
         }
@@ -297,16 +337,9 @@ fn draw(view: &View<'_>, layout: Layout) -> String {
     axis.draw_stops(&mut under, 26.0, bottom);
     axis.draw_stop_labels(&mut under, bottom + 32.0);
     draw_pins(&mut under, &axis, view, 10.0, bottom);
-    let (x_mm, t_us) = view.last();
-    if x_mm < view.length_mm {
-        let x = axis.at(x_mm, t_us);
-        under.line("stopped", [x, 20.0], [x, bottom]);
-        let anchor = if x > layout.width / 2.0 { "e small bad" } else { "small bad" };
-        let beside = if x > layout.width / 2.0 { x - 12.0 } else { x + 12.0 };
-        under.text(anchor, [beside, 14.0], "run ended");
-    }
+    draw_end(&mut under, &axis, view, [10.0, bottom], Some(layout));
     let length = metres(view.length_mm);
     let label = format!("The path of {length} with its zones, objectives, activities, choices and events");
-    under.append(rows.svg);
+    under.append(&rows.svg);
     under.finish(layout.class, [layout.width, bottom + 38.0], &label)
 }

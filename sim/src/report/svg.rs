@@ -91,7 +91,7 @@ impl Svg {
     }
 
     /// Draws another drawing on top.
-    pub(super) fn append(&mut self, other: Self) {
+    pub(super) fn append(&mut self, other: &Self) {
         self.body.push_str(&other.body);
     }
 

@@ -1,1 +1,248 @@
+use super::html;
+use crate::options::{FaultChoice, Options};
+use crate::trace::{Outcome, Record, Trace};
+use cotama_core::units::Millis;
+use cotama_models::embedded;
+use cotama_models::faults::Faults;
+use cotama_models::mission::Mission;
 
+fn recorded(text: &str, options: &Options) -> Trace {
+    Trace::record("patrol", text, options).unwrap().0
+}
+
+fn patrol() -> Trace {
+    recorded(embedded::mission("patrol").unwrap().text, &Options::default())
+}
+
+fn patrol_under(body: &str) -> Trace {
+    let text = embedded::mission("patrol").unwrap().text;
+    let mission = Mission::parse("patrol", text).unwrap();
+    let body = format!("format = \"panorama-faults/1\"\n{body}");
+    let faults = Faults::parse("hall.toml", &body, &mission).unwrap();
+    let faults = FaultChoice::Given { source: "hall.toml".into(), faults };
+    recorded(text, &Options { faults, ..Options::default() })
+}
+
+/// What is wrong with the tags of a page: every element closed in its turn, every attribute quoted.
+fn ill_formed(page: &str) -> Option<String> {
+    const VOID: [&str; 2] = ["meta", "!DOCTYPE"];
+    let mut open: Vec<&str> = Vec::new();
+    // Style sheets are not markup.
+    let (head, rest) = page.split_once("<style>")?;
+    let (_, body) = rest.split_once("</style>")?;
+    let whole = format!("{head}{body}");
+    let mut rest = whole.as_str();
+    while let Some(start) = rest.find(['<', '>']) {
+        if rest[start..].starts_with('>') {
+            return Some(format!(
+                "a bare > before {:?}",
+                &rest[start..].chars().take(40).collect::<String>()
+            ));
+        }
+        let end = start + rest[start..].find('>')?;
+        let tag = &rest[start + 1..end];
+        if tag.contains('<') || tag.matches('"').count() % 2 == 1 {
+            return Some(format!("a broken tag {tag:?}"));
+        }
+        let name = tag.trim_start_matches('/').trim_end_matches('/').split(' ').next()?;
+        if tag.starts_with('/') {
+            let last = open.pop();
+            if last != Some(name) {
+                return Some(format!("{last:?} is closed by {name}"));
+            }
+        } else if !tag.ends_with('/') && !VOID.contains(&name) {
+            open.push(name);
+        }
+        rest = &rest[end + 1..];
+    }
+    open.pop().map(|name| format!("{name} is never closed"))
+}
+
+fn assert_sound(page: &str) {
+    if let Some(problem) = ill_formed(page) {
+        panic!("{problem}");
+    }
+    for foreign in ["http://", "https://", "url(", "@import", "<script", "NaN"] {
+        assert!(!page.contains(foreign), "{foreign}");
+    }
+    assert!(page.len() < 400_000, "{} bytes", page.len());
+}
+
+#[test]
+fn the_checker_of_these_tests_can_fail() {
+    let page = |body: &str| format!("<html><style></style>{body}</html>");
+    assert_eq!(ill_formed(&page("<p>a</p>")), None);
+    assert!(ill_formed(&page("<p>a")).is_some());
+    assert!(ill_formed(&page("<p><b>a</p></b>")).is_some());
+    assert!(ill_formed(&page("a > b")).is_some());
+    assert!(ill_formed(&page("<p class=\"a>b</p>")).is_some());
+}
+
+#[test]
+fn the_patrol_shows_its_outcome_all_plans_and_all_events() {
+    let page = html(&patrol());
+    assert_sound(&page);
+    assert!(page.contains("<strong>Completed</strong>"));
+    assert!(page.contains("All 17 activities are done, within both limits, after 3 replans."));
+    for number in 0..4 {
+        assert!(page.contains(&format!("<b class=\"pin\">{number}</b>")), "plan {number}");
+    }
+    for cause in ["Energy margin below zero", "One laser lost"] {
+        assert!(page.contains(cause), "{cause}");
+    }
+    // Three replans in the strip and four charts, each wide and narrow.
+    assert_eq!(page.matches("class=\"replan\"").count(), 3 * 5 * 2);
+    // RAS1 changes A16 and A17, RAS2 A14, A15 and A17, RAS3 A17.
+    assert_eq!(page.matches(" changed\"").count(), 2 + 3 + 1);
+    assert!(page.contains("<span class=\"id\">A14–A15</span><s>M5 L2</s>"));
+    assert!(page.contains("Directly before, at 63.4\u{a0}m: obstacle, 6.8\u{a0}s lost."));
+    assert!(page.contains("9 dropped: zone glass-out requires the moving option to use 1 of sonar"));
+    assert!(page.contains("768\u{202f}288\u{202f}795\u{202f}144\u{202f}192 plans"));
+    assert_eq!(page.matches("<path class=\"mark obstacle\"").count(), 6 * 3 + 1);
+    assert!(page.contains("cotama replay trace.jsonl"));
+}
+
+#[test]
+fn equal_traces_give_equal_pages() {
+    let trace = patrol();
+    let again = Trace::parse("patrol.jsonl", &trace.to_json_lines()).unwrap();
+    assert_eq!(html(&trace), html(&again));
+}
+
+#[test]
+fn a_run_with_thousands_of_samples_stays_small() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let trace = recorded(text, &Options { monitor_period: Some(Millis(90)), ..Options::default() });
+    assert!(trace.records.len() > 5900, "{}", trace.records.len());
+    assert_sound(&html(&trace));
+}
+
+#[test]
+fn a_hostile_name_is_only_text() {
+    let hostile = "</title><script>alert(1)</script><b onload='x' \u{202e}";
+    let mut trace = patrol();
+    trace.header.mission = trace.header.mission.replacen(
+        "name = \"patrol\"",
+        &format!("name = {:?}", hostile.replace('\u{202e}', "")),
+        1,
+    );
+    trace.header.mission_source = hostile.into();
+    trace.header.version = hostile.into();
+    for record in &mut trace.records {
+        match record {
+            Record::Plan(plan) => {
+                plan.cause = hostile.into();
+                plan.plan[0].choice = hostile.into();
+                plan.plan[0].activity = hostile.into();
+            }
+            Record::Activity(activity) => activity.choice = hostile.into(),
+            Record::End(end) => end.reason = Some(hostile.into()),
+            _ => {}
+        }
+    }
+    let page = html(&trace);
+    assert_sound(&page);
+    assert!(page.contains("&lt;script&gt;"));
+}
+
+#[test]
+fn the_other_outcomes_are_told_with_their_reasons() {
+    let safe =
+        patrol_under("event = [{ x_mm = 60000, kind = \"fault\", hardware = \"kinect\", units_lost = 1 }]");
+    let page = html(&safe);
+    assert_sound(&page);
+    assert!(page.contains("<strong>Stopped safely</strong>"));
+    assert!(page.contains("no alternative left for A10"));
+    assert!(page.contains("Operator asked"));
+    assert!(page.contains("run ended") && page.contains("class=\"bar todo\""));
+
+    let failed = patrol_under("event = [{ x_mm = 187000, kind = \"obstacle\", delay_ms = 94000 }]");
+    assert!(matches!(failed.records.last(), Some(Record::End(end)) if end.outcome == Outcome::Failed));
+    let page = html(&failed);
+    assert_sound(&page);
+    assert!(page.contains("<strong>Failed</strong>") && page.contains("over the limit"));
+    assert!(page.contains("duration limit exceeded by"));
+}
+
+#[test]
+fn a_trace_without_samples_or_without_records_is_still_a_page() {
+    let mut trace = patrol();
+    trace.records.retain(|record| !matches!(record, Record::Sample(_)));
+    let page = html(&trace);
+    assert_sound(&page);
+    assert!(page.contains("no samples in this trace"));
+    trace.records.clear();
+    let page = html(&trace);
+    assert_sound(&page);
+    assert!(page.contains("<strong>Unfinished</strong>"));
+}
+
+#[test]
+fn a_mission_that_cannot_be_read_leaves_out_what_only_it_tells() {
+    let mut trace = patrol();
+    trace.header.mission = "no mission".into();
+    let page = html(&trace);
+    assert_sound(&page);
+    assert!(page.contains("cannot be read"));
+    assert!(page.contains("<span class=\"id\">A14–A15</span>"));
+    assert!(page.contains(">A17</text>"));
+}
+
+#[test]
+fn a_trace_without_a_path_is_all_stops() {
+    let mut trace = patrol();
+    trace.header.path_length_mm = 0;
+    trace.header.mission = String::new();
+    trace.records.retain(|record| record.x_mm() == 37_000);
+    for record in &mut trace.records {
+        match record {
+            Record::Activity(it) => it.x_mm = 0,
+            Record::Sample(it) => it.x_mm = 0,
+            _ => {}
+        }
+    }
+    let page = html(&trace);
+    assert_sound(&page);
+    assert!(page.contains(">A5</text>"));
+}
+
+#[test]
+fn numbers_at_their_ends_do_not_break_the_page() {
+    let mut trace = patrol();
+    trace.header.limits.duration_ms = u64::MAX;
+    trace.header.limits.energy_mj = 0;
+    trace.header.path_length_mm = u64::MAX;
+    trace.header.options.seed = u64::MAX;
+    for record in &mut trace.records {
+        match record {
+            Record::Plan(plan) => {
+                plan.after.energy_mj = i64::MIN;
+                plan.t_us = u64::MAX;
+            }
+            Record::Sample(sample) => {
+                sample.margins.duration_ms = i64::MAX;
+                sample.margins.energy_mj = i64::MIN;
+                sample.real_power_mw = u64::MAX;
+                sample.x_mm = u64::MAX;
+            }
+            Record::Event(event) => event.lost_us = u64::MAX,
+            Record::Activity(activity) => activity.t_us = u64::MAX,
+            Record::End(end) => (end.margins.energy_mj, end.replans) = (i64::MIN, u64::MAX),
+            Record::Request(_) => {}
+        }
+    }
+    assert_sound(&html(&trace));
+}
+
+#[test]
+fn thousands_of_replans_are_cut_and_said_to_be() {
+    let mut trace = patrol();
+    let plan = trace.records.iter().find(|record| matches!(record, Record::Plan(_))).unwrap().clone();
+    let end = trace.records.pop().unwrap();
+    trace.records.extend(std::iter::repeat_n(plan, 10_000));
+    trace.records.push(end);
+    let page = html(&trace);
+    assert!(ill_formed(&page).is_none());
+    assert!(page.contains("further replans are in the trace"));
+    assert!(page.len() < 2_000_000, "{}", page.len());
+}
