@@ -18,7 +18,7 @@ pub trait Allocator<const A: usize> {
 pub enum Answer<const A: usize> {
     /// A plan within every limit.
     Planned(Planned<A>),
-    /// No plan: proven by `Exact`, and all that the paper's rule can say in
+    /// No plan: proven by [`Exact`](crate::exact::Exact), and all that the paper's rule can say in
     /// [`Panorama`](crate::panorama::Panorama), which can miss a plan.
     Infeasible {
         /// The axis whose limit is not met: the first, in the order of treatment, at which the search failed.

@@ -1,4 +1,22 @@
-//! The deterministic, allocation-free core of robot supervisors.
+//! The deterministic core of a robot that must keep its goals: which sensors and algorithms to use in every part of
+//! a mission, so that time, energy and any other additive limit hold, and what to do when they no longer do.
+//!
+//! `no_std`, no heap, no floating point, no unsafe code, no dependency: the same code plans on a workstation, in a
+//! simulator and on a microcontroller, and gives the same plan everywhere.
+//!
+//! | module | what it is |
+//! | --- | --- |
+//! | [`units`] | physical quantities as integers, with checked arithmetic |
+//! | [`hardware`] | switchable hardware, counted in units |
+//! | [`problem`] | activities in sequence, candidates with a cost per axis, limits |
+//! | [`allocation`] | the trait of the allocators and their answers |
+//! | [`panorama`] | the rule of Lambert et al. 2024 |
+//! | [`exact`] | the best plan, proven; anytime, with a bound |
+//! | [`front`] | all plans that no other plan beats |
+//! | [`monitor`] | margins on line, and when to ask for a new plan |
+//!
+//! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs are 32 bits and
+//! sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.
 #![no_std]
 #![cfg_attr(test, allow(clippy::pedantic))]
 

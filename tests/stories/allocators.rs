@@ -88,6 +88,34 @@ fn exact_is_brute_force<const A: usize>(seed: u64) {
     anytime_bounds_hold(&problem, feasible.iter().map(|(_, _, quality)| *quality).max(), seed);
 }
 
+/// However the candidates of each activity are written, the plan has the same candidates, by their numbers.
+#[test]
+fn the_order_of_candidates_does_not_change_the_plan() {
+    for seed in 0..5_000 {
+        let instance = small::<2>(seed);
+        let mut draw = Draw::new(seed);
+        let mut shuffled = instance.clone();
+        for candidates in &mut shuffled.activities {
+            for last in (1..candidates.len()).rev() {
+                candidates.swap(last, draw.between(0, last as u64) as usize);
+            }
+        }
+        let chosen = |instance: &Instance<2>| {
+            let slices = instance.slices();
+            let (answer, plan) = exact(&instance.problem(&slices), &[Objective::MostQuality], u64::MAX);
+            let numbers = |(c, &choice): (&Vec<Candidate<2>>, &u16)| {
+                let candidate = c[usize::from(choice)];
+                (candidate.cost, candidate.quality)
+            };
+            (answer, instance.activities.iter().zip(&plan).map(numbers).collect::<Vec<_>>())
+        };
+        let (answer, plan) = chosen(&instance);
+        if matches!(answer, Answer::Planned(_)) {
+            assert_eq!((answer, plan), chosen(&shuffled), "seed {seed}");
+        }
+    }
+}
+
 /// At every step budget, from one to all, the bound is at least the optimum and the plan is a plan.
 fn anytime_bounds_hold<const A: usize>(problem: &Problem<A>, optimum: Option<u64>, seed: u64) {
     let (Answer::Planned(_) | Answer::Infeasible { .. }, _) =
@@ -285,8 +313,8 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
         let instance = paper_like(17, zones, [draw.between(0, 1000), draw.between(0, 1000)], seed);
         let slices = instance.slices();
         let problem = instance.problem(&slices);
-        let (mut items, mut stages, mut seen) =
-            ([Item::EMPTY; 17 * 21], [Stage::EMPTY; 17], [Seen::EMPTY; 4096]);
+        let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
+        let mut seen = vec![Seen::EMPTY; 4096];
         let mut plan = [0; 17];
         let mut exact =
             Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages).with_memory(&mut seen);
@@ -299,7 +327,7 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
     }
     steps.sort_unstable();
     // Of 10,000: proven best, the worst gap in permille, the median and the 90th percentile of the steps.
-    assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9838, 26, 762, 9928));
+    assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9840, 26, 762, 9852));
     assert_eq!((size_of::<Item<2>>(), size_of::<Stage<2>>(), size_of::<Seen<2>>()), (32, 120, 40));
 }
 

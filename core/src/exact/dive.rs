@@ -113,30 +113,36 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.prepare();
     }
 
-    /// Puts every activity at the item of the best plan; returns what that plan leaves.
-    pub(super) fn settle(&mut self) -> Point<A> {
+    /// Puts every activity at the item of the best plan; returns what that plan leaves, and the activity that
+    /// loses most in it.
+    pub(super) fn settle(&mut self) -> (Point<A>, usize) {
         let mut home = Point { slack: self.frame.room, loss: 0 };
-        for stage in self.stages.iter_mut() {
+        let (mut worst, mut most) = (0, 0);
+        for (at, stage) in self.stages.iter_mut().enumerate() {
             stage.current = stage.best;
             let item = stage.item(self.items, stage.best);
             home.slack = home.slack.minus(&item.rows());
             home.loss += item.loss;
+            if item.loss > most {
+                (worst, most) = (at, item.loss);
+            }
         }
-        home
+        (home, worst)
     }
 
-    /// Frees a few activities, drawn by `round`; the others keep the best plan, which leaves `home`.
-    pub(super) fn free_some(&mut self, home: Point<A>, count: usize, round: u64) {
+    /// Frees an activity and a few more, drawn by `round`; the others keep the best plan, which leaves `home`.
+    pub(super) fn free_some(&mut self, home: Point<A>, first: usize, count: usize, round: u64) {
         let allowance = self.allowance();
         self.levels = 0;
         self.root = home;
         for draw in 0..count as u64 {
             // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4).
             let mixed = (round << 8 | draw).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-            let at = ((u128::from(mixed) * self.stages.len() as u128) >> 64) as usize;
+            let drawn = ((u128::from(mixed) * self.stages.len() as u128) >> 64) as usize;
+            let at = if draw == 0 && round % 2 == 0 { first } else { drawn };
             let own = self.stages[at].items(self.items);
-            let drawn = self.stages[..self.levels].iter().any(|s| s.level.stage == at as u32);
-            if !drawn && own.get(1).is_some_and(|item| item.loss <= allowance) {
+            let taken = self.stages[..self.levels].iter().any(|s| s.level.stage == at as u32);
+            if !taken && own.get(1).is_some_and(|item| item.loss <= allowance) {
                 self.root = self.root.exchange(&own[self.stages[at].best as usize], &own[0]);
                 self.stages[at].current = 0;
                 self.stages[self.levels].level.stage = at as u32;

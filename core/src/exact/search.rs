@@ -80,7 +80,7 @@ fn neighbours<const A: usize>(
     if budget.take(dive.stages().len() as u64).is_none() {
         return;
     }
-    let mut home = dive.settle();
+    let (mut home, mut worst) = dive.settle();
     let mut fruitless = 0;
     while dive.target <= bound && budget.left > end && fruitless < turn / FRUITLESS {
         *round += 1;
@@ -88,12 +88,12 @@ fn neighbours<const A: usize>(
             return;
         }
         let before = dive.target;
-        dive.free_some(home, FREE, *round);
+        dive.free_some(home, worst, FREE, *round);
         dive.run(budget, NEIGHBOURHOOD);
         dive.restore();
         if dive.target > before {
             fruitless = 0;
-            home = dive.settle();
+            (home, worst) = dive.settle();
         } else {
             fruitless += 1;
         }
