@@ -37,6 +37,7 @@ pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Fai
         Verdict::Infeasible { axis, least } => {
             Some(infeasible::over(axis, problem.limits().get(axis).copied().unwrap_or(0), least))
         }
+        Verdict::Missed => Some(infeasible::missed("leave out `--allocator panorama`")),
         _ => None,
     };
     let answer = AllocateAnswer {
@@ -59,9 +60,6 @@ pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Fai
             args.objective.name(),
             screen.width(),
         ))?;
-    }
-    if solution.verdict == Verdict::Missed {
-        screen.note("the rule of PANORAMA found no plan, but there is one: leave out `--allocator panorama`");
     }
     Ok(exit(answer.status))
 }

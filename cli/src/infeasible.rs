@@ -48,6 +48,12 @@ pub(crate) fn over(axis: usize, limit: u64, least: u64) -> Reason {
     }
 }
 
+/// The rule of the paper says that there is no plan, and is wrong.
+pub(crate) fn missed(way_out: &str) -> Reason {
+    let text = format!("the rule of PANORAMA finds no plan, but a complete search does: {way_out}");
+    Reason { text, ..Reason::default() }
+}
+
 fn heaviest(mission: &Mission, heavy: &infeasible::Heavy) -> Heavy {
     Heavy {
         activity: mission

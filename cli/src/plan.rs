@@ -156,10 +156,7 @@ fn fill(
         Verdict::Infeasible { axis, least } => {
             answer.reason = Some(infeasible::over(axis, problem.limits()[axis.min(1)], least));
         }
-        Verdict::Missed => {
-            let text = "the rule of PANORAMA found no plan, but there is one: use `--allocator exact`";
-            answer.reason = Some(Reason { text: text.into(), ..Reason::default() });
-        }
+        Verdict::Missed => answer.reason = Some(infeasible::missed("use `--allocator exact`")),
         Verdict::Unknown { .. } => {
             let text = format!(
                 "neither a plan nor the proof that there is none was found in {steps} steps: use more `--steps`"

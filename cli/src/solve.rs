@@ -2,9 +2,12 @@
 
 use crate::answers::Status;
 use cotama_core::allocation::{Allocator, Answer, MemoryError, Planned};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
+
+/// How many nodes a search may remember: 10 MiB.
+const SEEN: usize = 1 << 18;
 
 /// How a plan is looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +35,7 @@ pub(crate) enum Verdict {
         /// The least total on this axis within the limits treated before it.
         least: u64,
     },
-    /// The rule found none, but there is one.
+    /// The rule says that there is none, but a complete search finds one.
     Missed,
     /// Not known within the steps.
     Unknown {
@@ -56,8 +59,9 @@ impl Solution {
         match self.verdict {
             Verdict::Planned { planned, .. } if planned.optimal => Status::Optimal,
             Verdict::Planned { .. } => Status::Feasible,
-            Verdict::Infeasible { .. } => Status::Infeasible,
-            Verdict::Missed | Verdict::Unknown { .. } => Status::Unknown,
+            // What the rule says was asked for; the reason says that the rule is wrong.
+            Verdict::Infeasible { .. } | Verdict::Missed => Status::Infeasible,
+            Verdict::Unknown { .. } => Status::Unknown,
         }
     }
 
@@ -146,6 +150,8 @@ fn exact(
     let candidates = activities.iter().map(|candidates| candidates.len()).sum();
     let (mut items, mut stages) = (vec![Item::EMPTY; candidates], vec![Stage::EMPTY; activities.len()]);
     let mut plan = vec![0; activities.len()];
-    let answer = Exact::new(objectives, steps, &mut items, &mut stages).allocate(problem, &mut plan)?;
+    let mut seen = vec![Seen::EMPTY; SEEN];
+    let mut exact = Exact::new(objectives, steps, &mut items, &mut stages).with_memory(&mut seen);
+    let answer = exact.allocate(problem, &mut plan)?;
     Ok((answer, plan))
 }

@@ -28,11 +28,12 @@ fn the_most_quality_is_found_and_proven() {
 }
 
 #[test]
-fn a_plan_that_the_rule_misses_is_not_called_infeasible() {
+fn a_plan_that_the_rule_misses_is_found_by_the_exact_allocator() {
     let exact = allocate("exact", MISSED, &[], 0);
     assert_eq!((&exact["status"], &exact["choice"]), (&json!("optimal"), &json!([1, 0])));
-    let rule = allocate("rule", MISSED, &["--allocator", "panorama"], 3);
-    assert_eq!((&rule["status"], &rule["choice"]), (&json!("unknown"), &json!([])));
+    let rule = allocate("rule", MISSED, &["--allocator", "panorama"], 1);
+    assert_eq!((&rule["status"], &rule["choice"]), (&json!("infeasible"), &json!([])));
+    assert!(rule["reason"]["text"].as_str().unwrap().contains("but a complete search does"), "{rule}");
 }
 
 #[test]

@@ -45,7 +45,7 @@ pub struct Planned<const A: usize> {
     /// The total quality.
     pub quality: u64,
     /// A proven bound on the objective: no plan within the limits has more (less, for a minimised axis).
-    /// `None` where the allocator proves nothing.
+    /// `None` where the allocator proves nothing, or was given no objective.
     pub bound: Option<u64>,
     /// Whether the bound is met, so that no plan is better.
     pub optimal: bool,

@@ -2,10 +2,13 @@
 
 use crate::options::{Aim, Planner};
 use cotama_core::allocation::{Allocator, Answer, Planned};
-use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
 use cotama_models::tables::ENERGY;
+
+/// How many nodes a complete search may remember: 160 KiB.
+const SEEN: usize = 1 << 12;
 
 /// Memory of the allocators; it grows to what a problem needs and is kept for the next.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +17,7 @@ pub(crate) struct Solver {
     sorted: Vec<u32>,
     items: Vec<Item<2>>,
     stages: Vec<Stage<2>>,
+    seen: Vec<Seen<2>>,
     /// The plan found: the position of the chosen candidate of each activity.
     pub(crate) plan: Vec<u16>,
 }
@@ -71,7 +75,9 @@ impl Solver {
         at_least(&mut self.items, candidates, Item::EMPTY);
         at_least(&mut self.stages, activities.len(), Stage::EMPTY);
         at_least(&mut self.plan, activities.len(), 0);
-        let mut search = Exact::new(objectives, steps, &mut self.items, &mut self.stages);
+        at_least(&mut self.seen, SEEN, Seen::EMPTY);
+        let mut search =
+            Exact::new(objectives, steps, &mut self.items, &mut self.stages).with_memory(&mut self.seen);
         found(&mut search, "exact", problem, &mut self.plan)
     }
 }

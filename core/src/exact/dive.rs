@@ -139,7 +139,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4).
             let mixed = (round << 8 | draw).wrapping_mul(0x9E37_79B9_7F4A_7C15);
             let drawn = ((u128::from(mixed) * self.stages.len() as u128) >> 64) as usize;
-            let at = if draw == 0 && round % 2 == 0 { first } else { drawn };
+            let at = if draw == 0 && round & 1 == 0 { first } else { drawn };
             let own = self.stages[at].items(self.items);
             let taken = self.stages[..self.levels].iter().any(|s| s.level.stage == at as u32);
             if !taken && own.get(1).is_some_and(|item| item.loss <= allowance) {

@@ -4,9 +4,9 @@ use super::rows::Rows;
 use super::{Item, Objective, Stage};
 use crate::problem::{Candidate, Problem};
 
-/// A stage of a lexicographic order: one objective, and what the stages before have fixed.
+/// A stage of a lexicographic order: one objective (none: any plan will do), and what the stages before have fixed.
 pub(super) struct Aim<const A: usize> {
-    pub(super) objective: Objective,
+    pub(super) objective: Option<Objective>,
     pub(super) limits: [u64; A],
     pub(super) quality_floor: u64,
 }
@@ -28,11 +28,13 @@ pub(super) struct Frame<const A: usize> {
 }
 
 /// The value of a candidate under an objective, larger is better; at most 2^32 in size.
-pub(super) fn value<const A: usize>(candidate: &Candidate<A>, objective: Objective) -> i64 {
+fn value<const A: usize>(candidate: &Candidate<A>, objective: Option<Objective>) -> i64 {
+    let cost = |axis: usize| candidate.cost.get(axis).map_or(0, |&cost| i64::from(cost));
     match objective {
-        Objective::MostQuality => i64::from(candidate.quality),
-        Objective::Least(axis) => -i64::from(candidate.cost[axis]),
-        Objective::Most(axis) => i64::from(candidate.cost[axis]),
+        Some(Objective::MostQuality) => i64::from(candidate.quality),
+        Some(Objective::Least(axis)) => -cost(axis),
+        Some(Objective::Most(axis)) => cost(axis),
+        None => 0,
     }
 }
 

@@ -51,9 +51,10 @@ use rows::Rows;
 pub enum Objective {
     /// The most total quality.
     MostQuality,
-    /// The least total cost on this axis.
+    /// The least total cost on this axis; an axis that the problem does not have costs nothing.
     Least(usize),
-    /// The most total cost on this axis, within its limit: use what there is.
+    /// The most total cost on this axis, within its limit: use what there is. It is not a limit for objectives
+    /// after it, so these are not treated.
     Most(usize),
 }
 
@@ -62,7 +63,7 @@ impl Objective {
     fn amount<const A: usize>(self, cost: &[u64; A], quality: u64) -> u64 {
         match self {
             Self::MostQuality => quality,
-            Self::Least(axis) | Self::Most(axis) => cost[axis],
+            Self::Least(axis) | Self::Most(axis) => cost.get(axis).copied().unwrap_or(0),
         }
     }
 }
@@ -199,7 +200,7 @@ pub struct Exact<'m, const A: usize> {
     seen: &'m mut [Seen<A>],
 }
 
-/// How the search for one objective ended; values are those of [`load::value`], summed.
+/// How the search for one objective ended; values are of whole plans, larger is better.
 enum Ended {
     /// The plan in `Stage::best` is proven best.
     Optimal,
@@ -261,7 +262,7 @@ impl<'m, const A: usize> Exact<'m, A> {
     fn blame(&mut self, problem: &Problem<'_, A>, budget: &mut Budget) -> (usize, u64) {
         let mut limits = [u64::MAX; A];
         for axis in problem.order() {
-            let aim = Aim { objective: Objective::Least(axis), limits, quality_floor: 0 };
+            let aim = Aim { objective: Some(Objective::Least(axis)), limits, quality_floor: 0 };
             let least = match self.pursue(problem, &aim, budget) {
                 Ended::Optimal | Ended::Stopped(_) => self.stages[..problem.activities().len()]
                     .iter()
@@ -293,13 +294,12 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
         let plan = &mut plan[..problem.activities().len()];
 
         let mut budget = Budget { left: self.steps };
-        let mut aim = Aim { objective: Objective::MostQuality, limits: problem.limits(), quality_floor: 0 };
+        let mut aim = Aim { objective: None, limits: problem.limits(), quality_floor: 0 };
         let mut found = None;
-        // Without an objective any plan will do: the last axis serves as one, and need not be proven least.
-        let fallback = [Objective::Least(problem.order().last().copied().unwrap_or(0))];
-        let objectives = if self.objectives.is_empty() && A > 0 { &fallback } else { self.objectives };
-        for &objective in objectives {
-            aim.objective = objective;
+        // Without an objective any plan will do: one pursuit of nothing.
+        let count = self.objectives.len().max(1);
+        for stage in 0..count {
+            aim.objective = self.objectives.get(stage).copied();
             let bound = match self.pursue(problem, &aim, &mut budget) {
                 Ended::Optimal => None,
                 Ended::Stopped(bound) => Some(bound),
@@ -319,24 +319,27 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
             };
             self.write(plan);
             let (cost, quality) = problem.totals(plan).unwrap_or(([0; A], 0));
-            let amount = objective.amount(&cost, quality);
+            let amount = aim.objective.map(|objective| objective.amount(&cost, quality));
             let first_bound = found.and_then(|planned: Planned<A>| planned.bound);
-            let own_bound = bound.map_or(amount, |b| u64::try_from(b.abs()).unwrap_or(u64::MAX));
+            let own_bound = bound.map_or(amount, |b| Some(u64::try_from(b.abs()).unwrap_or(u64::MAX)));
             found = Some(Planned {
                 cost,
                 quality,
-                bound: first_bound.or(Some(own_bound)),
+                bound: first_bound.or(own_bound),
                 optimal: bound.is_none(),
                 steps: self.steps - budget.left,
             });
             if bound.is_some() {
                 break;
             }
-            match objective {
-                Objective::MostQuality => aim.quality_floor = quality,
-                Objective::Least(axis) => aim.limits[axis] = amount,
-                // A most is at its limit or below; a floor on it is not a limit, so it must come last.
-                Objective::Most(_) => break,
+            match (aim.objective, amount) {
+                (Some(Objective::MostQuality), _) => aim.quality_floor = quality,
+                (Some(Objective::Least(axis)), Some(least)) => {
+                    if let Some(limit) = aim.limits.get_mut(axis) {
+                        *limit = least;
+                    }
+                }
+                _ => break,
             }
         }
         Ok(found.map_or(Answer::Unknown { bound: 0, steps: self.steps - budget.left }, |planned| {
