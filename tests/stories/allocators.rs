@@ -327,7 +327,7 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
     }
     steps.sort_unstable();
     // Of 10,000: proven best, the worst gap in permille, the median and the 90th percentile of the steps.
-    assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9840, 26, 762, 9852));
+    assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9838, 26, 789, 10025));
     assert_eq!((size_of::<Item<2>>(), size_of::<Stage<2>>(), size_of::<Seen<2>>()), (32, 120, 40));
 }
 

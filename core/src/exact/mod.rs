@@ -6,7 +6,9 @@
 //! 2. *Lagrangian bound* (`dual`): prices for the limits, minimised; at these prices every candidate has a *loss*
 //!    against the best of its activity, and a plan is worth the bound less its losses less the priced slack.
 //! 3. *A first plan* (`primal`): the best candidates at these prices, repaired and improved.
-//! 4. *Search by rising loss* (`search`): is there a plan within a given loss of the bound? For a small loss few
+//! 4. *Remainders* (`congruence`): where many activities share a ratio of value to cost, plans near the bound are
+//!    worth the same modulo a small number, and the bound falls to the next value that can be reached.
+//! 5. *Search by rising loss* (`search`): is there a plan within a given loss of the bound? For a small loss few
 //!    candidates qualify, and the answer takes few nodes. Each "no" lowers the proven bound, the first "yes"
 //!    raises the plan, until both meet. At every node the rest is priced anew with several multipliers.
 //!
@@ -34,6 +36,7 @@
 //! assert_eq!((plan, planned.cost, planned.optimal), ([0, 2], [4, 5], true));
 //! ```
 
+mod congruence;
 mod dive;
 mod dual;
 mod load;
@@ -243,6 +246,9 @@ impl<'m, const A: usize> Exact<'m, A> {
         }
         let mut bound = (price.bound >> frame.fraction).min(frame.most);
         let best = primal::first_plan(&frame, &price, self.items, stages, budget);
+        if budget.take(stages.len() as u64).is_some() {
+            bound = congruence::bound(&frame, &price, self.items, stages, bound);
+        }
         match search::search(&frame, &price, self.items, stages, self.seen, best, &mut bound, budget) {
             (Some(best), _) if best >= bound => Ended::Optimal,
             (Some(_), _) => Ended::Stopped(value(bound)),
