@@ -161,6 +161,14 @@ pub fn paper_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64
     Instance::limited(made, permille)
 }
 
+/// A mission of 17 activities like the paper's, with either kind of zones and limits anywhere between least and most.
+#[must_use]
+pub fn random_mission(seed: u64) -> Instance<2> {
+    let mut draw = Draw::new(seed);
+    let zones = [Zones::Varied, Zones::Three][draw.between(0, 1) as usize];
+    paper_like(17, zones, [draw.between(0, 1000), draw.between(0, 1000)], seed)
+}
+
 /// How quality follows the costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Correlation {

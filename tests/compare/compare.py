@@ -212,8 +212,8 @@ class CpSat:
         if status == cp_model.INFEASIBLE:
             return Answer(INFEASIBLE, seconds, cpu)
         if status not in (cp_model.OPTIMAL, cp_model.FEASIBLE):
-            bound = solver.best_objective_bound if status == cp_model.UNKNOWN else None
-            return Answer(UNKNOWN, seconds, cpu, None, whole(bound))
+            # Stopped this early, CP-SAT gives 0 for a bound that it does not have.
+            return Answer(UNKNOWN, seconds, cpu, None, None)
         plan = picked(instance, [solver.value(v) for v in variables])
         return Answer(
             OPTIMAL if status == cp_model.OPTIMAL else FEASIBLE,

@@ -1,9 +1,11 @@
-//! One plan of the patrol with each allocator, each in a function of its own for an instruction count.
+//! One plan of the patrol with each allocator, and a hard mission of its size, each in a function of its own for an
+//! instruction count.
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
+use cotama_tests::instances::{Instance, random_mission};
 use std::hint::black_box;
 
 #[inline(never)]
@@ -12,6 +14,20 @@ fn exact_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
     let (mut items, mut stages, mut seen) = ([Item::EMPTY; 17 * 21], [Stage::EMPTY; 17], [Seen::EMPTY; 512]);
     let exact = Exact::new(&[Objective::MostQuality], u64::MAX, &mut items, &mut stages);
     match exact.with_memory(&mut seen).allocate(problem, plan) {
+        Ok(Answer::Planned(planned)) => Some(planned.steps),
+        _ => None,
+    }
+}
+
+/// One of the random missions of 17 activities that use all of the promised 100,000 steps.
+#[inline(never)]
+fn exact_hard(instance: &Instance<2>, plan: &mut [u16]) -> Option<u64> {
+    let slices = instance.slices();
+    let problem = instance.problem(&slices);
+    let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
+    let mut seen = vec![Seen::EMPTY; 4096];
+    let exact = Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages);
+    match exact.with_memory(&mut seen).allocate(&problem, plan) {
         Ok(Answer::Planned(planned)) => Some(planned.steps),
         _ => None,
     }
@@ -30,6 +46,8 @@ fn main() {
     cotama_tests::with_patrol(|problem| {
         let mut plan = [0; 17];
         println!("exact: {:?} steps, {plan:?}", exact_patrol(black_box(problem), &mut plan));
+        let hard = random_mission(4_743);
+        println!("hard: {:?} steps, {plan:?}", exact_hard(black_box(&hard), &mut plan));
         println!("panorama: {:?} steps, {plan:?}", panorama_patrol(black_box(problem), &mut plan));
     });
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Counts the instructions of one plan of the patrol, with callgrind on the release build.
+# Counts the instructions of one plan of the patrol, and of a mission that uses all promised steps, with callgrind
+# on the release build.
 #
 #   tests/measure/instructions.sh
 #
@@ -15,7 +16,7 @@ cargo build --quiet --locked --release -p cotama-tests --example "$example"
 out=$(mktemp)
 trap 'rm -f "$out"' EXIT
 echo "instructions of one plan of the patrol ($(uname -m), $(rustc -V | cut -d' ' -f1,2)):"
-for function in exact_patrol panorama_patrol; do
+for function in exact_patrol exact_hard panorama_patrol; do
     # Counts from entry to return of the function of this name, whatever it calls.
     valgrind --quiet --tool=callgrind --callgrind-out-file="$out" --collect-atstart=no \
         --toggle-collect="*${function}*" "$target_dir/release/examples/$example" >/dev/null

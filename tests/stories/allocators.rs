@@ -5,7 +5,7 @@ use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::front::{Front, Node};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
-use cotama_tests::instances::{Draw, Instance, Zones, paper_like, small};
+use cotama_tests::instances::{Draw, Instance, Zones, paper_like, random_mission, small};
 
 /// Every plan's choices, costs and quality.
 fn every_plan<const A: usize>(instance: &Instance<A>) -> Vec<(Vec<u16>, [u64; A], u64)> {
@@ -308,9 +308,7 @@ fn random_problems_have_more_plans_that_the_rule_misses_and_none_the_other_way()
 fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
     let (mut proven, mut worst_gap, mut steps) = (0, 0, Vec::new());
     for seed in 0..10_000 {
-        let mut draw = Draw::new(seed);
-        let zones = [Zones::Varied, Zones::Three][draw.between(0, 1) as usize];
-        let instance = paper_like(17, zones, [draw.between(0, 1000), draw.between(0, 1000)], seed);
+        let instance = random_mission(seed);
         let slices = instance.slices();
         let problem = instance.problem(&slices);
         let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
