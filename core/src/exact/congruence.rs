@@ -11,52 +11,108 @@ use super::load::Frame;
 use super::{Item, Stage};
 
 /// The most remainders kept.
-const REMAINDERS: usize = 64;
+pub(super) const REMAINDERS: usize = 16;
 /// A loss below this part of one unit of value, as a shift, counts as next to none.
 const NEXT_TO_NONE: u32 = 5;
+/// A loss that no plan can pay.
+const NEVER: i64 = i64::MAX;
 
-/// The largest value, `bound` at most, that the remainders allow. Needs losses, and each activity's best item first.
+/// The least loss at which some activities change the value by each remainder.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Remainders {
+    modulus: i64,
+    least: [i64; REMAINDERS],
+}
+
+impl Remainders {
+    /// No remainders: every value can be reached.
+    pub(super) const NONE: Self = Self { modulus: 1, least: [0; REMAINDERS] };
+
+    /// The remainders of no activity at all, modulo the number that choices near the bound have in common. Needs
+    /// losses, and each activity's best item first.
+    pub(super) fn of<const A: usize>(frame: &Frame<A>, items: &[Item<A>], stages: &[Stage<A>]) -> Self {
+        let small = (1i64 << frame.fraction) >> NEXT_TO_NONE;
+        let mut divisor = 0;
+        for own in stages.iter().map(|stage| stage.items(items)) {
+            for item in own[1..].iter().take_while(|item| item.loss <= small) {
+                divisor = gcd(divisor, item.value.abs_diff(own[0].value));
+            }
+        }
+        let common = (2..=REMAINDERS as u32).rev().find(|&m| divisor > 0 && divisor.is_multiple_of(m));
+        let mut least = [NEVER; REMAINDERS];
+        least[0] = 0;
+        common.map_or(Self::NONE, |modulus| Self { modulus: i64::from(modulus), least })
+    }
+
+    /// Whether there is anything to gain from remainders.
+    pub(super) const fn matter(&self) -> bool {
+        self.modulus > 1
+    }
+
+    fn place(&self, value: i64) -> usize {
+        value.rem_euclid(self.modulus).unsigned_abs() as usize
+    }
+
+    /// The same with one more activity, whose items lose at most `most`.
+    pub(super) fn with<const A: usize>(&self, own: &[Item<A>], most: i64) -> Self {
+        let mut next = *self;
+        for item in own[1..].iter().take_while(|item| item.loss <= most) {
+            let step = self.place(i64::from(item.value) - i64::from(own[0].value));
+            if step == 0 {
+                continue;
+            }
+            for (from, &loss) in self.least[..self.modulus.unsigned_abs() as usize].iter().enumerate() {
+                let to = if from + step < self.modulus.unsigned_abs() as usize {
+                    from + step
+                } else {
+                    from + step - self.modulus.unsigned_abs() as usize
+                };
+                next.least[to] = next.least[to].min(loss.saturating_add(item.loss));
+            }
+        }
+        next
+    }
+
+    /// Whether a plan worth `worth` can be changed by these activities into one worth `target` or more, when a plan
+    /// worth `target` may lose `allowance` in all. Each unit of value has `fraction` bits.
+    pub(super) fn reach(&self, worth: i64, target: i64, mut allowance: i64, fraction: u32) -> bool {
+        let mut place = self.place(target - worth);
+        for _ in 0..self.modulus {
+            if allowance < 0 {
+                return false;
+            }
+            if self.least[place] <= allowance {
+                return true;
+            }
+            allowance -= 1 << fraction;
+            place += 1;
+            if place == self.modulus.unsigned_abs() as usize {
+                place = 0;
+            }
+        }
+        false
+    }
+}
+
+/// The largest value, `bound` at most, that the remainders allow.
 pub(super) fn bound<const A: usize>(
     frame: &Frame<A>,
     price: &Price<A>,
     items: &[Item<A>],
     stages: &[Stage<A>],
+    none: &Remainders,
     bound: i64,
 ) -> i64 {
-    let small = (1i64 << frame.fraction) >> NEXT_TO_NONE;
-    let (mut divisor, mut base) = (0, 0);
+    // What may be lost by a plan worth less than all remainders below the bound.
+    let most = price.bound - ((bound - none.modulus) << frame.fraction);
+    let mut all = *none;
+    let mut base = 0;
     for own in stages.iter().map(|stage| stage.items(items)) {
         base += i64::from(own[0].value);
-        for item in own[1..].iter().take_while(|item| item.loss <= small) {
-            divisor = gcd(divisor, item.value.abs_diff(own[0].value));
-        }
+        all = all.with(own, most);
     }
-    let Some(modulus) = (2..=REMAINDERS as u32).rev().find(|&m| divisor > 0 && divisor.is_multiple_of(m))
-    else {
-        return bound;
-    };
-
-    // What may be lost by a plan worth a whole unit less than all remainders below the bound.
-    let modulus = i64::from(modulus);
-    let most = price.bound - ((bound - modulus) << frame.fraction);
-    let mut least = [i64::MAX; REMAINDERS];
-    let place = |value: i64| value.rem_euclid(modulus).unsigned_abs() as usize;
-    least[0] = 0;
-    for own in stages.iter().map(|stage| stage.items(items)) {
-        let before = least;
-        for item in own[1..].iter().take_while(|item| item.loss <= most) {
-            let step = i64::from(item.value) - i64::from(own[0].value);
-            if place(step) == 0 {
-                continue;
-            }
-            for (from, &loss) in (0..modulus).zip(&before) {
-                let to = place(from + step);
-                least[to] = least[to].min(loss.saturating_add(item.loss));
-            }
-        }
-    }
-    let paid = |value: &i64| least[place(value - base)] <= price.bound - (value << frame.fraction);
-    (bound - modulus..=bound).rev().find(paid).unwrap_or(bound - modulus)
+    let paid = |value: &i64| all.least[all.place(value - base)] <= price.bound - (value << frame.fraction);
+    (bound - all.modulus..=bound).rev().find(paid).unwrap_or(bound - all.modulus)
 }
 
 const fn gcd(mut a: u32, mut b: u32) -> u32 {

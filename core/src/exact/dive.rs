@@ -4,16 +4,21 @@
 //! target, losses and slack together may use up to *allowance = bound - target*; items whose own loss exceeds
 //! it cannot be in such a plan (reduced-cost fixing), and activities with one item left need no level.
 
+use super::congruence::Remainders;
 use super::dual::Price;
 use super::load::Frame;
 use super::rows::Rows;
-use super::{Budget, Item, REPRICINGS, Seen, Stage};
+use super::{Budget, Item, Level, REPRICINGS, Seen, Stage};
 
 /// A dive: some activities have a level each, the others keep the item that is their `current`.
 pub(super) struct Dive<'d, const A: usize> {
     frame: &'d Frame<A>,
     price: &'d Price<A>,
     multipliers: &'d [Rows<A>; REPRICINGS],
+    /// What these multipliers have over the best ones.
+    dearer: [Rows<A>; REPRICINGS],
+    /// The remainders of no level.
+    no_remainders: &'d Remainders,
     items: &'d [Item<A>],
     stages: &'d mut [Stage<A>],
     seen: &'d mut [Seen<A>],
@@ -56,15 +61,19 @@ impl<'d, const A: usize> Dive<'d, A> {
         frame: &'d Frame<A>,
         price: &'d Price<A>,
         multipliers: &'d [Rows<A>; REPRICINGS],
+        no_remainders: &'d Remainders,
         items: &'d [Item<A>],
         stages: &'d mut [Stage<A>],
         seen: &'d mut [Seen<A>],
     ) -> Self {
         let root = Point { slack: frame.room, loss: 0 };
+        let dearer = multipliers.map(|multiplier| multiplier.minus(&price.multiplier));
         Self {
             frame,
             price,
             multipliers,
+            dearer,
+            no_remainders,
             items,
             stages,
             seen,
@@ -79,7 +88,7 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// Notes nodes from now on, in room for those of a turn of this many steps: clearing more would cost more than
     /// it saves, and easy problems end before any pays.
     pub(super) fn remember(&mut self, steps: u64) {
-        let room = usize::try_from(steps.saturating_mul(2)).unwrap_or(usize::MAX).min(self.seen.len());
+        let room = usize::try_from(steps).unwrap_or(usize::MAX).min(self.seen.len());
         if room > self.noted {
             self.noted = room;
             self.seen[..room].fill(Seen::EMPTY);
@@ -176,6 +185,7 @@ impl<'d, const A: usize> Dive<'d, A> {
         let fraction = self.frame.fraction;
         let mut saving = Rows::ZERO;
         let mut gain = [0; REPRICINGS];
+        let mut remainders = *self.no_remainders;
         for level in (0..self.levels).rev() {
             let stage = &self.stages[self.stages[level].level.stage as usize];
             let own = stage.items(self.items);
@@ -190,12 +200,16 @@ impl<'d, const A: usize> Dive<'d, A> {
                 }
             }
             saving = saving.plus(&most);
+            if remainders.matter() {
+                remainders = remainders.with(own, allowance);
+            }
             for (sum, part) in gain.iter_mut().zip(gained) {
                 *sum += part;
             }
             let base = stage.best;
             let level = &mut self.stages[level].level;
             (level.saving, level.gain, level.base) = (saving, gain, base);
+            level.remainders = remainders;
         }
     }
 
@@ -244,9 +258,23 @@ impl<'d, const A: usize> Dive<'d, A> {
             return false;
         }
         // value + multiplier * slack + gain >= target, with value = bound - loss - best multiplier * slack
-        self.multipliers.iter().zip(&level.gain).all(|(multiplier, gain)| {
-            multiplier.minus(&self.price.multiplier).dot(&point.slack) + gain >= point.loss - allowance
-        })
+        let needed = point.loss - allowance;
+        let priced = self
+            .dearer
+            .iter()
+            .zip(&level.gain)
+            .all(|(dearer, gain)| dearer.dot(&point.slack) + gain >= needed);
+        let reach = |level: &Level<A>| {
+            let left = allowance - point.loss;
+            level.remainders.reach(self.worth(point), self.target, left, self.frame.fraction)
+        };
+        priced && (!level.remainders.matter() || reach(level))
+    }
+
+    /// The value of the plan that has the open activities at their best items, within its limits or not.
+    #[inline]
+    fn worth(&self, point: &Point<A>) -> i64 {
+        (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack)) >> self.frame.fraction
     }
 
     /// Whether a node at least as good was searched at this level before; if not, notes this one.
@@ -258,8 +286,7 @@ impl<'d, const A: usize> Dive<'d, A> {
         if self.noted == 0 || depth + NOT_KEPT > self.levels {
             return false;
         }
-        let worth =
-            (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack)) >> self.frame.fraction;
+        let worth = self.worth(point);
         let mixed = worth.cast_unsigned().wrapping_mul(0x9E37_79B9_7F4A_7C15)
             ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         let place = (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.noted as u128) >> 64;

@@ -46,6 +46,7 @@ mod search;
 
 use crate::allocation::{Allocator, Answer, MemoryError, Planned, enough};
 use crate::problem::Problem;
+use congruence::Remainders;
 use load::Aim;
 use rows::Rows;
 
@@ -134,6 +135,8 @@ struct Level<const A: usize> {
     saving: Rows<A>,
     /// What the levels from here on can gain over their best items at each other multiplier.
     gain: [i64; REPRICINGS],
+    /// By how much the levels from here on can change the value, modulo what is common, and at which loss.
+    remainders: Remainders,
 }
 
 impl<const A: usize> Stage<A> {
@@ -150,6 +153,7 @@ impl<const A: usize> Stage<A> {
             point: dive::Point::ZERO,
             saving: Rows::ZERO,
             gain: [0; REPRICINGS],
+            remainders: Remainders::NONE,
         },
     };
 
@@ -246,10 +250,23 @@ impl<'m, const A: usize> Exact<'m, A> {
         }
         let mut bound = (price.bound >> frame.fraction).min(frame.most);
         let best = primal::first_plan(&frame, &price, self.items, stages, budget);
-        if budget.take(stages.len() as u64).is_some() {
-            bound = congruence::bound(&frame, &price, self.items, stages, bound);
+        let mut remainders = Remainders::of(&frame, self.items, stages);
+        if !remainders.matter() || budget.take(stages.len() as u64).is_none() {
+            remainders = Remainders::NONE;
+        } else {
+            bound = congruence::bound(&frame, &price, self.items, stages, &remainders, bound);
         }
-        match search::search(&frame, &price, self.items, stages, self.seen, best, &mut bound, budget) {
+        match search::search(
+            &frame,
+            &price,
+            &remainders,
+            self.items,
+            stages,
+            self.seen,
+            best,
+            &mut bound,
+            budget,
+        ) {
             (Some(best), _) if best >= bound => Ended::Optimal,
             (Some(_), _) => Ended::Stopped(value(bound)),
             (None, true) => Ended::Infeasible,

@@ -4,6 +4,7 @@
 //! Where activities share the same ratio of value to cost, very many plans lie near the bound and a dive need
 //! not end. Then the best plan is improved by freeing a few activities at a time, in turns with the dive.
 
+use super::congruence::Remainders;
 use super::dive::Dive;
 use super::dual::Price;
 use super::load::Frame;
@@ -26,6 +27,7 @@ const FRUITLESS: u64 = 200;
 pub(super) fn search<const A: usize>(
     frame: &Frame<A>,
     price: &Price<A>,
+    remainders: &Remainders,
     items: &[Item<A>],
     stages: &mut [Stage<A>],
     seen: &mut [Seen<A>],
@@ -34,7 +36,7 @@ pub(super) fn search<const A: usize>(
     budget: &mut Budget,
 ) -> (Option<i64>, bool) {
     let multipliers = repricings(frame, price);
-    let mut dive = Dive::new(frame, price, &multipliers, items, stages, seen);
+    let mut dive = Dive::new(frame, price, &multipliers, remainders, items, stages, seen);
     let (mut width, mut turn, mut round) = (0, FIRST_TURN, 0);
     loop {
         // A plan worth the bound, or every plan excluded.
