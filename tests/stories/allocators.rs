@@ -329,6 +329,34 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
     assert_eq!((size_of::<Item<2>>(), size_of::<Stage<2>>(), size_of::<Seen<2>>()), (32, 256, 40));
 }
 
+/// Nodes that are remembered save steps and never an answer: whatever the memory, what is proven best is the same.
+#[test]
+fn memory_for_nodes_does_not_change_what_is_proven() {
+    let mut compared = 0;
+    for seed in 0..600 {
+        let instance = random_mission(seed);
+        let slices = instance.slices();
+        let problem = instance.problem(&slices);
+        let proven = |memory: usize| {
+            let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
+            let (mut seen, mut plan) = (vec![Seen::EMPTY; memory], [0; 17]);
+            let mut exact = Exact::new(&[Objective::MostQuality], 300_000, &mut items, &mut stages)
+                .with_memory(&mut seen);
+            match exact.allocate(&problem, &mut plan) {
+                Ok(Answer::Planned(planned)) if planned.optimal => Some((planned.quality, planned.steps)),
+                _ => None,
+            }
+        };
+        if let (Some((without, steps)), Some((little, _)), Some((much, _))) =
+            (proven(0), proven(37), proven(5_000))
+        {
+            assert_eq!((without, without), (little, much), "seed {seed}");
+            compared += u32::from(steps > 5_000);
+        }
+    }
+    assert_eq!(compared, 97, "missions hard enough that nodes are remembered");
+}
+
 /// The paper's rule looks at each candidate a fixed number of times: its steps have a proven bound.
 #[test]
 fn the_rule_takes_at_most_five_looks_at_each_candidate() {
