@@ -20,6 +20,8 @@
 #![no_std]
 #![cfg_attr(test, allow(clippy::pedantic))]
 
+#[cfg(feature = "alloc")]
+extern crate alloc;
 #[cfg(test)]
 extern crate std;
 
@@ -28,6 +30,7 @@ pub mod exact;
 pub mod front;
 pub mod hardware;
 pub mod monitor;
+pub mod net;
 pub mod panorama;
 pub mod problem;
 pub mod units;

@@ -1,0 +1,177 @@
+//! A net as plain data: what every other part of the crate reads.
+//!
+//! Ids are positions in the lists of the same [`Net`]. The lists are public, so a net can also be written by hand,
+//! read from a file or made by a function; [`Net::defect`] says whether they fit together.
+
+/// A place of a net: its position in [`Net::places`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct PlaceId(pub u32);
+
+/// An event that a net reacts to: its position in [`Net::events`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct EventId(pub u32);
+
+/// A signal that a net emits: its position in [`Net::outputs`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct OutputId(pub u32);
+
+/// A transition of a net: its position in [`Net::transitions`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[repr(transparent)]
+pub struct TransitionId(pub u32);
+
+/// A place/transition net with events, read arcs, bounds, priorities and time: a supervisor.
+///
+/// Its marking decides alone what an event does; nothing that decides is outside of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Net<'n> {
+    /// Its name.
+    pub name: &'n str,
+    /// What it is for.
+    pub doc: &'n str,
+    /// Where tokens lie.
+    pub places: &'n [Place<'n>],
+    /// What it reacts to, from outside or from other nets of a system.
+    pub events: &'n [Signal<'n>],
+    /// What it says to the outside or to other nets.
+    pub outputs: &'n [Signal<'n>],
+    /// How tokens move. Of transitions of the same priority the earlier one goes first.
+    pub transitions: &'n [Transition<'n>],
+    /// Events that a place leaves unanswered on purpose.
+    pub ignored: &'n [Ignored],
+    /// What is claimed of it.
+    pub laws: &'n [Law<'n>],
+}
+
+/// Where tokens lie.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Place<'n> {
+    /// Its name, unique among the places of the net.
+    pub name: &'n str,
+    /// What a token in it means.
+    pub doc: &'n str,
+    /// Tokens at the start.
+    pub initial: u32,
+    /// The most tokens it is claimed to hold; [`Place::UNBOUNDED`] without a claim.
+    pub bound: u32,
+    /// What it stands for.
+    pub role: Role,
+}
+
+impl Place<'_> {
+    /// The bound of a place of which no bound is claimed.
+    pub const UNBOUNDED: u32 = u32::MAX;
+}
+
+/// What a place stands for. The token game does not depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A state or a condition of the supervisor.
+    State,
+    /// Data that guards read: a boolean, or a counter up to the bound of the place.
+    Data,
+    /// What a [`Role::Data`] or [`Role::Shared`] place lacks to its bound: the two sum to the bound.
+    Complement(PlaceId),
+    /// A condition that another net of a system owns.
+    Shared,
+    /// Signals under way between nets of a system.
+    Mailbox,
+}
+
+/// The name of an event or an output.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Signal<'n> {
+    /// Its name, unique among the events, or the outputs, of the net.
+    pub name: &'n str,
+    /// What it tells.
+    pub doc: &'n str,
+}
+
+/// How tokens move: enabled when every place of `take` and `read` holds at least the weight.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Transition<'n> {
+    /// Its name, unique among the transitions of the net.
+    pub name: &'n str,
+    /// What it is for.
+    pub doc: &'n str,
+    /// Which line of the definition it comes from; one line can stand for several transitions (from any place of
+    /// a group, for either value of a flag).
+    pub line: u32,
+    /// The event it needs; without one it fires by itself.
+    pub on: Option<EventId>,
+    /// Tokens that it removes. No place occurs twice in `take` and `read` together.
+    pub take: &'n [Arc],
+    /// Tokens that must be there and stay.
+    pub read: &'n [Arc],
+    /// Tokens that it adds. No place occurs twice.
+    pub give: &'n [Arc],
+    /// What it says, in this order.
+    pub emits: &'n [OutputId],
+    /// When it may fire, counted from the moment it became enabled. Without it: at any time when it needs an event,
+    /// at once when it does not.
+    pub within: Option<Within>,
+    /// Of several enabled transitions the one of the highest priority fires.
+    pub priority: i16,
+}
+
+/// A number of tokens in a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Arc {
+    /// The place.
+    pub place: PlaceId,
+    /// How many tokens, at least one.
+    pub weight: u32,
+}
+
+/// A time interval, closed on both sides, in milliseconds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Within {
+    /// Not before.
+    pub earliest: u32,
+    /// Not after; `None`: no limit.
+    pub latest: Option<u32>,
+}
+
+/// `event` is left unanswered where `place` is marked, on purpose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ignored {
+    /// The event.
+    pub event: EventId,
+    /// The place.
+    pub place: PlaceId,
+}
+
+/// What is claimed of a net. All but [`Law::Deterministic`] speak about the net without time and priorities, that
+/// is of every order in which enabled transitions can fire; what they forbid is then forbidden in every execution.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Law<'n> {
+    /// A weighted sum of tokens stays the same: a place invariant.
+    Invariant {
+        /// Weights; a place that is not listed counts nothing.
+        sum: &'n [Arc],
+        /// The sum.
+        equals: u32,
+    },
+    /// Never a token in both at once.
+    NeverBoth(PlaceId, PlaceId),
+    /// Some firing sequence marks it.
+    Reachable(PlaceId),
+    /// From wherever the net is, some firing sequence marks it.
+    AlwaysCan(PlaceId),
+    /// Wherever nothing fires by itself at once, every event is answered by a transition, or by
+    /// [`Net::ignored`].
+    HandlesAll,
+    /// Transitions that fire at once and by themselves come to an end.
+    Settles,
+    /// Some transition is enabled, except where `end` is marked.
+    DeadlockFree {
+        /// Where to stop is meant.
+        end: Option<PlaceId>,
+    },
+    /// No two transitions of the same event, or two that fire at once by themselves, are ever enabled together:
+    /// priorities and the order of lines decide nothing.
+    Deterministic,
+}

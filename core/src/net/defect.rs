@@ -1,0 +1,98 @@
+//! Whether the lists of a net fit together.
+
+use super::data::{Arc, Law, Net, PlaceId, Role};
+
+/// What is wrong with the lists of a [`Net`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Defect {
+    /// A list is longer than ids can count.
+    TooLong,
+    /// A transition names a place, event or output that the net does not have.
+    UnknownId {
+        /// The position of the transition.
+        transition: usize,
+    },
+    /// A transition has an arc of weight zero, or names a place twice where it may only once.
+    Arcs {
+        /// The position of the transition.
+        transition: usize,
+    },
+    /// A transition's interval ends before it begins.
+    Interval {
+        /// The position of the transition.
+        transition: usize,
+    },
+    /// A place has more tokens at the start than its bound, or the complement of a place is not one.
+    Place {
+        /// The position of the place.
+        place: usize,
+    },
+    /// A law or an ignored event names something that the net does not have.
+    Law,
+}
+
+impl Net<'_> {
+    /// What is wrong with its lists, if anything.
+    pub fn defect(&self) -> Option<Defect> {
+        let lists = [self.places.len(), self.events.len(), self.outputs.len(), self.transitions.len()];
+        if lists.iter().any(|&length| u32::try_from(length).is_err()) {
+            return Some(Defect::TooLong);
+        }
+        self.place_defect().or_else(|| self.transition_defect()).or_else(|| self.law_defect())
+    }
+
+    fn has(&self, place: PlaceId) -> bool {
+        (place.0 as usize) < self.places.len()
+    }
+
+    fn place_defect(&self) -> Option<Defect> {
+        let bad = |place: &super::Place<'_>| {
+            let complements = |of: PlaceId| {
+                let of = self.places.get(of.0 as usize);
+                of.is_some_and(|of| of.bound == place.bound && of.initial.checked_add(place.initial) == Some(of.bound))
+            };
+            place.initial > place.bound || matches!(place.role, Role::Complement(of) if !complements(of))
+        };
+        self.places.iter().position(bad).map(|place| Defect::Place { place })
+    }
+
+    fn transition_defect(&self) -> Option<Defect> {
+        self.transitions.iter().enumerate().find_map(|(transition, it)| {
+            let needs = || it.take.iter().chain(it.read);
+            let known = needs().chain(it.give).all(|arc| self.has(arc.place))
+                && it.on.is_none_or(|event| (event.0 as usize) < self.events.len())
+                && it.emits.iter().all(|output| (output.0 as usize) < self.outputs.len());
+            let sound = once(needs()) && once(it.give.iter());
+            let timed = it.within.is_none_or(|within| within.latest.is_none_or(|latest| within.earliest <= latest));
+            match (known, sound, timed) {
+                (false, ..) => Some(Defect::UnknownId { transition }),
+                (_, false, _) => Some(Defect::Arcs { transition }),
+                (_, _, false) => Some(Defect::Interval { transition }),
+                _ => None,
+            }
+        })
+    }
+
+    fn law_defect(&self) -> Option<Defect> {
+        let ignored = |it: &super::Ignored| (it.event.0 as usize) < self.events.len() && self.has(it.place);
+        let law = |law: &Law<'_>| match *law {
+            Law::Invariant { sum, .. } => sum.iter().all(|arc| self.has(arc.place)) && once(sum.iter()),
+            Law::NeverBoth(a, b) => self.has(a) && self.has(b),
+            Law::Reachable(place) | Law::AlwaysCan(place) => self.has(place),
+            Law::DeadlockFree { end } => end.is_none_or(|end| self.has(end)),
+            Law::HandlesAll | Law::Settles | Law::Deterministic => true,
+        };
+        (!self.ignored.iter().all(ignored) || !self.laws.iter().all(law)).then_some(Defect::Law)
+    }
+}
+
+/// Every weight counts and no place occurs twice.
+fn once<'a>(arcs: impl Iterator<Item = &'a Arc> + Clone) -> bool {
+    let mut rest = arcs;
+    while let Some(arc) = rest.next() {
+        if arc.weight == 0 || rest.clone().any(|other| other.place == arc.place) {
+            return false;
+        }
+    }
+    true
+}

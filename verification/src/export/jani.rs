@@ -1,0 +1,1 @@
+//! JANI, the exchange format of quantitative checkers.

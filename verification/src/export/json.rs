@@ -1,0 +1,1 @@
+//! The whole net as JSON.

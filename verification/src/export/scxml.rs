@@ -1,0 +1,1 @@
+//! SCXML, for nets that are state machines.
