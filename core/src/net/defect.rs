@@ -49,7 +49,9 @@ impl Net<'_> {
         let bad = |place: &super::Place<'_>| {
             let complements = |of: PlaceId| {
                 let of = self.places.get(of.0 as usize);
-                of.is_some_and(|of| of.bound == place.bound && of.initial.checked_add(place.initial) == Some(of.bound))
+                of.is_some_and(|of| {
+                    of.bound == place.bound && of.initial.checked_add(place.initial) == Some(of.bound)
+                })
             };
             place.initial > place.bound || matches!(place.role, Role::Complement(of) if !complements(of))
         };
@@ -63,7 +65,8 @@ impl Net<'_> {
                 && it.on.is_none_or(|event| (event.0 as usize) < self.events.len())
                 && it.emits.iter().all(|output| (output.0 as usize) < self.outputs.len());
             let sound = once(needs()) && once(it.give.iter());
-            let timed = it.within.is_none_or(|within| within.latest.is_none_or(|latest| within.earliest <= latest));
+            let timed =
+                it.within.is_none_or(|within| within.latest.is_none_or(|latest| within.earliest <= latest));
             match (known, sound, timed) {
                 (false, ..) => Some(Defect::UnknownId { transition }),
                 (_, false, _) => Some(Defect::Arcs { transition }),

@@ -1,11 +1,46 @@
-//! Supervisors as typed Petri nets.
+//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while compiling, played anywhere.
+//!
+//! A net is plain data ([`Net`]). A state machine is a net with one token. `net!` makes it and checks its laws; a
+//! [`Player`] executes it, one event after the other or in synchronous [rounds](Round). With the feature `alloc`, nets
+//! are also [made at run time](owned).
+//!
+//! ```text
+//! net! { .. } -> Source -> Net -> Code (packed) -> Known (its laws hold)
+//!                 names    ids     words           Player { marking, clocks } -> Outcome
+//! ```
 
+pub mod code;
 mod data;
 mod defect;
+#[allow(
+    clippy::large_stack_arrays,
+    clippy::large_types_passed_by_value,
+    reason = "they live while compiling"
+)]
+mod explore;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+mod laws;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+pub mod lower;
+mod macros;
 #[cfg(feature = "alloc")]
 pub mod owned;
+mod player;
+mod program;
+mod rounds;
+mod snapshot;
+pub mod source;
+mod text;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+mod variant;
 
 pub use data::{
     Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition, TransitionId, Within,
 };
 pub use defect::Defect;
+pub use explore::{Graph, MARKINGS};
+pub use laws::{Known, check};
+pub use player::{Advanced, CATCH_UP, Outcome, Player, Why};
+pub use program::{Firing, FiringOf, Kind, Loaded, Observer, Program, StateMachine};
+pub use rounds::Round;
+pub use snapshot::{RestoreError, Snapshot};

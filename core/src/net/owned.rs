@@ -1,6 +1,8 @@
 //! Nets that are made at run time: read from a file or built by a function.
 
-use super::data::{Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition, Within};
+use super::data::{
+    Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition, Within,
+};
 use super::defect::Defect;
 use alloc::borrow::ToOwned;
 use alloc::string::String;
@@ -58,7 +60,13 @@ pub struct OwnedPlace {
 impl OwnedPlace {
     /// A place without a claimed bound.
     pub fn new(name: &str, initial: u32) -> Self {
-        Self { name: name.to_owned(), doc: String::new(), initial, bound: Place::UNBOUNDED, role: Role::State }
+        Self {
+            name: name.to_owned(),
+            doc: String::new(),
+            initial,
+            bound: Place::UNBOUNDED,
+            role: Role::State,
+        }
     }
 
     /// The same with a claimed bound.

@@ -1,0 +1,184 @@
+//! What `net!` read, before names are looked up: the left end of the walk from text to [`Net`](super::Net).
+
+use super::data::Signal;
+
+/// A net as it was written.
+#[derive(Clone, Copy, Debug)]
+pub struct Source<'n> {
+    /// The name of the module.
+    pub name: &'n str,
+    /// Its documentation.
+    pub doc: &'n str,
+    /// `places`.
+    pub places: &'n [Declared<'n>],
+    /// `flags`.
+    pub flags: &'n [Declared<'n>],
+    /// `counters`.
+    pub counters: &'n [Declared<'n>],
+    /// `shared`.
+    pub shared: &'n [Declared<'n>],
+    /// `events`.
+    pub events: &'n [Signal<'n>],
+    /// `outputs`.
+    pub outputs: &'n [Signal<'n>],
+    /// `groups`.
+    pub groups: &'n [Group<'n>],
+    /// `transitions`.
+    pub lines: &'n [Line<'n>],
+    /// `ignore`: event and place, or group.
+    pub ignored: &'n [(&'n str, &'n str)],
+    /// `laws`.
+    pub laws: &'n [Claim<'n>],
+}
+
+/// A place, a flag, a counter or a shared place.
+#[derive(Clone, Copy, Debug)]
+pub struct Declared<'n> {
+    /// Its name.
+    pub name: &'n str,
+    /// Its documentation.
+    pub doc: &'n str,
+    /// Tokens at the start.
+    pub initial: u64,
+    /// The most tokens.
+    pub bound: u64,
+}
+
+/// A name for several places.
+#[derive(Clone, Copy, Debug)]
+pub struct Group<'n> {
+    /// Its name.
+    pub name: &'n str,
+    /// Its places.
+    pub members: &'n [&'n str],
+}
+
+/// A line of `transitions`.
+#[derive(Clone, Copy, Debug)]
+pub struct Line<'n> {
+    /// Its name.
+    pub name: &'n str,
+    /// Its documentation.
+    pub doc: &'n str,
+    /// The event; empty without one.
+    pub on: &'n str,
+    /// The guard, all of which must hold.
+    pub guard: &'n [Test<'n>],
+    /// Places, or a group, and weights; `_` is nothing.
+    pub take: &'n [(&'n str, u64)],
+    /// Places and weights; `_` is nothing.
+    pub give: &'n [(&'n str, u64)],
+    /// Places and weights that must be there and stay.
+    pub read: &'n [(&'n str, u64)],
+    /// Changes of flags, counters and shared places.
+    pub changes: &'n [Change<'n>],
+    /// Outputs.
+    pub emits: &'n [&'n str],
+    /// First and last instant, in milliseconds.
+    pub within: Option<(u64, Option<u64>)>,
+    /// Priority.
+    pub priority: i64,
+}
+
+/// One condition of a guard: a place, flag, counter or shared place compared with a number.
+#[derive(Clone, Copy, Debug)]
+pub struct Test<'n> {
+    /// What is compared.
+    pub name: &'n str,
+    /// How.
+    pub relation: Relation,
+    /// With what.
+    pub value: u64,
+}
+
+/// How a guard compares.
+#[derive(Clone, Copy, Debug)]
+pub enum Relation {
+    /// `<`
+    Less,
+    /// `<=`
+    AtMost,
+    /// `==`
+    Equal,
+    /// `>=`
+    AtLeast,
+    /// `>`
+    More,
+}
+
+/// A change of a flag, a counter or a shared place.
+#[derive(Clone, Copy, Debug)]
+pub struct Change<'n> {
+    /// What changes.
+    pub name: &'n str,
+    /// How.
+    pub by: By,
+}
+
+/// How a value changes.
+#[derive(Clone, Copy, Debug)]
+pub enum By {
+    /// `+=`
+    Add(u64),
+    /// `-=`
+    Subtract(u64),
+    /// `=`
+    Become(u64),
+}
+
+/// A line of `laws`.
+#[derive(Clone, Copy, Debug)]
+pub enum Claim<'n> {
+    /// `invariant(A & B * 2 = 1)`
+    Invariant(&'n [(&'n str, u64)], u64),
+    /// `never_both(A, B)`
+    NeverBoth(&'n str, &'n str),
+    /// `reachable(A)`
+    Reachable(&'n str),
+    /// `always_can(A)`
+    AlwaysCan(&'n str),
+    /// `handles(all)`
+    HandlesAll,
+    /// `settles`
+    Settles,
+    /// `deadlock_free`, or `deadlock_free_except(A)`; empty without a place.
+    DeadlockFree(&'n str),
+    /// `deterministic`
+    Deterministic,
+    /// `left_to_checker`: too large to be explored while compiling.
+    LeftToChecker,
+}
+
+impl Source<'_> {
+    /// Whether the laws are left to the checker.
+    pub const fn left_to_checker(&self) -> bool {
+        let mut at = 0;
+        while at < self.laws.len() {
+            if let Claim::LeftToChecker = self.laws[at] {
+                return true;
+            }
+            at += 1;
+        }
+        false
+    }
+}
+
+/// The documentation without the blanks around it.
+pub const fn doc(text: &str) -> &str {
+    text.trim_ascii()
+}
+
+/// What was written, or what is last in the list when nothing was.
+pub const fn first(numbers: &[u64]) -> u64 {
+    numbers[0]
+}
+
+/// The interval that was written.
+pub const fn interval(written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
+    if written.is_empty() { None } else { Some(written[0]) }
+}
+
+/// The priority that was written, or what is last in the list when none was.
+pub const fn priority(numbers: &[i64]) -> i64 {
+    numbers[0]
+}

@@ -1,0 +1,119 @@
+//! Sentences made while compiling: what a compile error of `net!` says.
+
+/// The longest text; what goes beyond is cut off with "...".
+const LIMIT: usize = 1_500;
+
+/// A text that grows, also in a `const`.
+#[derive(Clone, Copy)]
+pub(super) struct Text {
+    bytes: [u8; LIMIT],
+    length: usize,
+}
+
+impl Text {
+    pub(super) const fn new() -> Self {
+        Self { bytes: [0; LIMIT], length: 0 }
+    }
+
+    /// The same with this at its end.
+    pub(super) const fn with(mut self, more: &str) -> Self {
+        let more = more.as_bytes();
+        let mut at = 0;
+        while at < more.len() && self.length < LIMIT {
+            self.bytes[self.length] = more[at];
+            self.length += 1;
+            at += 1;
+        }
+        self
+    }
+
+    /// The same with a name in backticks at its end.
+    pub(super) const fn name(self, name: &str) -> Self {
+        self.with("`").with(name).with("`")
+    }
+
+    /// The same with a number at its end.
+    pub(super) const fn number(self, number: u64) -> Self {
+        let mut digits = [0_u8; 20];
+        let mut rest = number;
+        let mut at = digits.len();
+        loop {
+            at -= 1;
+            digits[at] = b'0' + (rest % 10) as u8;
+            rest /= 10;
+            if rest == 0 {
+                break;
+            }
+        }
+        self.with(as_str(digits.split_at(at).1))
+    }
+
+    /// Ends the compilation with this text.
+    pub(super) const fn stop(self) -> ! {
+        let cut = if self.length == LIMIT { self.cut() } else { self };
+        panic!("{}", as_str(cut.bytes.split_at(cut.length).0))
+    }
+
+    /// Ends with "...", at a border of characters.
+    const fn cut(mut self) -> Self {
+        self.length -= 3;
+        while self.length > 0 && self.bytes[self.length] & 0xC0 == 0x80 {
+            self.length -= 1;
+        }
+        self.with("...")
+    }
+}
+
+/// Bytes that were taken from a `str` as a whole.
+pub(super) const fn as_str(bytes: &[u8]) -> &str {
+    match core::str::from_utf8(bytes) {
+        Ok(text) => text,
+        Err(_) => "?",
+    }
+}
+
+/// Whether two names are the same.
+pub(super) const fn same(a: &str, b: &str) -> bool {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    if a.len() != b.len() {
+        return false;
+    }
+    let mut at = 0;
+    while at < a.len() {
+        if a[at] != b[at] {
+            return false;
+        }
+        at += 1;
+    }
+    true
+}
+
+/// How many letters must be inserted, removed or exchanged to get from one name to the other (Levenshtein), for
+/// names of up to 63 bytes; many for longer ones.
+pub(super) const fn distance(a: &str, b: &str) -> usize {
+    let (a, b) = (a.as_bytes(), b.as_bytes());
+    if a.len() > 63 || b.len() > 63 {
+        return usize::MAX;
+    }
+    let mut row = [0; 64];
+    let mut column = 0;
+    while column <= b.len() {
+        row[column] = column;
+        column += 1;
+    }
+    let mut line = 0;
+    while line < a.len() {
+        let mut diagonal = row[0];
+        row[0] = line + 1;
+        let mut column = 0;
+        while column < b.len() {
+            let exchanged = diagonal + !a[line].eq_ignore_ascii_case(&b[column]) as usize;
+            diagonal = row[column + 1];
+            let skipped = 1 + if diagonal < row[column] { diagonal } else { row[column] };
+            row[column + 1] = if exchanged < skipped { exchanged } else { skipped };
+            column += 1;
+        }
+        line += 1;
+    }
+    row[b.len()]
+}

@@ -1,0 +1,461 @@
+//! One line of `transitions` stands for one transition or several: from each place of a group, for each old value of
+//! what it sets. Here a line and the number of a variant become arcs.
+
+use super::data::PlaceId;
+use super::source::{By, Declared, Group, Line, Relation, Source};
+use super::text::{Text, distance, same};
+
+/// The most places that one transition may touch.
+const TOUCHED: usize = 32;
+/// The most tokens of a place, and the largest weight.
+pub(super) const MOST: u64 = 65_535;
+
+/// What one variant of a line does to one place.
+#[derive(Clone, Copy)]
+pub(super) struct Touch {
+    pub(super) place: PlaceId,
+    /// Tokens removed.
+    pub(super) take: u64,
+    /// Tokens added.
+    pub(super) give: u64,
+    /// Tokens that must be there.
+    pub(super) need: u64,
+}
+
+/// One transition of a line.
+#[derive(Clone, Copy)]
+pub(super) struct Variant {
+    touched: [Touch; TOUCHED],
+    length: usize,
+    /// Whether its guard can hold at all.
+    pub(super) possible: bool,
+}
+
+/// Where a name was found.
+#[derive(Clone, Copy)]
+pub(super) enum Found {
+    /// A place.
+    Place(usize),
+    /// A flag, counter or shared place: its position, and that among those with a complement.
+    Data(usize, usize),
+    /// A group.
+    Group(usize),
+    /// Nowhere.
+    Nothing,
+}
+
+impl Source<'_> {
+    /// Places without complements: places, flags, counters and shared ones, in this order.
+    pub(super) const fn own_places(&self) -> usize {
+        self.places.len() + self.data()
+    }
+
+    /// Flags, counters and shared places: those with a complement.
+    pub(super) const fn data(&self) -> usize {
+        self.flags.len() + self.counters.len() + self.shared.len()
+    }
+
+    /// The declaration of a place by its position.
+    pub(super) const fn declared(&self, at: usize) -> Declared<'_> {
+        let (places, flags, counters) = (self.places.len(), self.flags.len(), self.counters.len());
+        if at < places {
+            self.places[at]
+        } else if at < places + flags {
+            self.flags[at - places]
+        } else if at < places + flags + counters {
+            self.counters[at - places - flags]
+        } else {
+            self.shared[at - places - flags - counters]
+        }
+    }
+
+    pub(super) const fn find(&self, name: &str) -> Found {
+        let mut at = 0;
+        while at < self.own_places() {
+            if same(self.declared(at).name, name) {
+                return if at < self.places.len() {
+                    Found::Place(at)
+                } else {
+                    Found::Data(at, at - self.places.len())
+                };
+            }
+            at += 1;
+        }
+        let mut at = 0;
+        while at < self.groups.len() {
+            if same(self.groups[at].name, name) {
+                return Found::Group(at);
+            }
+            at += 1;
+        }
+        Found::Nothing
+    }
+
+    /// The complement of the data place at this position among them.
+    const fn complement(&self, data: usize) -> PlaceId {
+        PlaceId((self.own_places() + data) as u32)
+    }
+
+    /// Begins the text of an error in a line.
+    pub(super) const fn at_line(&self, line: &Line<'_>) -> Text {
+        Text::new().with("net ").name(self.name).with(", transition ").name(line.name).with(": ")
+    }
+
+    /// Ends the compilation: this place is not there.
+    pub(super) const fn no_place(&self, text: Text, name: &str) -> ! {
+        let mut best: &str = "";
+        let mut least = 3;
+        let mut at = 0;
+        while at < self.own_places() {
+            let known = self.declared(at).name;
+            let far = distance(name, known);
+            if far < least {
+                (best, least) = (known, far);
+            }
+            at += 1;
+        }
+        suggest(text.with("there is no place ").name(name), best)
+    }
+
+    /// The group that a line takes from or reads; only one can.
+    const fn group(&self, line: &Line<'_>) -> Option<Group<'_>> {
+        let mut group = None;
+        let mut at = 0;
+        while at < line.take.len() + line.read.len() {
+            let name = if at < line.take.len() { line.take[at].0 } else { line.read[at - line.take.len()].0 };
+            if let Found::Group(found) = self.find(name) {
+                if group.is_some() {
+                    self.at_line(line)
+                        .with("it names two groups; write one line for each member of one of them")
+                        .stop();
+                }
+                group = Some(self.groups[found]);
+            }
+            at += 1;
+        }
+        group
+    }
+
+    /// How many variants a line has, possible or not.
+    pub(super) const fn variants(&self, line: &Line<'_>) -> usize {
+        let mut variants = match self.group(line) {
+            Some(group) => group.members.len(),
+            None => 1,
+        };
+        let mut at = 0;
+        while at < line.changes.len() {
+            let change = line.changes[at];
+            if let (By::Become(_), Found::Data(place, _)) = (change.by, self.find(change.name)) {
+                variants *= self.declared(place).bound as usize + 1;
+            }
+            at += 1;
+        }
+        if variants > 4_096 {
+            self.at_line(line).with("it stands for more than 4,096 transitions").stop();
+        }
+        variants
+    }
+
+    /// The name of the group member that a variant takes, and what is left of its number for old values.
+    pub(super) const fn member(&self, line: &Line<'_>, variant: usize) -> (Option<&str>, usize) {
+        match self.group(line) {
+            Some(group) => {
+                (Some(group.members[variant % group.members.len()]), variant / group.members.len())
+            }
+            None => (None, variant),
+        }
+    }
+
+    /// The arcs of one variant of a line.
+    pub(super) const fn variant(&self, line: &Line<'_>, number: usize) -> Variant {
+        let nothing = Touch { place: PlaceId(0), take: 0, give: 0, need: 0 };
+        let mut variant = Variant { touched: [nothing; TOUCHED], length: 0, possible: true };
+        let (member, mut old) = self.member(line, number);
+
+        let mut at = 0;
+        while at < line.take.len() {
+            if let Some((place, weight)) = self.arc(line, line.take[at], member) {
+                let touch = variant.touch(self, line, place);
+                if touch.take > 0 {
+                    self.at_line(line)
+                        .with("it takes ")
+                        .name(line.take[at].0)
+                        .with(" twice; write a weight, as ")
+                        .name("A * 2")
+                        .stop();
+                }
+                touch.take = weight;
+            }
+            at += 1;
+        }
+        let mut at = 0;
+        while at < line.read.len() {
+            if let Some((place, weight)) = self.arc(line, line.read[at], member) {
+                variant.needs(self, line, place, weight);
+            }
+            at += 1;
+        }
+        let mut at = 0;
+        while at < line.give.len() {
+            if let Some((place, weight)) = self.arc(line, line.give[at], None) {
+                let touch = variant.touch(self, line, place);
+                if touch.give > 0 {
+                    self.at_line(line)
+                        .with("it gives ")
+                        .name(line.give[at].0)
+                        .with(" twice; write a weight, as ")
+                        .name("A * 2")
+                        .stop();
+                }
+                touch.give = weight;
+            }
+            at += 1;
+        }
+        let mut at = 0;
+        while at < line.guard.len() {
+            variant.test(self, line, at);
+            at += 1;
+        }
+        let mut at = 0;
+        while at < line.changes.len() {
+            old = variant.change(self, line, at, old);
+            at += 1;
+        }
+        variant.settle(self);
+        variant
+    }
+
+    /// A place and weight of a line; `None` for `_`.
+    const fn arc(
+        &self,
+        line: &Line<'_>,
+        written: (&str, u64),
+        member: Option<&str>,
+    ) -> Option<(PlaceId, u64)> {
+        let (name, weight) = written;
+        if same(name, "_") {
+            return None;
+        }
+        if weight == 0 || weight > MOST {
+            self.at_line(line)
+                .with("the weight ")
+                .number(weight)
+                .with(" of ")
+                .name(name)
+                .with(" is not from 1 to 65,535")
+                .stop();
+        }
+        let place = match (self.find(name), member) {
+            (Found::Place(place), _) => place,
+            (Found::Group(_), Some(member)) => match self.find(member) {
+                Found::Place(place) => place,
+                _ => self.no_place(self.at_line(line).with("in group ").name(name).with(": "), member),
+            },
+            (Found::Group(_), None) => self
+                .at_line(line)
+                .with(
+                    "a transition cannot put a token into a group: name the place that it means instead of ",
+                )
+                .name(name)
+                .stop(),
+            (Found::Data(..), _) => self
+                .at_line(line)
+                .name(name)
+                .with(" is data, not a place: test it in a guard, as `[")
+                .with(name)
+                .with("]`, and change it with `do`")
+                .stop(),
+            (Found::Nothing, _) => self.no_place(self.at_line(line), name),
+        };
+        let bound = self.declared(place).bound;
+        if weight > bound {
+            self.at_line(line)
+                .with("the weight ")
+                .number(weight)
+                .with(" of ")
+                .name(name)
+                .with(" is more than the ")
+                .number(bound)
+                .with(" token")
+                .with(if bound == 1 { "" } else { "s" })
+                .with(" that it is declared for")
+                .stop();
+        }
+        Some((PlaceId(place as u32), weight))
+    }
+}
+
+impl Variant {
+    /// What it does to this place.
+    const fn touch(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId) -> &mut Touch {
+        let mut at = 0;
+        while at < self.length && self.touched[at].place.0 != place.0 {
+            at += 1;
+        }
+        if at == TOUCHED {
+            source.at_line(line).with("it touches more than 32 places").stop();
+        }
+        if at == self.length {
+            self.touched[at] = Touch { place, take: 0, give: 0, need: 0 };
+            self.length += 1;
+        }
+        &mut self.touched[at]
+    }
+
+    const fn needs(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId, tokens: u64) {
+        let touch = self.touch(source, line, place);
+        if tokens > touch.need {
+            touch.need = tokens;
+        }
+    }
+
+    /// Adds a condition of the guard.
+    const fn test(&mut self, source: &Source<'_>, line: &Line<'_>, at: usize) {
+        let test = line.guard[at];
+        let (place, complement) = match source.find(test.name) {
+            Found::Place(place) => (place, None),
+            Found::Data(place, data) => (place, Some(source.complement(data))),
+            Found::Group(_) => source
+                .at_line(line)
+                .with("the guard tests a group, ")
+                .name(test.name)
+                .with(": read it instead, as `read ")
+                .with(test.name)
+                .with("`")
+                .stop(),
+            Found::Nothing => source.no_place(source.at_line(line).with("in its guard: "), test.name),
+        };
+        let bound = source.declared(place).bound;
+        // The value is at least `low` and at most `high`.
+        let (low, high) = match test.relation {
+            Relation::Less if test.value == 0 => (bound + 1, bound),
+            Relation::Less => (0, test.value - 1),
+            Relation::AtMost => (0, test.value),
+            Relation::Equal => (test.value, test.value),
+            Relation::AtLeast => (test.value, bound),
+            Relation::More => (test.value.saturating_add(1), bound),
+        };
+        if low > bound {
+            self.possible = false;
+            return;
+        }
+        if low > 0 {
+            self.needs(source, line, PlaceId(place as u32), low);
+        }
+        if high < bound {
+            match complement {
+                Some(complement) => self.needs(source, line, complement, bound - high),
+                None => source.at_line(line).with("its guard asks that the place ").name(test.name)
+                    .with(" holds few tokens, which a net cannot see: only flags, counters and shared places can be tested for absence")
+                    .stop(),
+            }
+        }
+    }
+
+    /// Adds a change; gives back the number of the variant less what this change used of it.
+    const fn change(&mut self, source: &Source<'_>, line: &Line<'_>, at: usize, old: usize) -> usize {
+        let change = line.changes[at];
+        let (place, complement) = match source.find(change.name) {
+            Found::Data(place, data) => (place, source.complement(data)),
+            Found::Place(_) | Found::Group(_) => source
+                .at_line(line)
+                .with("`do` changes flags, counters and shared places, and ")
+                .name(change.name)
+                .with(" is a place: move tokens with `=>`")
+                .stop(),
+            Found::Nothing => source.no_place(source.at_line(line).with("in its `do`: "), change.name),
+        };
+        let bound = source.declared(place).bound;
+        let place = PlaceId(place as u32);
+        let (up, down, rest) = match change.by {
+            By::Add(by) => (by, 0, old),
+            By::Subtract(by) => (0, by, old),
+            By::Become(value) => {
+                let radix = bound as usize + 1;
+                let was = (old % radix) as u64;
+                if value > bound {
+                    source
+                        .at_line(line)
+                        .with("it sets ")
+                        .name(change.name)
+                        .with(" to ")
+                        .number(value)
+                        .with(", beyond its largest value ")
+                        .number(bound)
+                        .stop();
+                }
+                if was > 0 {
+                    self.needs(source, line, place, was);
+                }
+                if was < bound {
+                    self.needs(source, line, complement, bound - was);
+                }
+                (value.saturating_sub(was), was.saturating_sub(value), old / radix)
+            }
+        };
+        if up > bound || down > bound {
+            source
+                .at_line(line)
+                .with("it changes ")
+                .name(change.name)
+                .with(" by more than its largest value ")
+                .number(bound)
+                .stop();
+        }
+        let touch = self.touch(source, line, place);
+        touch.give += up;
+        touch.take += down;
+        let touch = self.touch(source, line, complement);
+        touch.give += down;
+        touch.take += up;
+        rest
+    }
+
+    /// Finds out whether the conditions contradict each other.
+    const fn settle(&mut self, source: &Source<'_>) {
+        let mut at = 0;
+        while at < self.length {
+            let touch = &self.touched[at];
+            let own = source.own_places();
+            let place = touch.place.0 as usize;
+            let need = if touch.need > touch.take { touch.need } else { touch.take };
+            if place >= own {
+                let of = source.places.len() + place - own;
+                let mut other = 0;
+                while other < self.length {
+                    let twin = &self.touched[other];
+                    if twin.place.0 as usize == of {
+                        let low = if twin.need > twin.take { twin.need } else { twin.take };
+                        if low + need > source.declared(of).bound {
+                            self.possible = false;
+                        }
+                    }
+                    other += 1;
+                }
+            }
+            at += 1;
+        }
+    }
+
+    pub(super) const fn len(&self) -> usize {
+        self.length
+    }
+
+    /// What it does to a place: tokens removed, read and added. A place of which more must be there than is removed
+    /// has the rest removed and put back.
+    pub(super) const fn arcs(&self, at: usize) -> (PlaceId, u64, u64, u64) {
+        let touch = self.touched[at];
+        if touch.take == 0 {
+            (touch.place, 0, touch.need, touch.give)
+        } else if touch.need > touch.take {
+            (touch.place, touch.need, 0, touch.give + touch.need - touch.take)
+        } else {
+            (touch.place, touch.take, 0, touch.give)
+        }
+    }
+}
+
+/// Ends the compilation with a name that may have been meant.
+pub(super) const fn suggest(text: Text, best: &str) -> ! {
+    if best.is_empty() { text.stop() } else { text.with("; did you mean ").name(best).with("?").stop() }
+}
