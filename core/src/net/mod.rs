@@ -18,6 +18,8 @@ mod defect;
     reason = "they live while compiling"
 )]
 mod explore;
+#[cfg(feature = "alloc")]
+mod heap;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod laws;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
@@ -39,6 +41,8 @@ pub use data::{
 };
 pub use defect::Defect;
 pub use explore::{Graph, MARKINGS};
+#[cfg(feature = "alloc")]
+pub use heap::{Packed, SETTLE, clocks, words};
 pub use laws::{Known, check};
 pub use player::{Advanced, CATCH_UP, Outcome, Player, Why};
 pub use program::{Firing, FiringOf, Kind, Loaded, Observer, Program, StateMachine};
