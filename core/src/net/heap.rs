@@ -1,6 +1,6 @@
 //! Nets made at run time, packed on the heap so that a [`Player`](super::Player) plays them.
 
-use super::code::{Borrowed, Clock, Code, Entry, Field, Lists, NO_CLOCK, Words, pack, size};
+use super::code::{Borrowed, Clock, Code, Entry, Field, LARGEST, Lists, NO_CLOCK, Words, pack, size};
 use super::data::Net;
 use super::defect::Defect;
 use super::program::Loaded;
@@ -54,13 +54,16 @@ pub fn clocks(net: &Net<'_>) -> usize {
 }
 
 impl<const W: usize> Packed<W> {
-    /// Packs a net. Places of which no bound is claimed hold up to [`LARGEST`](super::code::LARGEST) tokens.
+    /// Packs a net. Places of which no bound is claimed hold up to [`LARGEST`] tokens.
     ///
     /// # Errors
-    /// The defect of the net; [`Defect::TooLong`] when it has too many parts, or `W` is less than [`words`].
+    /// The defect of the net; [`Defect::Place`] when a place starts with more than that; [`Defect::TooLong`] when it has too many parts, or `W` is less than [`words`].
     pub fn of(net: &Net<'_>) -> Result<Self, Defect> {
         if let Some(defect) = net.defect() {
             return Err(defect);
+        }
+        if let Some(place) = net.places.iter().position(|place| place.initial > LARGEST) {
+            return Err(Defect::Place { place });
         }
         let size = size(net).filter(|size| size.words <= W).ok_or(Defect::TooLong)?;
         let entry = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NO_CLOCK };
