@@ -33,4 +33,5 @@ pub mod monitor;
 pub mod net;
 pub mod panorama;
 pub mod problem;
+pub mod system;
 pub mod units;

@@ -1,4 +1,6 @@
 //! Stories across the crates.
 
 mod allocators;
+mod nets;
 mod patrol;
+mod systems;

@@ -72,8 +72,9 @@ impl Field {
 pub struct Code<'c, const W: usize> {
     /// Transitions by event, then by the state that they need, then in the order in which they are tried.
     pub entries: &'c [Entry<W>],
-    /// Where the transitions of an event and a state begin in `entries`: at `event * states + state`. After those of
-    /// the last event come those that fire at once by themselves, then those that fire by themselves in an interval.
+    /// Where the transitions of an event that a state enables begin and end in `entries`: two numbers, at
+    /// `2 * (event * states + state)`. After those of the last event come those that fire at once by themselves, then
+    /// those that fire by themselves in an interval.
     pub rows: &'c [u16],
     /// What each transition takes, by its position in the net.
     pub takes: &'c [[u64; W]],
@@ -91,8 +92,7 @@ pub struct Code<'c, const W: usize> {
     pub initial: [u64; W],
     /// For each event the places that ignore it on purpose.
     pub ignored: &'c [[u64; W]],
-    /// The bits of the places of which exactly one is marked and which every transition needs one of; zero when the
-    /// net has none such.
+    /// The bits of the places of which exactly one is marked at any time; zero when the net has none such.
     pub control: u64,
     /// How many such places; one when there is none.
     pub states: u16,
@@ -100,8 +100,9 @@ pub struct Code<'c, const W: usize> {
     pub events: u16,
     /// The most transitions that fire at once by themselves one after another.
     pub settle: u32,
-    /// Whether any transition fires at once by itself.
-    pub immediate: bool,
+    /// Where nothing of this is marked, no transition fires at once by itself: a place of each of them, or the guard bit
+    /// of one that needs no place.
+    pub restless: [u64; W],
     /// Whether it is known that no bound is ever exceeded.
     pub bounded: bool,
     /// Tells nets apart.
@@ -134,6 +135,12 @@ const fn bound(net: &Net<'_>, place: usize) -> u32 {
     if bound == 0 { 1 } else { bound }
 }
 
+/// How many bits hold this many tokens.
+pub(crate) const fn width_of(bound: u32) -> u8 {
+    let bound = if bound > LARGEST { LARGEST } else { bound };
+    if bound == 0 { 1 } else { width(bound) }
+}
+
 const fn width(bound: u32) -> u8 {
     (u32::BITS - bound.leading_zeros()) as u8
 }
@@ -161,13 +168,13 @@ pub const fn size(net: &Net<'_>) -> Option<CodeSize> {
         clocks += net.transitions[at].within.is_some() as usize;
         at += 1;
     }
-    let rows = (net.events.len() + 2) * control(net).0 + 1;
+    let rows = 2 * (net.events.len() + 2) * control(net).0;
     let (entries, fields, events) = (net.transitions.len(), net.places.len(), net.events.len());
     Some(CodeSize { words, entries, rows, clocks, fields, events })
 }
 
 /// How many states the net has when it is a state machine over its `Role::State` places (one otherwise), and whether
-/// it is one: every transition needs one such place and gives one back, and there is one token.
+/// it is one: there is one token in them, and every transition moves it, reads it or leaves it alone.
 const fn control(net: &Net<'_>) -> (usize, bool) {
     let mut states = 0;
     let mut tokens = 0;
@@ -186,7 +193,7 @@ const fn control(net: &Net<'_>) -> (usize, bool) {
     while at < net.transitions.len() {
         let it = &net.transitions[at];
         let (taken, read, given) = (among(it.take, states), among(it.read, states), among(it.give, states));
-        if !(taken == 1 && read == 0 && given == 1 || taken == 0 && read == 1 && given == 0) {
+        if !(taken == 1 && read == 0 && given == 1 || taken == 0 && read <= 1 && given == 0) {
             return (1, false);
         }
         at += 1;
@@ -205,7 +212,7 @@ const fn among(arcs: &[super::Arc], places: usize) -> usize {
     count
 }
 
-/// Whether exactly one place of role [`Role::State`] is marked at any time, because every transition moves one token
+/// Whether exactly one place of role [`Role::State`] is marked at any time, because transitions only move one token
 /// among them.
 pub const fn is_state_machine(net: &Net<'_>) -> bool {
     control(net).1
@@ -299,28 +306,32 @@ pub const fn pack<const W: usize>(net: &Net<'_>, lists: &mut Lists<'_, W>) -> Wo
         lists.ignored[net.ignored[at].event.0 as usize][field.word as usize] |= mask;
         at += 1;
     }
-    let (mut entry, mut clock, mut row) = (0, 0, 0);
+    let (mut entry, mut first, mut clock, mut row) = (0, 0, 0, 0);
     let mut kind = 0;
     while kind < net.events.len() + 2 {
+        // One row for each state; one row for all of them where a transition fires in any.
+        let apart = machine && is_by_state(net, kind, states);
         let mut state = 0;
         while state < states {
-            lists.rows[row] = entry as u16;
-            row += 1;
-            let first = entry;
-            let mut at = 0;
-            while at < net.transitions.len() {
-                if kind_of(net, at) == kind && (!machine || needs(net, at, state)) {
-                    lists.entries[entry] = packed(net, lists.fields, at);
-                    insert(lists.entries, net, first, entry);
-                    entry += 1;
+            if state == 0 || apart {
+                first = entry;
+                let mut at = 0;
+                while at < net.transitions.len() {
+                    if kind_of(net, at) == kind && (!apart || needs(net, at, state)) {
+                        lists.entries[entry] = packed(net, lists.fields, at);
+                        insert(lists.entries, net, first, entry);
+                        entry += 1;
+                    }
+                    at += 1;
                 }
-                at += 1;
             }
+            lists.rows[row] = first as u16;
+            lists.rows[row + 1] = entry as u16;
+            row += 2;
             state += 1;
         }
         kind += 1;
     }
-    lists.rows[row] = entry as u16;
     let mut at = 0;
     while at < entry {
         let transition = &net.transitions[lists.entries[at].transition as usize];
@@ -355,6 +366,19 @@ const fn kind_of(net: &Net<'_>, at: usize) -> usize {
     }
 }
 
+/// Whether every transition of this kind needs one of the states.
+const fn is_by_state(net: &Net<'_>, kind: usize, states: usize) -> bool {
+    let mut at = 0;
+    while at < net.transitions.len() {
+        let it = &net.transitions[at];
+        if kind_of(net, at) == kind && among(it.take, states) + among(it.read, states) == 0 {
+            return false;
+        }
+        at += 1;
+    }
+    true
+}
+
 const fn needs(net: &Net<'_>, at: usize, state: usize) -> bool {
     let it = &net.transitions[at];
     has(it.take, state) || has(it.read, state)
@@ -380,6 +404,28 @@ const fn sum<const W: usize>(arcs: &[super::Arc], fields: &[Field]) -> [u64; W] 
         at += 1;
     }
     words
+}
+
+/// See [`Code::restless`]: the first place that each transition needs which fires at once by itself.
+const fn restless<const W: usize>(lists: &Borrowed<'_, W>, words: &Words<W>) -> [u64; W] {
+    let mut restless = [0; W];
+    let (kind, states) = (2 * lists.ignored.len() * words.states as usize, words.states as usize);
+    let (mut at, end) = (lists.rows[kind] as usize, lists.rows[kind + 2 * states - 1] as usize);
+    while at < end {
+        let need = &lists.entries[at].need;
+        let mut field = 0;
+        while field < lists.fields.len() && lists.fields[field].of(need) == 0 {
+            field += 1;
+        }
+        if field < lists.fields.len() {
+            let Field { word, shift, width } = lists.fields[field];
+            restless[word as usize] |= ((1 << width) - 1) << shift;
+        } else {
+            restless[0] |= words.guards[0];
+        }
+        at += 1;
+    }
+    restless
 }
 
 /// A weight beyond the field becomes its guard bit: as a need it is never met, as a gift it exceeds the bound.
@@ -485,12 +531,10 @@ const fn arcs(mut hash: u64, arcs: &[super::Arc]) -> u64 {
 impl<'c, const W: usize> Code<'c, W> {
     /// Puts lists and words together.
     pub const fn new(lists: Borrowed<'c, W>, words: &Words<W>, settle: u32, bounded: bool) -> Self {
-        let Borrowed { entries, takes, order, rows, clocks, fields, ignored } = lists;
         let Words { guards, bounds, initial, control, states, fingerprint } = *words;
-        let events = ignored.len() as u16;
-        // Rows of what fires at once by itself: from that of the first state to the end of the last.
-        let kind = ignored.len() * states as usize;
-        let immediate = rows[kind] != rows[kind + states as usize];
+        let events = lists.ignored.len() as u16;
+        let restless = restless(&lists, words);
+        let Borrowed { entries, takes, order, rows, clocks, fields, ignored } = lists;
         Self {
             entries,
             rows,
@@ -506,7 +550,7 @@ impl<'c, const W: usize> Code<'c, W> {
             states,
             events,
             settle,
-            immediate,
+            restless,
             bounded,
             fingerprint,
         }
@@ -514,9 +558,22 @@ impl<'c, const W: usize> Code<'c, W> {
 
     /// The transitions of an event, or of a kind beyond the events, that may be enabled in this marking.
     #[inline]
-    pub fn row(&self, kind: usize, marking: &[u64; W]) -> &'c [Entry<W>] {
+    pub fn row(&self, kind: usize, marking: &[u64; W]) -> impl Iterator<Item = &'c Entry<W>> + use<'c, W> {
         let row = if self.control == 0 { kind } else { kind * self.states as usize + self.state(marking) };
-        match (self.rows.get(row), self.rows.get(row + 1)) {
+        let (start, end) = match self.rows.get(2 * row..2 * row + 2) {
+            Some(&[start, end]) => (start, end),
+            _ => (0, 0),
+        };
+        let entries = self.entries;
+        // Entry by entry, for most rows have one or none.
+        (start..end).map_while(move |at| entries.get(usize::from(at)))
+    }
+
+    /// All transitions of an event, or of the kind after the events: those that fire at once by themselves, or of the
+    /// kind after that: those that do in an interval.
+    pub fn kind(&self, kind: usize) -> &'c [Entry<W>] {
+        let (first, states) = (2 * kind * self.states as usize, self.states as usize);
+        match (self.rows.get(first), self.rows.get(first + 2 * states - 1)) {
             (Some(&start), Some(&end)) => self.entries.get(start as usize..end as usize).unwrap_or(&[]),
             _ => &[],
         }
@@ -528,10 +585,16 @@ impl<'c, const W: usize> Code<'c, W> {
         marking.first().map_or(0, |word| ((word & self.control).trailing_zeros() / 2) as usize)
     }
 
-    /// Transitions that fire at once by themselves and may be enabled in this marking.
+    /// The transition that fires next at once by itself, if it `can`.
     #[inline]
-    pub fn urgent(&self, marking: &[u64; W]) -> &'c [Entry<W>] {
-        self.row(self.events as usize, marking)
+    pub fn urgent(&self, marking: &[u64; W], can: impl Fn(&Entry<W>) -> bool) -> Option<&'c Entry<W>> {
+        let mut word = 0;
+        let mut resting = true;
+        while word < W {
+            resting &= (marking[word] | self.guards[word]) & self.restless[word] == 0;
+            word += 1;
+        }
+        if resting { None } else { self.row(self.events as usize, marking).find(|entry| can(entry)) }
     }
 
     /// Whether these tokens are there.

@@ -91,11 +91,12 @@ impl Net<'_> {
 
 /// Every weight counts and no place occurs twice.
 fn once<'a>(arcs: impl Iterator<Item = &'a Arc> + Clone) -> bool {
-    let mut rest = arcs;
-    while let Some(arc) = rest.next() {
-        if arc.weight == 0 || rest.clone().any(|other| other.place == arc.place) {
-            return false;
-        }
-    }
-    true
+    // Most lists are sorted, and long ones must be checked in one pass.
+    let mut last = None;
+    let sorted = arcs.clone().all(|arc| core::mem::replace(&mut last, Some(arc.place)) < Some(arc.place));
+    let mut rest = arcs.clone();
+    arcs.clone().all(|arc| arc.weight > 0)
+        && (sorted
+            || core::iter::from_fn(|| rest.next().map(|arc| (arc.place, rest.clone())))
+                .all(|(place, mut after)| after.all(|other| other.place != place)))
 }

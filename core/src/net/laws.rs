@@ -41,15 +41,15 @@ impl Known {
 /// when the net is too large and does not say that it is left to the checker.
 #[must_use]
 pub const fn check<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, left_to_checker: bool) -> Known {
+    if left_to_checker {
+        return Known::LeftToChecker;
+    }
     let graph = Graph::of(net, code);
     let check = Check { net, code, graph: &graph };
     if let Some((from, by)) = graph.overflow {
         check.exceeded(from as usize, by as usize);
     }
     if !graph.complete {
-        if left_to_checker {
-            return Known::LeftToChecker;
-        }
         Text::new().with("net ").name(net.name).with(" has more than ").number(MARKINGS as u64)
             .with(" markings, too many to explore while compiling: say `left_to_checker;` in its laws, and check it with the model checker")
             .stop();

@@ -80,7 +80,7 @@
 /// | `settles` | transitions that fire at once by themselves come to an end; always checked |
 /// | `deadlock_free`, `deadlock_free_except(A)` | some transition is enabled, except where `A` is marked |
 /// | `deterministic` | no two transitions on the same event are enabled together |
-/// | `left_to_checker` | the net has more than 1,024 markings: its laws are for the model checker |
+/// | `left_to_checker` | the net has more than 1,024 markings: it is not explored here, its laws are for the model checker |
 ///
 /// Bounds of places are always checked.
 ///

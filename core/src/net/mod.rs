@@ -32,7 +32,7 @@ mod program;
 mod rounds;
 mod snapshot;
 pub mod source;
-mod text;
+pub(crate) mod text;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod variant;
 

@@ -50,7 +50,8 @@ impl<T> Outcome<T> {
     }
 }
 
-/// Why an event is ignored.
+/// Why an event is ignored. When a transition on it has its tokens: what else the first such one lacks, even where the
+/// event is ignored on purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why<T> {
     /// A marked place ignores it on purpose.
@@ -118,12 +119,19 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         event: &P::Event,
         observer: &mut impl Observer<P::Event, P::Transition, P::Output>,
     ) -> Outcome<P::Transition> {
-        if (C > 0 || !self.program.code().bounded) && self.advance_with(now, observer).behind {
-            return Outcome::Ignored { why: Why::Behind };
+        if C > 0 || !self.program.code().bounded {
+            if self.advance_with(now, observer).behind {
+                return Outcome::Ignored { why: Why::Behind };
+            }
+        } else {
+            // Nothing waits for an instant, and settling ends: only a round can have left something to fire.
+            self.settle(observer);
+            self.now = self.now.max(now);
         }
         let code = self.program.code();
-        let row = code.row(event.id().0 as usize, &self.marking);
-        if let Some(entry) = row.iter().find(|it| self.can(&code, it) && self.open(it)).copied() {
+        let can = |it: &&Entry<W>| self.can(&code, it) && self.open(it);
+        let next = code.row(event.id().0 as usize, &self.marking).find(can).copied();
+        if let Some(entry) = next {
             self.fire(&entry, Some(event), observer);
             let transition = self.program.transition(entry.id());
             return Outcome::Fired { transition, settled: self.settle(observer) };
@@ -168,6 +176,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
 
     /// When it wants to be told the time: the instant at which the next transition is due by itself.
     pub fn wake_at(&self) -> Option<Millis> {
+        if !self.settled() {
+            return Some(self.now); // after a round
+        }
         let (wait, _) = self.due()?;
         Some(Millis(self.now.0.saturating_add(u64::from(wait))))
     }
@@ -203,22 +214,16 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     /// Whether no transition fires at once by itself.
     pub(super) fn settled(&self) -> bool {
         let code = self.program.code();
-        !code.immediate || !code.urgent(&self.marking).iter().any(|it| self.can(&code, it))
+        code.urgent(&self.marking, |it| self.can(&code, it)).is_none()
     }
 
     /// Lets transitions without event and interval fire until none is enabled; how many did.
     #[inline]
     fn settle(&mut self, observer: &mut impl Observer<P::Event, P::Transition, P::Output>) -> u32 {
-        if !self.program.code().immediate {
-            return 0;
-        }
         let mut fired = 0;
         while fired < self.program.code().settle {
             let code = self.program.code();
-            let Some(entry) = code.urgent(&self.marking).iter().find(|it| self.can(&code, it)).copied()
-            else {
-                break;
-            };
+            let Some(entry) = code.urgent(&self.marking, |it| self.can(&code, it)).copied() else { break };
             self.fire(&entry, None, observer);
             fired += 1;
         }
@@ -313,8 +318,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     fn why(&self, event: &P::Event) -> Why<P::Transition> {
         let code = self.program.code();
         if C > 0 || !code.bounded {
-            let row = code.row(event.id().0 as usize, &self.marking);
-            if let Some(entry) = row.iter().find(|it| code.holds(&self.marking, &it.need)) {
+            let mut row = code.row(event.id().0 as usize, &self.marking);
+            if let Some(entry) = row.find(|it| code.holds(&self.marking, &it.need)) {
                 let transition = self.program.transition(entry.id());
                 let number = usize::from(entry.clock);
                 return match (code.clocks.get(number), self.clocks.get(number)) {

@@ -71,8 +71,12 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let mut round = Round { ignored: ones(events.len()), ..Round::default() };
         for &at in code.order {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
-            if self.takes_part(entry, &left, &given, events) {
+            if self.takes_part(entry, &left, events) {
                 (left, given) = self.applied(entry, &left, &given);
+                // Tested one by one: the sum of many gifts could outgrow a field and disturb others.
+                if !code.holds(&code.bounds, &given) {
+                    return Round { full: true, ..round };
+                }
             }
         }
         let after = code.after(&left, &given);
@@ -82,7 +86,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let (between, mut again, mut fired_clocks) = (left, (self.marking, [0; W]), [false; C]);
         for &at in code.order {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
-            if !self.takes_part(entry, &again.0, &again.1, events) {
+            if !self.takes_part(entry, &again.0, events) {
                 continue;
             }
             again = self.applied(entry, &again.0, &again.1);
@@ -91,14 +95,14 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             }
             round.fired += 1;
             let id = entry.id();
-            let event = events.iter().enumerate().find(|(_, event)| self.is_on(entry, event));
-            if let Some((place, _)) = event {
-                round.ignored &= !(1_u64.checked_shl(place as u32).unwrap_or(0));
+            for (place, _) in events.iter().take(64).enumerate().filter(|(_, event)| self.is_on(entry, event))
+            {
+                round.ignored &= !(1 << place);
             }
             observer.on_fire(&Firing {
                 transition: self.program.transition(id),
                 id,
-                event: event.map(|(_, event)| event),
+                event: events.iter().find(|event| self.is_on(entry, event)),
                 outputs: self.program.outputs(id),
                 at: self.now,
             });
@@ -113,28 +117,20 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
 
     /// Whether an entry is on this event.
     fn is_on(&self, entry: &Entry<W>, event: &P::Event) -> bool {
-        let code = self.program.code();
-        let states = usize::from(code.states);
-        let row = |kind: usize| code.rows.get(kind * states).map_or(0, |&start| usize::from(start));
-        let (start, end) = (row(event.id().0 as usize), row(event.id().0 as usize + 1));
-        code.entries.get(start..end).is_some_and(|on| on.iter().any(|it| it.transition == entry.transition))
+        let on = self.program.code().kind(event.id().0 as usize);
+        on.iter().any(|it| it.transition == entry.transition)
     }
 
-    fn takes_part(&self, entry: &Entry<W>, left: &[u64; W], given: &[u64; W], events: &[P::Event]) -> bool {
+    fn takes_part(&self, entry: &Entry<W>, left: &[u64; W], events: &[P::Event]) -> bool {
         let code = self.program.code();
         if !code.holds(left, &entry.need) || !self.open(entry) {
             return false;
         }
-        let unneeded = code
-            .rows
-            .get(usize::from(code.events) * usize::from(code.states))
-            .map_or(0, |&it| usize::from(it));
-        let by_itself = code
-            .entries
-            .get(unneeded..)
-            .is_some_and(|it| it.iter().any(|it| it.transition == entry.transition));
-        let (_, given) = self.applied(entry, left, given);
-        (by_itself || events.iter().any(|event| self.is_on(entry, event))) && code.holds(&code.bounds, &given)
+        let events_end = usize::from(code.events);
+        let by_itself = [events_end, events_end + 1]
+            .iter()
+            .any(|&kind| code.kind(kind).iter().any(|it| it.transition == entry.transition));
+        by_itself || events.iter().any(|event| self.is_on(entry, event))
     }
 
     /// What is left and what is given after one more transition.

@@ -26,7 +26,7 @@ pub enum RestoreError {
         /// The fingerprint of the stored marking.
         found: u64,
     },
-    /// A place holds more than its bound, or bits are set where no place is.
+    /// A place holds more than its bound, or bits are set where no place or clock is.
     Marking,
     /// It breaks the law at this position of [`Net::laws`](super::Net::laws).
     Law(usize),
@@ -117,6 +117,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let stray = fields.iter().zip(&from.marking).any(|(field, word)| word & !field != 0);
         let one =
             code.control == 0 || from.marking.first().is_some_and(|it| (it & code.control).is_power_of_two());
+        let stray = stray || from.clocks.iter().skip(code.clocks.len()).any(|&elapsed| elapsed != 0);
         if stray || !one || !code.holds(&code.bounds, &from.marking) || !player.complements() {
             return Err(RestoreError::Marking);
         }

@@ -5,18 +5,18 @@ const LIMIT: usize = 1_500;
 
 /// A text that grows, also in a `const`.
 #[derive(Clone, Copy)]
-pub(super) struct Text {
+pub(crate) struct Text {
     bytes: [u8; LIMIT],
     length: usize,
 }
 
 impl Text {
-    pub(super) const fn new() -> Self {
+    pub(crate) const fn new() -> Self {
         Self { bytes: [0; LIMIT], length: 0 }
     }
 
     /// The same with this at its end.
-    pub(super) const fn with(mut self, more: &str) -> Self {
+    pub(crate) const fn with(mut self, more: &str) -> Self {
         let more = more.as_bytes();
         let mut at = 0;
         while at < more.len() && self.length < LIMIT {
@@ -28,12 +28,12 @@ impl Text {
     }
 
     /// The same with a name in backticks at its end.
-    pub(super) const fn name(self, name: &str) -> Self {
+    pub(crate) const fn name(self, name: &str) -> Self {
         self.with("`").with(name).with("`")
     }
 
     /// The same with a number at its end.
-    pub(super) const fn number(self, number: u64) -> Self {
+    pub(crate) const fn number(self, number: u64) -> Self {
         let mut digits = [0_u8; 20];
         let mut rest = number;
         let mut at = digits.len();
@@ -49,7 +49,7 @@ impl Text {
     }
 
     /// Ends the compilation with this text.
-    pub(super) const fn stop(self) -> ! {
+    pub(crate) const fn stop(self) -> ! {
         let cut = if self.length == LIMIT { self.cut() } else { self };
         panic!("{}", as_str(cut.bytes.split_at(cut.length).0))
     }
@@ -65,7 +65,7 @@ impl Text {
 }
 
 /// Bytes that were taken from a `str` as a whole.
-pub(super) const fn as_str(bytes: &[u8]) -> &str {
+pub(crate) const fn as_str(bytes: &[u8]) -> &str {
     match core::str::from_utf8(bytes) {
         Ok(text) => text,
         Err(_) => "?",
@@ -73,7 +73,7 @@ pub(super) const fn as_str(bytes: &[u8]) -> &str {
 }
 
 /// Whether two names are the same.
-pub(super) const fn same(a: &str, b: &str) -> bool {
+pub(crate) const fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.as_bytes(), b.as_bytes());
     if a.len() != b.len() {
         return false;
@@ -90,7 +90,7 @@ pub(super) const fn same(a: &str, b: &str) -> bool {
 
 /// How many letters must be inserted, removed or exchanged to get from one name to the other (Levenshtein), for
 /// names of up to 63 bytes; many for longer ones.
-pub(super) const fn distance(a: &str, b: &str) -> usize {
+pub(crate) const fn distance(a: &str, b: &str) -> usize {
     let (a, b) = (a.as_bytes(), b.as_bytes());
     if a.len() > 63 || b.len() > 63 {
         return usize::MAX;

@@ -1,0 +1,206 @@
+//! Names of a system, looked up while compiling: what `system!` writes.
+
+use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, SystemDefect, Target};
+use crate::net::text::{Text, distance, same};
+use crate::net::{EventId, OutputId, PlaceId, Signal};
+
+/// A component and something of its net, as they were written.
+pub type Port<'n> = (&'n str, &'n str);
+
+const fn says(system: &str, what: &str, port: Port<'_>) -> Text {
+    Text::new()
+        .with("system ")
+        .name(system)
+        .with(", ")
+        .with(what)
+        .with(" ")
+        .with(port.0)
+        .with(".")
+        .with(port.1)
+        .with(": ")
+}
+
+const fn component(system: &str, components: &[Component<'_>], what: &str, port: Port<'_>) -> u16 {
+    let mut at = 0;
+    while at < components.len() {
+        if same(components[at].name, port.0) {
+            return at as u16;
+        }
+        at += 1;
+    }
+    says(system, what, port).with("there is no net ").name(port.0).stop()
+}
+
+const fn signal(text: Text, net: &str, kind: &str, signals: &[Signal<'_>], name: &str) -> u32 {
+    let (mut best, mut least) = ("", 3);
+    let mut at = 0;
+    while at < signals.len() {
+        if same(signals[at].name, name) {
+            return at as u32;
+        }
+        let far = distance(signals[at].name, name);
+        if far < least {
+            (best, least) = (signals[at].name, far);
+        }
+        at += 1;
+    }
+    let text = text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(name);
+    if best.is_empty() { text.stop() } else { text.with("; did you mean ").name(best).with("?").stop() }
+}
+
+/// The event of a component.
+pub const fn event(system: &str, components: &[Component<'_>], what: &str, port: Port<'_>) -> Of<EventId> {
+    let component = component(system, components, what, port);
+    let net = components[component as usize].net;
+    Of { component, id: EventId(signal(says(system, what, port), net.name, "event", net.events, port.1)) }
+}
+
+const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of<PlaceId> {
+    let component = component(system, components, "shared", port);
+    let net = components[component as usize].net;
+    let (mut best, mut least) = ("", 3);
+    let mut at = 0;
+    while at < net.places.len() {
+        if same(net.places[at].name, port.1) {
+            return Of { component, id: PlaceId(at as u32) };
+        }
+        let far = distance(net.places[at].name, port.1);
+        if far < least {
+            (best, least) = (net.places[at].name, far);
+        }
+        at += 1;
+    }
+    let text = says(system, "shared", port).with("net ").name(net.name).with(" has no place ").name(port.1);
+    if best.is_empty() { text.stop() } else { text.with("; did you mean ").name(best).with("?").stop() }
+}
+
+/// An item of `links`: an output, events, and the room of a mailbox when there is one.
+pub type WrittenLink<'n> = (Port<'n>, &'n [Port<'n>], &'n [u16]);
+
+/// An item of `shared` or `pending`: shared places, the place or the event that they are bound to, and whether it is
+/// the mailbox of an event.
+pub type WrittenBinding<'n> = (&'n [Port<'n>], Port<'n>, bool);
+
+/// How many links these are.
+pub const fn count_links(written: &[WrittenLink<'_>]) -> usize {
+    let (mut count, mut at) = (0, 0);
+    while at < written.len() {
+        count += written[at].1.len();
+        at += 1;
+    }
+    count
+}
+
+/// How many bindings these are.
+pub const fn count_bindings(written: &[WrittenBinding<'_>]) -> usize {
+    let (mut count, mut at) = (0, 0);
+    while at < written.len() {
+        count += written[at].0.len();
+        at += 1;
+    }
+    count
+}
+
+/// The links.
+pub const fn links<const N: usize>(
+    system: &str,
+    components: &[Component<'_>],
+    written: &[WrittenLink<'_>],
+) -> [Link; N] {
+    let nothing = Link {
+        from: Of { component: 0, id: OutputId(0) },
+        to: Of { component: 0, id: EventId(0) },
+        delivery: Delivery::Now,
+    };
+    let (mut links, mut count, mut at) = ([nothing; N], 0, 0);
+    while at < written.len() {
+        let (from, to, capacity) = written[at];
+        let component = component(system, components, "link", from);
+        let net = components[component as usize].net;
+        let output = OutputId(signal(says(system, "link", from), net.name, "output", net.outputs, from.1));
+        let from = Of { component, id: output };
+        let delivery =
+            if capacity.is_empty() { Delivery::Now } else { Delivery::Mail { capacity: capacity[0] } };
+        let mut each = 0;
+        while each < to.len() {
+            links[count] = Link { from, to: event(system, components, "link", to[each]), delivery };
+            count += 1;
+            each += 1;
+        }
+        at += 1;
+    }
+    links
+}
+
+/// The bindings.
+pub const fn bindings<const N: usize>(
+    system: &str,
+    components: &[Component<'_>],
+    written: &[WrittenBinding<'_>],
+) -> [Binding; N] {
+    let nothing = Of { component: 0, id: PlaceId(0) };
+    let mut bindings = [Binding { shared: nothing, target: Target::Place(nothing) }; N];
+    let (mut count, mut at) = (0, 0);
+    while at < written.len() {
+        let (shared, owner, mailbox) = written[at];
+        let mut each = 0;
+        while each < shared.len() {
+            let target = if mailbox {
+                Target::Mailbox(event(system, components, "pending", owner))
+            } else {
+                Target::Place(place(system, components, owner))
+            };
+            bindings[count] = Binding { shared: place(system, components, shared[each]), target };
+            count += 1;
+            each += 1;
+        }
+        at += 1;
+    }
+    bindings
+}
+
+/// Makes an event empty a mailbox.
+pub const fn clear(system: &str, components: &[Component<'_>], on: Port<'_>, mailbox: Port<'_>) -> Clear {
+    let of = event(system, components, "clears", on);
+    let mailbox = event(system, components, "clears", mailbox);
+    if of.component != mailbox.component {
+        says(system, "clears", on).with("an event empties mailboxes of its own net only").stop();
+    }
+    Clear { on: of, mailbox: mailbox.id }
+}
+
+const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
+    let component = &system.components[at.component as usize];
+    text.with(component.name).with(".").with(component.net.places[at.id.0 as usize].name)
+}
+
+/// Ends the compilation when something is wrong with a system.
+pub const fn check(system: &System<'_>) {
+    let text = Text::new().with("system ").name(system.name).with(": ");
+    match system.defect() {
+        None => {}
+        Some(SystemDefect::UnknownId { list, at }) => text.with("number ").number(at as u64 + 1).with(" of the ")
+            .with(list).with(" names a mailbox of an event that does not arrive by mail").stop(),
+        Some(SystemDefect::TooLong) => text.with("it is too large").stop(),
+        Some(SystemDefect::Unbound(place)) => named(text.with("the shared place "), system, place)
+            .with(" belongs to nobody: say whose it is, as `shared { ").with(system.components[place.component as usize].name)
+            .with(".").with(system.components[place.component as usize].net.places[place.id.0 as usize].name)
+            .with(" = owner.place; }`").stop(),
+        Some(SystemDefect::Binding { at }) => named(text.with("the shared place "), system, system.bindings[at].shared)
+            .with(" is bound twice, or is no shared place, or to a place of another bound, or to a place that is shared itself").stop(),
+        Some(SystemDefect::Delivery { at }) => {
+            let to = system.links[at].to;
+            let component = &system.components[to.component as usize];
+            text.with("the links to ").with(component.name).with(".").with(component.net.events[to.id.0 as usize].name)
+                .with(" differ in how they deliver, or its mailbox has no room").stop()
+        }
+        Some(SystemDefect::Circle { component }) => text.with("`now` links lead from ")
+            .name(system.components[component as usize].name)
+            .with(" back to it, or on over more than 8 nets; use mail for one of them").stop(),
+        Some(SystemDefect::ChangesMailbox(of)) => {
+            let component = &system.components[of.component as usize];
+            text.with("transition ").with(component.name).with(".").with(component.net.transitions[of.id.0 as usize].name)
+                .with(" changes a shared place that is a mailbox; it can only be read").stop()
+        }
+    }
+}

@@ -1,0 +1,56 @@
+//! The contextual supervisor: what a report means where the robot is.
+
+use cotama_core::net;
+
+net! {
+    /// Contextual supervisor (Durand et al., TAROS 2010, Section IV): from a report, by its severity where the robot is and
+    /// by what is still available, to an event for the adapter, the local or the global supervisor. What is not listed is
+    /// acknowledged and recorded only.
+    pub mod contextual {
+        places {
+            /// It decides at once.
+            Ready: 1,
+        }
+        shared {
+            planning, following, hand_over, teleprogrammed, teleoperated,
+            optimal, reduced, odometric, degraded, avoiding,
+            level: 2 of 2,
+            wifi: true, mcl: true,
+        }
+        events {
+            ambiguous, camera, collision, mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
+        }
+        outputs { global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, adapt_sonar_teleoperation }
+        transitions {
+            slow1 on slow [optimal & level >= 1]: Ready => Ready emit adapt_rt;
+            slow2 on slow [reduced & level >= 1]: Ready => Ready emit adapt_rt;
+            /// At the floor of particles localisation counts as lost.
+            slow3 on slow [reduced & level < 1]: Ready => Ready do mcl = false emit adapt_mcl;
+            mcl1 on mcl_lost [optimal]: Ready => Ready emit adapt_mcl;
+            mcl2 on mcl_lost [reduced]: Ready => Ready emit adapt_mcl;
+            sonar1 on sonar [following & !degraded]: Ready => Ready emit adapt_sonar;
+            sonar2 on sonar [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
+            ambiguous1 on ambiguous [planning & wifi]: Ready => Ready emit local_event;
+            ambiguous2 on ambiguous [planning & !wifi]: Ready => Ready emit global_event;
+            ambiguous3 on ambiguous [following & wifi]: Ready => Ready emit local_event;
+            ambiguous4 on ambiguous [following & !wifi]: Ready => Ready emit global_event;
+            collision1 on collision [planning & wifi]: Ready => Ready emit local_event;
+            collision2 on collision [planning & !wifi]: Ready => Ready emit global_event;
+            collision3 on collision [degraded & wifi]: Ready => Ready emit local_event;
+            collision4 on collision [degraded & !wifi]: Ready => Ready emit global_event;
+            collision5 on collision [following & !degraded]: Ready => Ready emit adapt_bump;
+            planner1 on planner [planning & wifi]: Ready => Ready emit local_event;
+            planner2 on planner [planning & !wifi]: Ready => Ready emit global_event;
+            camera1 on camera [teleoperated & wifi]: Ready => Ready emit local_event;
+            camera2 on camera [teleoperated & !wifi]: Ready => Ready emit global_event;
+            wifi1 on wifi_lost [hand_over]: Ready => Ready emit global_event;
+            wifi2 on wifi_lost [teleprogrammed]: Ready => Ready emit global_event;
+            wifi3 on wifi_lost [teleoperated]: Ready => Ready emit global_event;
+            vital on vital: Ready => Ready emit global_event;
+            refusal1 on refusal [hand_over]: Ready => Ready emit global_event;
+            refusal2 on refusal [teleprogrammed]: Ready => Ready emit global_event;
+            refusal3 on refusal [teleoperated]: Ready => Ready emit global_event;
+        }
+        laws { left_to_checker; }
+    }
+}

@@ -1,0 +1,395 @@
+//! From tags to the parts of a net: which element may stand where, and what its text says.
+
+use super::Limits;
+use super::document::{Document, Object, RawArc, RawPlace, RawTransition, Reference, Text};
+use super::error::{Finding, Findings, Span, Spanned, quoted};
+use super::escape::trimmed;
+use super::label::Label;
+use super::own;
+use super::xml::{Tag, Token, Xml, tag as shown, too_long};
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// Where the parser stands: one for each open element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Context {
+    Pnml,
+    Net,
+    Page,
+    Place,
+    Transition,
+    Arc,
+    Reference,
+    Label(Label, Span),
+    /// `<text>` or `<value>`, the content of a label.
+    Text,
+    Delay,
+    Interval(Span),
+    /// A bound of an interval.
+    Bound,
+    /// `<toolspecific tool="cotama">`.
+    OwnNet,
+    OwnPlace,
+    OwnTransition,
+    OwnArc,
+    /// An element inside of that.
+    Own,
+    /// `<invariant>` inside of that.
+    OwnInvariant,
+    /// Nothing in here is read.
+    Skipped,
+}
+
+pub(super) struct Parser<'a> {
+    xml: Xml<'a>,
+    limits: Limits,
+    pub(super) document: Document<'a>,
+    pub(super) findings: Findings,
+    pub(super) contexts: Vec<Context>,
+    /// The text of the label or bound that is being read.
+    text: Option<Text<'a>>,
+    /// The labels that the open object has so far.
+    labels: Vec<Label>,
+    pub(super) bounds: Vec<Text<'a>>,
+    pub(super) closure: Cow<'a, str>,
+    net: Option<Span>,
+    coloured: Option<Span>,
+    objects: usize,
+    /// An object could not be kept, so ids may be missing.
+    incomplete: bool,
+}
+
+/// Reads the parts of the one P/T net of a file. With findings there is a document only if no part is missing.
+pub(super) fn parse(text: &str, limits: Limits) -> (Option<Document<'_>>, Findings) {
+    let mut parser = Parser {
+        xml: Xml::new(text, limits),
+        limits,
+        document: Document { ids: HashMap::new(), ..Document::default() },
+        findings: Findings::default(),
+        contexts: Vec::new(),
+        text: None,
+        labels: Vec::new(),
+        bounds: Vec::new(),
+        closure: Cow::Borrowed("closed"),
+        net: None,
+        coloured: None,
+        objects: 0,
+        incomplete: false,
+    };
+    match parser.run() {
+        Ok(()) if !parser.incomplete => (Some(parser.document), parser.findings),
+        Ok(()) => (None, parser.findings),
+        Err(finding) => {
+            parser.findings.push(finding);
+            (None, parser.findings)
+        }
+    }
+}
+
+impl<'a> Parser<'a> {
+    fn run(&mut self) -> Result<(), Finding> {
+        while let Some(token) = self.xml.next()? {
+            match token {
+                Token::Start(tag) => {
+                    let context = self.start(&tag)?;
+                    self.contexts.push(context);
+                }
+                Token::Text(text) => self.append(text)?,
+                Token::End => {
+                    let closed = self.contexts.pop();
+                    self.end(closed);
+                }
+            }
+        }
+        match (self.net, self.coloured) {
+            (Some(_), _) => Ok(()),
+            (None, Some(span)) => Err(coloured(span)),
+            (None, None) => Err(Finding::new(Span::default(), "the file has no `<net>`")
+                .help("a PNML file has a `<net>` element in its `<pnml>` element")),
+        }
+    }
+
+    fn start(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        use Context::{
+            Arc, Bound, Delay, Interval, Net, Own, OwnArc, OwnInvariant, OwnNet, OwnPlace, OwnTransition,
+            Page, Place, Pnml, Skipped, Transition,
+        };
+        let Some(&context) = self.contexts.last() else { return root(tag) };
+        Ok(match (context, tag.name) {
+            (Context::Skipped, _) => Skipped,
+            (Pnml, "net") => self.net(tag)?,
+            (Net | Page, "page") => self.page(tag)?,
+            (Net | Page, "place") => self.place(tag)?,
+            (Net | Page, "transition") => self.transition(tag)?,
+            (Net | Page, "arc") => self.arc(tag)?,
+            (Net | Page, "referencePlace" | "referenceTransition") => self.reference(tag)?,
+            (Net | Place | Transition, "name") => self.label(Label::Name, tag),
+            (Place, "initialMarking") => self.label(Label::InitialMarking, tag),
+            (Place, "capacity") => self.label(Label::Capacity, tag),
+            (Transition, "timed") => self.label(Label::Timed, tag),
+            (Transition, "delay") => Delay,
+            (Arc, "inscription") => self.label(Label::Inscription, tag),
+            (Arc, "type") => {
+                let context = self.label(Label::ArcType, tag);
+                self.text = tag.get("value").cloned();
+                context
+            }
+            (Place, "hlinitialMarking" | "type") | (Transition, "condition") | (Arc, "hlinscription") => {
+                return Err(coloured(tag.span));
+            }
+            (Net | Place | Transition | Arc, "toolspecific") => toolspecific(context, tag)?,
+            (Context::Label(..), "text" | "value") => {
+                if let Some(first) =
+                    self.text.replace(Spanned { value: Cow::Borrowed(""), span: end_of(tag.span) })
+                {
+                    self.findings.push(
+                        Finding::new(tag.span, "a second value of one label")
+                            .help("remove it")
+                            .related(first.span),
+                    );
+                }
+                Context::Text
+            }
+            (Delay, "interval") => {
+                self.bounds.clear();
+                self.closure =
+                    tag.get("closure").map_or(Cow::Borrowed("closed"), |closure| closure.value.clone());
+                Interval(tag.span)
+            }
+            (Interval(_), "cn" | "ci") => {
+                self.text = Some(Spanned { value: Cow::Borrowed(""), span: end_of(tag.span) });
+                Bound
+            }
+            (Interval(_), "infinity") => {
+                self.bounds.push(Spanned { value: Cow::Borrowed("infty"), span: tag.span });
+                Skipped
+            }
+            (OwnNet | OwnPlace | OwnTransition | OwnArc | OwnInvariant | Own, _) => self.own(context, tag),
+            (
+                _,
+                "place" | "transition" | "arc" | "page" | "referencePlace" | "referenceTransition" | "net",
+            ) => {
+                return Err(Finding::new(tag.span, format!("{} cannot stand in here", shown(tag.name)))
+                    .help("close the element that is open before it"));
+            }
+            _ => Skipped,
+        })
+    }
+
+    fn net(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        if tag.get("type").is_some_and(|of| is_coloured(&of.value)) {
+            self.coloured.get_or_insert(tag.span);
+            return Ok(Context::Skipped);
+        }
+        if let Some(first) = self.net {
+            return Err(Finding::new(tag.span, "a second net in the file")
+                .help("give each net a file of its own")
+                .related(first));
+        }
+        self.net = Some(tag.span);
+        self.document.id = tag.get("id").map_or(Cow::Borrowed("net"), |id| id.value.clone());
+        Ok(Context::Net)
+    }
+
+    fn page(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        self.object(tag, Object::Page)?;
+        Ok(Context::Page)
+    }
+
+    fn place(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        for name in ["initialMarking", "invariant"] {
+            self.refuse_foreign(tag, name);
+        }
+        if let Some(id) = self.node(tag, Object::Place(self.document.places.len() as u32))? {
+            self.document.places.push(RawPlace { id, name: None, initial: 0, own: None });
+        }
+        Ok(Context::Place)
+    }
+
+    fn transition(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        if let Some(id) = self.node(tag, Object::Transition(self.document.transitions.len() as u32))? {
+            self.document.transitions.push(RawTransition { id, name: None, delay: None, own: None });
+        }
+        Ok(Context::Transition)
+    }
+
+    fn reference(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        let id = self.node(tag, Object::Reference(self.document.references.len() as u32))?;
+        let to = self.required(tag, "ref");
+        if let (Some(id), Some(to)) = (id, to) {
+            let to_place = tag.name == "referencePlace";
+            self.document.references.push(Reference { id, to, to_place });
+        }
+        Ok(Context::Reference)
+    }
+
+    fn arc(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
+        for name in ["inscription", "weight"] {
+            self.refuse_foreign(tag, name);
+        }
+        self.object(tag, Object::Arc)?;
+        let test = tag.get("type").is_some_and(|kind| self.is_test(kind));
+        if let (Some(source), Some(target)) = (self.required(tag, "source"), self.required(tag, "target")) {
+            let own = own::OwnArc::default();
+            self.document.arcs.push(RawArc { span: tag.span, source, target, weight: None, test, own });
+        }
+        Ok(Context::Arc)
+    }
+
+    /// Attributes with which TAPAAL says in its own format what PNML says in labels.
+    fn refuse_foreign(&mut self, tag: &Tag<'a>, name: &str) {
+        if let Some(value) = tag.get(name) {
+            let message = format!("{} has an attribute `{name}`, which PNML does not know", shown(tag.name));
+            self.findings.push(
+                Finding::new(value.span, message)
+                    .help("if this is the format of another tool, export the net as PNML"),
+            );
+        }
+    }
+
+    /// The id of a node.
+    fn node(&mut self, tag: &Tag<'a>, object: Object) -> Result<Option<Text<'a>>, Finding> {
+        self.object(tag, object)?;
+        Ok(self.required(tag, "id"))
+    }
+
+    /// Counts an object and notes its id, if it has one.
+    fn object(&mut self, tag: &Tag<'a>, object: Object) -> Result<(), Finding> {
+        self.labels.clear();
+        self.objects += 1;
+        if self.objects > self.limits.objects {
+            return Err(Finding::new(
+                tag.span,
+                format!("the net has more than {} parts", self.limits.objects),
+            )
+            .help("raise the limit, or make the net smaller"));
+        }
+        let Some(id) = tag.get("id") else { return Ok(()) };
+        match self.document.ids.entry(id.value.clone()) {
+            Entry::Vacant(entry) => {
+                entry.insert((object, id.span));
+            }
+            Entry::Occupied(entry) => {
+                let (first, span) = *entry.get();
+                let message = format!("the id {} is that of {} already", quoted(&id.value), first.noun());
+                self.findings.push(
+                    Finding::new(id.span, message)
+                        .help("give every part of the net an id of its own")
+                        .related(span),
+                );
+                self.incomplete = true;
+            }
+        }
+        Ok(())
+    }
+
+    fn required(&mut self, tag: &Tag<'a>, name: &str) -> Option<Text<'a>> {
+        let value = tag.get(name).cloned();
+        if value.is_none() {
+            self.findings.push(own::missing(tag, name));
+            self.incomplete = true;
+        }
+        value
+    }
+
+    fn label(&mut self, label: Label, tag: &Tag<'a>) -> Context {
+        let net = matches!(self.contexts.last(), Some(Context::Net));
+        if !net && self.labels.contains(&label) {
+            let message = format!("a second {} of one object", shown(tag.name));
+            self.findings.push(Finding::new(tag.span, message).help("remove one of them"));
+        }
+        self.labels.push(label);
+        self.text = None;
+        Context::Label(label, tag.span)
+    }
+
+    fn append(&mut self, piece: Text<'a>) -> Result<(), Finding> {
+        let (Some(Context::Text | Context::Bound), Some(text)) = (self.contexts.last(), &mut self.text)
+        else {
+            return Ok(());
+        };
+        if text.value.is_empty() {
+            *text = piece;
+        } else {
+            text.value.to_mut().push_str(&piece.value);
+            text.span.end = piece.span.end;
+        }
+        if text.value.len() > self.limits.text {
+            return Err(too_long(text.span, self.limits.text));
+        }
+        Ok(())
+    }
+
+    fn end(&mut self, closed: Option<Context>) {
+        match closed {
+            Some(Context::Label(label, span)) => {
+                let text =
+                    self.text.take().map(|text| Spanned { value: trimmed(text.value), span: text.span });
+                self.labelled(label, text, span);
+            }
+            Some(Context::Bound) => {
+                let bound = self.text.take();
+                self.bounds.extend(bound.filter(|_| self.bounds.len() < 3));
+            }
+            Some(Context::Interval(span)) => {
+                let delay = self.interval(span);
+                let delay = self.findings.keep(delay);
+                if let Some(transition) = self.document.transitions.last_mut() {
+                    transition.delay = delay;
+                }
+            }
+            _ => {}
+        }
+    }
+}
+
+fn root(tag: &Tag<'_>) -> Result<Context, Finding> {
+    match tag.name {
+        "pnml" => Ok(Context::Pnml),
+        "html" => Err(Finding::new(tag.span, "this is a web page, not a PNML file")
+            .help("save the file that it shows or links to")),
+        other => {
+            Err(Finding::new(tag.span, format!("the element of the file is {}, not `<pnml>`", shown(other)))
+                .help("this is a file of another format; export the net as PNML"))
+        }
+    }
+}
+
+fn toolspecific(context: Context, tag: &Tag<'_>) -> Result<Context, Finding> {
+    if tag.get("tool").is_none_or(|tool| tool.value != "cotama") {
+        return Ok(Context::Skipped);
+    }
+    match tag.get("version") {
+        Some(version) if version.value != "1" => {
+            let message = format!("a part of version {} of cotama", quoted(&version.value));
+            Err(Finding::new(version.span, message)
+                .help("this version reads version 1; the file is of a newer one"))
+        }
+        _ => Ok(match context {
+            Context::Net => Context::OwnNet,
+            Context::Place => Context::OwnPlace,
+            Context::Transition => Context::OwnTransition,
+            _ => Context::OwnArc,
+        }),
+    }
+}
+
+/// Whether a net type is one of the coloured (high-level) ones.
+fn is_coloured(of: &str) -> bool {
+    let of = of.to_ascii_lowercase();
+    ["symmetricnet", "highlevelnet", "hlpn", "colour", "colored", "snnet"]
+        .iter()
+        .any(|word| of.contains(word))
+}
+
+fn coloured(span: Span) -> Finding {
+    Finding::new(span, "a coloured (high-level) net").help(
+        "unfold it into a P/T net first; the Model Checking Contest gives most of its nets in both forms",
+    )
+}
+
+/// The empty place behind a tag.
+fn end_of(span: Span) -> Span {
+    Span { start: span.end, end: span.end }
+}

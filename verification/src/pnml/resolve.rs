@@ -1,0 +1,188 @@
+//! From the parts of a file to a net: ids become positions, arcs come to their transitions.
+
+use super::Imported;
+use super::document::{Document, RawPlace, Text};
+use super::error::{Finding, Findings, Span, quoted};
+use super::flow::add_arcs;
+use super::names::unique;
+use super::nodes::Nodes;
+use super::own::{OwnPlace, OwnTransition, RawLaw, RawRole};
+use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
+use cotama_core::net::{Arc, EventId, Ignored, OutputId, Place, PlaceId, Role, Within};
+use std::borrow::Cow;
+use std::collections::{HashMap, HashSet};
+
+/// Looks everything up. With findings what it gives is of no use.
+pub(super) fn resolve(document: Document<'_>, findings: &mut Findings) -> Imported {
+    let Document { id, name, own, places, transitions, references, arcs, ids } = document;
+    let nodes = Nodes::new(ids, &references, findings);
+    let signals =
+        Signals { events: positions(&own.events, findings), outputs: positions(&own.outputs, findings) };
+
+    let mut net =
+        OwnedNet { name: own.name.unwrap_or_else(|| name.unwrap_or(id).into_owned()), ..OwnedNet::default() };
+    net.doc = own.doc;
+    net.events = own.events.into_iter().map(|(_, signal)| signal).collect();
+    net.outputs = own.outputs.into_iter().map(|(_, signal)| signal).collect();
+
+    let names = unique(places.iter().map(|it| {
+        let exact = it.own.as_ref().and_then(|own| own.name.as_deref());
+        (exact.or(it.name.as_deref()).unwrap_or(&it.id.value), &*it.id.value)
+    }));
+    let place_ids = places.iter().map(|place| place.id.value.clone().into_owned()).collect();
+    let complements = complements(&places);
+    net.places = places.into_iter().zip(names).map(|(it, name)| place(it, name, &nodes, findings)).collect();
+    check_complements(&net.places, &complements, findings);
+
+    let names = unique(transitions.iter().map(|it| {
+        let exact = it.own.as_ref().and_then(|own| own.name.as_deref());
+        (exact.or(it.name.as_deref()).unwrap_or(&it.id.value), &*it.id.value)
+    }));
+    let transition_ids =
+        transitions.iter().map(|transition| transition.id.value.clone().into_owned()).collect();
+    // In a file with intervals of TINA a transition without one may wait for ever; elsewhere time does not count.
+    let timed = transitions.iter().any(|it| it.own.is_none() && it.delay.is_some());
+    let default = timed.then_some(Within { earliest: 0, latest: None });
+    for (index, (it, name)) in transitions.into_iter().zip(names).enumerate() {
+        let mut transition = OwnedTransition { name, line: index as u32, ..OwnedTransition::default() };
+        match it.own {
+            Some(own) => signals.transition(*own, &mut transition, findings),
+            None => transition.within = it.delay.or(default),
+        }
+        net.transitions.push(transition);
+    }
+
+    add_arcs(&mut net, &nodes, &arcs, findings);
+    let of = |text: &Text<'_>, findings: &mut Findings| nodes.place(text, findings);
+    for (event, place) in &own.ignored {
+        if let (Some(event), Some(place)) = (signals.event(event, findings), of(place, findings)) {
+            net.ignored.push(Ignored { event, place });
+        }
+    }
+    net.laws = own.laws.into_iter().filter_map(|it| law(it, &nodes, findings)).collect();
+    Imported { net, place_ids, transition_ids }
+}
+
+/// The positions of events and outputs by their ids.
+struct Signals<'a> {
+    events: HashMap<Cow<'a, str>, u32>,
+    outputs: HashMap<Cow<'a, str>, u32>,
+}
+
+fn positions<'a>(list: &[(Text<'a>, OwnedSignal)], findings: &mut Findings) -> HashMap<Cow<'a, str>, u32> {
+    let mut positions = HashMap::new();
+    for (index, (id, _)) in list.iter().enumerate() {
+        if positions.insert(id.value.clone(), index as u32).is_some() {
+            let message = format!("the id {} is used twice", quoted(&id.value));
+            findings.push(
+                Finding::new(id.span, message).help("give every event and every output an id of its own"),
+            );
+        }
+    }
+    positions
+}
+
+impl Signals<'_> {
+    fn event(&self, id: &Text<'_>, findings: &mut Findings) -> Option<EventId> {
+        let event = self.events.get(&id.value).copied().map(EventId);
+        if event.is_none() {
+            let message = format!("no event has the id {}", quoted(&id.value));
+            findings
+                .push(Finding::new(id.span, message).help("declare it with `<event id=\"…\" name=\"…\"/>`"));
+        }
+        event
+    }
+
+    fn transition(&self, own: OwnTransition<'_>, transition: &mut OwnedTransition, findings: &mut Findings) {
+        transition.doc = own.doc;
+        transition.line = own.line.unwrap_or(transition.line);
+        transition.on = own.on.and_then(|id| self.event(&id, findings));
+        transition.within = own.within;
+        transition.priority = own.priority;
+        let Some(emits) = own.emits else { return };
+        for id in emits.value.split(super::xml::WHITESPACE).filter(|id| !id.is_empty()) {
+            match self.outputs.get(id) {
+                Some(&output) => transition.emits.push(OutputId(output)),
+                None => findings.push(
+                    Finding::new(emits.span, format!("no output has the id {}", quoted(id)))
+                        .help("declare it with `<output id=\"…\" name=\"…\"/>`"),
+                ),
+            }
+        }
+    }
+}
+
+fn place(raw: RawPlace<'_>, name: String, nodes: &Nodes<'_>, findings: &mut Findings) -> OwnedPlace {
+    let mut place = OwnedPlace { name, ..OwnedPlace::new("", raw.initial) };
+    let Some(own) = raw.own else { return place };
+    let OwnPlace { span, name: _, doc, bound, role } = *own;
+    place.doc = doc;
+    place.bound = bound.unwrap_or(Place::UNBOUNDED);
+    place.role = match role {
+        RawRole::State => Role::State,
+        RawRole::Data => Role::Data,
+        RawRole::Complement(of) => nodes.place(&of, findings).map_or(Role::State, Role::Complement),
+        RawRole::Shared => Role::Shared,
+        RawRole::Mailbox => Role::Mailbox,
+    };
+    if place.initial > place.bound {
+        let message =
+            format!("{} tokens at the start in a place with the bound {}", place.initial, place.bound);
+        findings.push(Finding::new(span, message).help("raise the bound or lower the number of tokens"));
+    }
+    place
+}
+
+/// Which places say that they are complements, and where.
+fn complements(places: &[RawPlace<'_>]) -> Vec<(usize, Span)> {
+    let complement = |(index, place): (usize, &RawPlace<'_>)| match place.own.as_deref() {
+        Some(OwnPlace { role: RawRole::Complement(of), .. }) => Some((index, of.span)),
+        _ => None,
+    };
+    places.iter().enumerate().filter_map(complement).collect()
+}
+
+fn check_complements(places: &[OwnedPlace], complements: &[(usize, Span)], findings: &mut Findings) {
+    for &(index, span) in complements {
+        let Role::Complement(PlaceId(of)) = places[index].role else { continue };
+        let (place, of) = (&places[index], &places[of as usize]);
+        if place.bound != of.bound || place.initial.checked_add(of.initial) != Some(of.bound) {
+            let message = format!("the place is not the complement of {}", quoted(&of.name));
+            findings.push(
+                Finding::new(span, message)
+                    .help("both have the same bound, and their tokens at the start sum to it"),
+            );
+        }
+    }
+}
+
+fn law(raw: RawLaw<'_>, nodes: &Nodes<'_>, findings: &mut Findings) -> Option<OwnedLaw> {
+    Some(match raw {
+        RawLaw::Invariant { sum: terms, equals } => {
+            let (mut sum, mut seen) = (Vec::new(), HashSet::new());
+            for (id, weight) in terms {
+                let Some(place) = nodes.place(&id, findings) else { continue };
+                if !seen.insert(place) {
+                    let message = format!("the place {} stands twice in one sum", quoted(&id.value));
+                    findings.push(
+                        Finding::new(id.span, message).help("write one term with the sum of both weights"),
+                    );
+                }
+                sum.push(Arc { place, weight });
+            }
+            OwnedLaw::Invariant { sum, equals }
+        }
+        RawLaw::NeverBoth(a, b) => {
+            OwnedLaw::NeverBoth(nodes.place(&a, findings)?, nodes.place(&b, findings)?)
+        }
+        RawLaw::Reachable(place) => OwnedLaw::Reachable(nodes.place(&place, findings)?),
+        RawLaw::AlwaysCan(place) => OwnedLaw::AlwaysCan(nodes.place(&place, findings)?),
+        RawLaw::HandlesAll => OwnedLaw::HandlesAll,
+        RawLaw::Settles => OwnedLaw::Settles,
+        RawLaw::DeadlockFree { end: None } => OwnedLaw::DeadlockFree { end: None },
+        RawLaw::DeadlockFree { end: Some(end) } => {
+            OwnedLaw::DeadlockFree { end: Some(nodes.place(&end, findings)?) }
+        }
+        RawLaw::Deterministic => OwnedLaw::Deterministic,
+    })
+}

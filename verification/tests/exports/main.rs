@@ -1,0 +1,230 @@
+//! Nets as files of other tools: SCXML, JANI, tables of matrices, JSON.
+//!
+//! The texts of four small nets stand in `tests/golden/exports`; `UPDATE_GOLDEN=1` writes them anew.
+
+mod nets;
+mod properties;
+
+use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Defect, Role, TransitionId};
+use cotama_verification::export::{jani, json, matrix, scxml};
+use std::path::Path;
+
+fn check_golden(name: &str, text: &str) {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/exports").join(name);
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(&path, text).unwrap();
+    }
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(stored == text, "{name} differs; UPDATE_GOLDEN=1 writes it anew. It is now:\n{text}");
+}
+
+fn check_all(stem: &str, net: &OwnedNet) {
+    let view = net.view();
+    let net = view.net();
+    assert_eq!(net.defect(), None);
+    check_golden(&format!("{stem}.jani"), &jani::write(&net));
+    check_golden(&format!("{stem}.tsv"), &matrix::write(&net));
+    check_golden(&format!("{stem}.json"), &json::write(&net));
+}
+
+#[test]
+fn a_door_with_a_flag_a_counter_and_an_abort_group() {
+    let net = nets::door();
+    check_all("door", &net);
+    check_golden("door.scxml", &scxml::write(&net.view().net()).unwrap());
+    assert_eq!(scxml::unkept_intervals(&net.view().net()), Ok(vec![]));
+}
+
+#[test]
+fn a_timed_light_keeps_the_intervals_that_start_with_a_state_and_reports_the_others() {
+    let net = nets::traffic_light();
+    check_all("light", &net);
+    check_golden("light.scxml", &scxml::write(&net.view().net()).unwrap());
+    // `stop early` needs what `ask` changes meanwhile; `extend` needs an event.
+    assert_eq!(scxml::unkept_intervals(&net.view().net()), Ok(vec![TransitionId(3), TransitionId(4)]));
+}
+
+#[test]
+fn philosophers_are_several_machines() {
+    let net = nets::philosophers(3);
+    check_all("philosophers", &net);
+    assert_eq!(
+        refusal(&net),
+        "more than one token in the states at the start (1 in `fork_0`, 1 in `fork_1`, 1 in `fork_2`, \
+         1 in `thinks_0`, 1 in `thinks_1`, 1 in `thinks_2`): there must be exactly one"
+    );
+}
+
+#[test]
+fn a_producer_and_a_consumer_with_weights_and_reads() {
+    let net = nets::producer_consumer();
+    check_all("producer_consumer", &net);
+    assert_eq!(refusal(&net), "transition `pack` takes or reads no state: it must take or read exactly one");
+}
+
+fn refusal(net: &OwnedNet) -> String {
+    scxml::write(&net.view().net()).unwrap_err().to_string()
+}
+
+/// Two states and the transition `go` from the first; `change` is what each case alters.
+fn two_states(change: impl FnOnce(&mut OwnedNet)) -> OwnedNet {
+    let mut net = OwnedNet::new("two", "");
+    let a = net.place(OwnedPlace::new("a", 1)).unwrap();
+    let b = net.place(OwnedPlace::new("b", 0)).unwrap();
+    let count = net.place(OwnedPlace::new("count", 0).at_most(5)).unwrap();
+    net.places[count.0 as usize].role = Role::Data;
+    net.transition(OwnedTransition::new("go").take(a, 1).give(b, 1)).unwrap();
+    change(&mut net);
+    net
+}
+
+#[test]
+fn a_net_that_is_no_state_machine_is_refused_with_the_reason() {
+    let net = two_states(|_| ());
+    assert!(scxml::write(&net.view().net()).is_ok());
+    let net = two_states(|net| net.places[0].initial = 0);
+    assert_eq!(refusal(&net), "no state has a token at the start: exactly one must");
+    let net = two_states(|net| net.transitions[0].take.clear());
+    assert_eq!(refusal(&net), "transition `go` takes or reads no state: it must take or read exactly one");
+    let net = two_states(|net| net.transitions[0].read = net.transitions[0].give.clone());
+    assert_eq!(refusal(&net), "transition `go` takes or reads `a`, `b`: it must take or read exactly one");
+    let net = two_states(|net| net.transitions[0].give.clear());
+    assert_eq!(refusal(&net), "transition `go` takes `a` and gives no state: it must give exactly one");
+    let net = two_states(|net| net.transitions[0].read = std::mem::take(&mut net.transitions[0].take));
+    assert_eq!(refusal(&net), "transition `go` reads `a` and gives `b`: it must take `a` to leave it");
+    let net = two_states(|net| net.transitions[0].give[0].weight = 2);
+    assert_eq!(refusal(&net), "transition `go` needs or gives more than one token of `b`, which is a state");
+    let net = two_states(|net| net.transitions[0].give[0].weight = 0);
+    assert_eq!(
+        scxml::write(&net.view().net()),
+        Err(scxml::NotAStateMachine::Defect(Defect::Arcs { transition: 0 }))
+    );
+}
+
+#[test]
+fn a_complement_has_to_be_one() {
+    let complemented = |of, change: fn(&mut OwnedNet)| {
+        two_states(|net| {
+            net.places[0].bound = 1;
+            let it = &net.places[of as usize];
+            let place = OwnedPlace::new("rest", it.bound - it.initial).at_most(it.bound);
+            let role = Role::Complement(cotama_core::net::PlaceId(of));
+            net.place(OwnedPlace { role, ..place }).unwrap();
+            change(net);
+        })
+    };
+    assert_eq!(
+        refusal(&complemented(0, |_| ())),
+        "place `rest` is the complement of `a`, which is neither data nor shared"
+    );
+    let uneven = complemented(2, |net| {
+        let transition = net.transitions[0].clone();
+        net.transitions[0] = transition.give(cotama_core::net::PlaceId(2), 1);
+    });
+    assert_eq!(
+        refusal(&uneven),
+        "transition `go` changes `rest` and what it complements, but not by opposite numbers"
+    );
+}
+
+#[test]
+fn odd_names_become_identifiers_and_stay_readable() {
+    let mut net = OwnedNet::new("", "a --> b <!-- ---");
+    let places = ["a\"b<&>", "a b", "a_b", "\u{1}\n--", "if", "Ω"]
+        .map(|name| net.place(OwnedPlace::new(name, 0)).unwrap());
+    net.places[0].initial = 1;
+    net.places[4].role = Role::Data;
+    let events = ["door.open", "door open", "door_open"].map(|name| net.event(name, "").unwrap());
+    for (event, place) in events.into_iter().zip(&places[1..]) {
+        net.transition(OwnedTransition::new("-- \t?").on(event).take(places[0], 1).give(*place, 1)).unwrap();
+    }
+    net.transitions[0] = net.transitions[0].clone().give(places[4], 1).read(places[4], 2);
+    let view = net.view();
+    check_golden("odd.scxml", &scxml::write(&view.net()).unwrap());
+    check_golden("odd.jani", &jani::write(&view.net()));
+    check_golden("odd.tsv", &matrix::write(&view.net()));
+    check_golden("odd.json", &json::write(&view.net()));
+}
+
+/// The message for the text of the door with one change.
+fn json_refusal(from: &str, to: &str) -> String {
+    let text = json::write(&nets::door().view().net());
+    assert!(text.contains(from), "{from}");
+    json::read(&text.replacen(from, to, 1)).unwrap_err().to_string()
+}
+
+#[test]
+fn json_that_is_no_net_is_refused_with_the_reason() {
+    assert_eq!(
+        json_refusal("cotama/net/1", "cotama/net/2"),
+        "`schema` is `cotama/net/2`, but this reader knows only `cotama/net/1`"
+    );
+    assert_eq!(
+        json_refusal("\"priority\": 10", "\"priority\": 1e3"),
+        "line 291, column 21: invalid type: floating point `1000.0`, expected i16"
+    );
+    assert_eq!(
+        json_refusal("\"priority\": 0", "\"prioriti\": 0"),
+        "line 134, column 16: unknown field `prioriti`, expected one of `name`, `doc`, `line`, `on`, `take`, `read`, `give`, `emits`, `within`, `priority`"
+    );
+    assert_eq!(json_refusal("\"initial\": 1,", ""), "line 12, column 5: missing field `initial`");
+    assert_eq!(
+        json_refusal("\"name\": \"moving\"", "\"name\": \"closed\""),
+        "two places are named `closed`; give each a name of its own"
+    );
+    assert_eq!(
+        json_refusal("\"on\": \"press\"", "\"on\": \"pres\""),
+        "transition `start` names the event `pres`, which the net does not have"
+    );
+    assert_eq!(
+        json_refusal("\"emits\": [\n        \"motor on\"", "\"emits\": [\n        \"motor\""),
+        "transition `start` names the output `motor`, which the net does not have"
+    );
+    assert_eq!(
+        json_refusal("\"complement\": \"locked\"", "\"complement\": \"lock\""),
+        "place `not locked` names the place `lock`, which the net does not have"
+    );
+    assert_eq!(
+        json_refusal("\"reachable\": \"worn out\"", "\"reachable\": \"worn\""),
+        "entry 3 of `laws` names the place `worn`, which the net does not have"
+    );
+    assert_eq!(
+        json_refusal("\"event\": \"key\"", "\"event\": \"\""),
+        "entry 1 of `ignored` names the event ``, which the net does not have"
+    );
+    assert_eq!(
+        json_refusal("\"weight\": 1", "\"weight\": 0"),
+        "transition `start` has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` together"
+    );
+    assert_eq!(
+        json_refusal("\"initial\": 1", "\"initial\": 2"),
+        "place `closed` has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
+    );
+    assert_eq!(
+        json_refusal("\"within\": null", "\"within\": { \"earliest\": 2, \"latest\": 1 }"),
+        "transition `start` has an interval that ends before it begins"
+    );
+    assert_eq!(json::read("").unwrap_err().to_string(), "line 1, column 0: EOF while parsing a value");
+    assert_eq!(
+        json::read(&"[".repeat(100_000)).unwrap_err().to_string(),
+        "line 1, column 1: invalid type: sequence, expected a string"
+    );
+}
+
+#[test]
+fn json_beyond_the_limits_is_refused() {
+    let long = " ".repeat(json::MAX_BYTES + 1);
+    assert_eq!(json::read(&long), Err(json::JsonNetError::TooLong { bytes: json::MAX_BYTES + 1 }));
+    let mut net = OwnedNet::new("wide", "");
+    let mut transition = OwnedTransition::new("t");
+    for i in 0..=json::MAX_ARCS {
+        let place = net.place(OwnedPlace::new(&i.to_string(), 0)).unwrap();
+        transition = transition.give(place, 1);
+    }
+    net.transition(transition).unwrap();
+    let error = json::read(&json::write(&net.view().net())).unwrap_err();
+    assert_eq!(error.to_string(), "transition `t` has more than 1000 arcs");
+    net.transitions[0].give.pop();
+    assert_eq!(json::read(&json::write(&net.view().net())), Ok(net));
+}
