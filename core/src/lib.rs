@@ -1,5 +1,5 @@
-//! The deterministic core of a robot that must keep its goals: which sensors and algorithms to use in every part of
-//! a mission, so that time, energy and any other additive limit hold, and what to do when they no longer do.
+//! The deterministic core of a robot that must keep its goals: supervisors that are checked before they run, and which
+//! sensors and algorithms to use in every part of a mission, so that time, energy and any other additive limit hold.
 //!
 //! `no_std`, no heap, no floating point, no unsafe code, no dependency: the same code plans on a workstation, in a
 //! simulator and on a microcontroller, and gives the same plan everywhere.
@@ -14,6 +14,9 @@
 //! | [`exact`] | the best plan, proven; anytime, with a bound |
 //! | [`front`] | all plans that no other plan beats |
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
+//! | [`net`] | supervisors as typed Petri nets, checked while compiling, and their player |
+//! | [`system`] | several nets that work together |
+//! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs are 32 bits and
 //! sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.
@@ -28,6 +31,8 @@ extern crate std;
 pub mod allocation;
 pub mod exact;
 pub mod front;
+#[doc = include_str!("guide.md")]
+pub mod guide {}
 pub mod hardware;
 pub mod monitor;
 pub mod net;
