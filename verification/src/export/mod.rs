@@ -1,8 +1,12 @@
 //! A net as a file of another tool, or as a drawing.
 
 pub mod dot;
+pub mod drawing;
+mod effect;
+mod identifier;
 pub mod jani;
 pub mod json;
+mod layout;
 pub mod matrix;
 pub mod mermaid;
 pub mod scxml;

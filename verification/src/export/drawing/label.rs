@@ -1,0 +1,63 @@
+//! What is written at a transition.
+
+use cotama_core::net::{Net, Transition};
+use std::fmt;
+
+/// What is written at a transition: `event [guard] / actions  timing`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Label<'n> {
+    /// The transitions that it stands for.
+    pub(crate) transitions: Vec<u32>,
+    /// The event that it needs.
+    pub(crate) event: Option<&'n str>,
+    /// What must hold, all of it.
+    pub(crate) guard: Vec<String>,
+    /// What it emits and how it changes data.
+    pub(crate) actions: Vec<String>,
+    /// Its interval and its priority, as far as they are set.
+    pub(crate) timing: Vec<String>,
+}
+
+impl<'n> Label<'n> {
+    /// All but guard and changes of data.
+    pub(super) fn of(net: &Net<'n>, transition: &Transition<'n>) -> Self {
+        let interval = transition.within.map(|within| match within.latest {
+            None => format!("{}.. ms", within.earliest),
+            Some(latest) if latest == within.earliest => format!("{latest} ms"),
+            Some(latest) => format!("{}..{latest} ms", within.earliest),
+        });
+        let priority = (transition.priority != 0).then(|| format!("priority {}", transition.priority));
+        let output =
+            |id: &cotama_core::net::OutputId| net.outputs.get(id.0 as usize).map(|it| it.name.to_owned());
+        Self {
+            transitions: Vec::new(),
+            event: transition.on.and_then(|event| net.events.get(event.0 as usize)).map(|it| it.name),
+            guard: Vec::new(),
+            actions: transition.emits.iter().filter_map(output).collect(),
+            timing: interval.into_iter().chain(priority).collect(),
+        }
+    }
+
+    /// Whether it says the same, of whichever transitions.
+    pub(super) fn says_the_same(&self, other: &Self) -> bool {
+        let Self { transitions: _, event, guard, actions, timing } = self;
+        (event, guard, actions, timing) == (&other.event, &other.guard, &other.actions, &other.timing)
+    }
+
+    /// `event`, `[guard]`, `/ actions`, those that are there; and the timing.
+    fn parts(&self) -> (Vec<String>, String) {
+        let guard = (!self.guard.is_empty()).then(|| format!("[{}]", self.guard.join(" & ")));
+        let actions = (!self.actions.is_empty()).then(|| format!("/ {}", self.actions.join(", ")));
+        let text = self.event.map(str::to_owned).into_iter().chain(guard).chain(actions).collect();
+        (text, self.timing.join(", "))
+    }
+}
+
+impl fmt::Display for Label<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (text, timing) = self.parts();
+        f.write_str(&text.join(" "))?;
+        f.write_str(if text.is_empty() || timing.is_empty() { "" } else { "  " })?;
+        f.write_str(&timing)
+    }
+}
