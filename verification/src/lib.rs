@@ -4,6 +4,10 @@
 //! | --- | --- |
 //! | [`export`] | a net as a file of another tool, or as a drawing |
 //! | [`pnml`] | the exchange format of Petri nets, read and written |
+//! | [`pt`] | a net without time and priorities, as engines read it |
+//! | [`property`] | what is asked of a net |
 
 pub mod export;
 pub mod pnml;
+pub mod property;
+pub mod pt;

@@ -19,6 +19,9 @@ pub struct Entry<const W: usize> {
     pub clock: u16,
 }
 
+/// The beginning of a row without entries: beyond all of them, so that looking it up finds none.
+pub const NO_ROW: u16 = u16::MAX;
+
 /// An entry without an interval.
 pub const NO_CLOCK: u16 = u16::MAX;
 
@@ -73,8 +76,8 @@ pub struct Code<'c, const W: usize> {
     /// Transitions by event, then by the state that they need, then in the order in which they are tried.
     pub entries: &'c [Entry<W>],
     /// Where the transitions of an event that a state enables begin and end in `entries`: two numbers, at
-    /// `2 * (event * states + state)`. After those of the last event come those that fire at once by themselves, then
-    /// those that fire by themselves in an interval.
+    /// `2 * (event * states + state)`; a row without any begins at [`NO_ROW`]. After those of the last event come those
+    /// that fire at once by themselves, then those that fire by themselves in an interval.
     pub rows: &'c [u16],
     /// What each transition takes, by its position in the net.
     pub takes: &'c [[u64; W]],
@@ -325,7 +328,7 @@ pub const fn pack<const W: usize>(net: &Net<'_>, lists: &mut Lists<'_, W>) -> Wo
                     at += 1;
                 }
             }
-            lists.rows[row] = first as u16;
+            lists.rows[row] = if first < entry { first as u16 } else { NO_ROW };
             lists.rows[row + 1] = entry as u16;
             row += 2;
             state += 1;
@@ -410,7 +413,9 @@ const fn sum<const W: usize>(arcs: &[super::Arc], fields: &[Field]) -> [u64; W] 
 const fn restless<const W: usize>(lists: &Borrowed<'_, W>, words: &Words<W>) -> [u64; W] {
     let mut restless = [0; W];
     let (kind, states) = (2 * lists.ignored.len() * words.states as usize, words.states as usize);
-    let (mut at, end) = (lists.rows[kind] as usize, lists.rows[kind + 2 * states - 1] as usize);
+    // Where the last row of a kind ends the first one of the next begins.
+    let mut at = if kind == 0 { 0 } else { lists.rows[kind - 1] as usize };
+    let end = lists.rows[kind + 2 * states - 1] as usize;
     while at < end {
         let need = &lists.entries[at].need;
         let mut field = 0;
@@ -556,25 +561,39 @@ impl<'c, const W: usize> Code<'c, W> {
         }
     }
 
-    /// The transitions of an event, or of a kind beyond the events, that may be enabled in this marking.
+    /// The first transition of an event, or of a kind beyond the events, that may be enabled in this marking and `can`.
     #[inline]
-    pub fn row(&self, kind: usize, marking: &[u64; W]) -> impl Iterator<Item = &'c Entry<W>> + use<'c, W> {
+    pub fn first(
+        &self,
+        kind: usize,
+        marking: &[u64; W],
+        can: impl Fn(&Entry<W>) -> bool,
+    ) -> Option<&'c Entry<W>> {
         let row = if self.control == 0 { kind } else { kind * self.states as usize + self.state(marking) };
-        let (start, end) = match self.rows.get(2 * row..2 * row + 2) {
-            Some(&[start, end]) => (start, end),
-            _ => (0, 0),
-        };
-        let entries = self.entries;
-        // Entry by entry, for most rows have one or none.
-        (start..end).map_while(move |at| entries.get(usize::from(at)))
+        let Some(&[start, end]) = self.rows.get(2 * row..2 * row + 2) else { return None };
+        let mut at = usize::from(start);
+        loop {
+            let entry = self.entries.get(at)?;
+            if can(entry) {
+                return Some(entry);
+            }
+            at += 1;
+            if at >= usize::from(end) {
+                return None;
+            }
+        }
     }
 
     /// All transitions of an event, or of the kind after the events: those that fire at once by themselves, or of the
     /// kind after that: those that do in an interval.
     pub fn kind(&self, kind: usize) -> &'c [Entry<W>] {
-        let (first, states) = (2 * kind * self.states as usize, self.states as usize);
-        match (self.rows.get(first), self.rows.get(first + 2 * states - 1)) {
-            (Some(&start), Some(&end)) => self.entries.get(start as usize..end as usize).unwrap_or(&[]),
+        // Where the last row of a kind ends the first one of the next begins.
+        let mut ends = self.rows.chunks_exact(2 * usize::from(self.states)).filter_map(|rows| rows.last());
+        let start = if kind == 0 { Some(&0) } else { ends.nth(kind - 1) };
+        match (start, ends.next()) {
+            (Some(&start), Some(&end)) => {
+                self.entries.get(usize::from(start)..usize::from(end)).unwrap_or(&[])
+            }
             _ => &[],
         }
     }
@@ -594,7 +613,7 @@ impl<'c, const W: usize> Code<'c, W> {
             resting &= (marking[word] | self.guards[word]) & self.restless[word] == 0;
             word += 1;
         }
-        if resting { None } else { self.row(self.events as usize, marking).find(|entry| can(entry)) }
+        if resting { None } else { self.first(self.events as usize, marking, can) }
     }
 
     /// Whether these tokens are there.

@@ -64,7 +64,7 @@ impl Net<'_> {
             let known = needs().chain(it.give).all(|arc| self.has(arc.place))
                 && it.on.is_none_or(|event| (event.0 as usize) < self.events.len())
                 && it.emits.iter().all(|output| (output.0 as usize) < self.outputs.len());
-            let sound = once(needs()) && once(it.give.iter());
+            let sound = once([it.take, it.read]) && once([it.give, &[]]);
             let timed =
                 it.within.is_none_or(|within| within.latest.is_none_or(|latest| within.earliest <= latest));
             match (known, sound, timed) {
@@ -79,7 +79,7 @@ impl Net<'_> {
     fn law_defect(&self) -> Option<Defect> {
         let ignored = |it: &super::Ignored| (it.event.0 as usize) < self.events.len() && self.has(it.place);
         let law = |law: &Law<'_>| match *law {
-            Law::Invariant { sum, .. } => sum.iter().all(|arc| self.has(arc.place)) && once(sum.iter()),
+            Law::Invariant { sum, .. } => sum.iter().all(|arc| self.has(arc.place)) && once([sum, &[]]),
             Law::NeverBoth(a, b) => self.has(a) && self.has(b),
             Law::Reachable(place) | Law::AlwaysCan(place) => self.has(place),
             Law::DeadlockFree { end } => end.is_none_or(|end| self.has(end)),
@@ -89,14 +89,12 @@ impl Net<'_> {
     }
 }
 
-/// Every weight counts and no place occurs twice.
-fn once<'a>(arcs: impl Iterator<Item = &'a Arc> + Clone) -> bool {
+/// Every weight counts and no place occurs twice in these lists together.
+fn once(lists: [&[Arc]; 2]) -> bool {
+    let arcs = || lists.into_iter().flatten();
     // Most lists are sorted, and long ones must be checked in one pass.
-    let mut last = None;
-    let sorted = arcs.clone().all(|arc| core::mem::replace(&mut last, Some(arc.place)) < Some(arc.place));
-    let mut rest = arcs.clone();
-    arcs.clone().all(|arc| arc.weight > 0)
+    let sorted = arcs().zip(arcs().skip(1)).all(|(before, arc)| before.place < arc.place);
+    arcs().all(|arc| arc.weight > 0)
         && (sorted
-            || core::iter::from_fn(|| rest.next().map(|arc| (arc.place, rest.clone())))
-                .all(|(place, mut after)| after.all(|other| other.place != place)))
+            || arcs().enumerate().all(|(at, arc)| arcs().skip(at + 1).all(|other| other.place != arc.place)))
 }

@@ -129,9 +129,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             self.now = self.now.max(now);
         }
         let code = self.program.code();
-        let can = |it: &&Entry<W>| self.can(&code, it) && self.open(it);
-        let next = code.row(event.id().0 as usize, &self.marking).find(can).copied();
-        if let Some(entry) = next {
+        let can = |it: &Entry<W>| self.can(&code, it) && self.open(it);
+        if let Some(entry) = code.first(event.id().0 as usize, &self.marking, can).copied() {
             self.fire(&entry, Some(event), observer);
             let transition = self.program.transition(entry.id());
             return Outcome::Fired { transition, settled: self.settle(observer) };
@@ -318,8 +317,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     fn why(&self, event: &P::Event) -> Why<P::Transition> {
         let code = self.program.code();
         if C > 0 || !code.bounded {
-            let mut row = code.row(event.id().0 as usize, &self.marking);
-            if let Some(entry) = row.find(|it| code.holds(&self.marking, &it.need)) {
+            let holds = |it: &Entry<W>| code.holds(&self.marking, &it.need);
+            if let Some(entry) = code.first(event.id().0 as usize, &self.marking, holds) {
                 let transition = self.program.transition(entry.id());
                 let number = usize::from(entry.clock);
                 return match (code.clocks.get(number), self.clocks.get(number)) {

@@ -217,17 +217,15 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
                 return advanced;
             }
             self.pass(u64::from(wait));
-            match self.whole(witness, |player, witness| player.fire(at, None, M::default(), witness)) {
-                Ok(()) => {
-                    advanced.fired += 1;
-                    refused = [false; C];
-                }
-                Err(Full(_)) => {
-                    let clock =
-                        self.program.code().entries.get(usize::from(at)).map_or(NONE, |entry| entry.clock);
-                    if let Some(refused) = refused.get_mut(usize::from(clock)) {
-                        *refused = true;
-                    }
+            let fired = self.whole(witness, |player, witness| player.fire(at, None, M::default(), witness));
+            if fired.is_ok() {
+                advanced.fired += 1;
+                refused = [false; C];
+            } else {
+                let entry =
+                    self.program.code().entries.get(usize::from(at)).map_or(NONE, |entry| entry.clock);
+                if let Some(refused) = refused.get_mut(usize::from(entry)) {
+                    *refused = true;
                 }
             }
         }
@@ -297,17 +295,13 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
     fn deliver(&mut self, number: u16, carries: M, witness: &mut impl Witness<M>) -> Offered {
         let result = self.whole(witness, |player, witness| {
             player.clear(number, witness);
-            match player.enabled(number) {
-                Some(at) => {
-                    let entry = player.program.code().entries.get(usize::from(at)).copied();
-                    player.fire(at, Some(number), carries, witness)?;
-                    Ok(entry.map_or(Offered::NotNow, |entry| Offered::Fired(entry.id())))
-                }
-                None => {
-                    witness.see(&Happening::Ignored { event: player.event(number), carries });
-                    Ok(Offered::Ignored)
-                }
-            }
+            let Some(at) = player.enabled(number) else {
+                witness.see(&Happening::Ignored { event: player.event(number), carries });
+                return Ok(Offered::Ignored);
+            };
+            let entry = player.program.code().entries.get(usize::from(at)).copied();
+            player.fire(at, Some(number), carries, witness)?;
+            Ok(entry.map_or(Offered::NotNow, |entry| Offered::Fired(entry.id())))
         });
         result.unwrap_or_else(|Full(mailbox)| {
             let full = self.program.code().mailboxes.get(usize::from(mailbox)).map_or(0, |it| it.event);
@@ -382,7 +376,7 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
                 self.clear(route.event, witness);
                 match self.enabled(route.event) {
                     Some(at) => {
-                        self.step(at, Some(route.event), carries, witness, &mut under_way, &mut depth)
+                        self.step(at, Some(route.event), carries, witness, &mut under_way, &mut depth);
                     }
                     None => witness.see(&Happening::Ignored { event: self.event(route.event), carries }),
                 }
