@@ -1,6 +1,8 @@
-//! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol as one.
+//! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol as one; the
+//! token game by the book.
 
 pub mod instances;
+pub mod textbook;
 
 use cotama_core::problem::{Candidate, Problem};
 use cotama_models::patrol_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};

@@ -65,8 +65,16 @@ impl Field {
     /// Its tokens in a marking.
     #[inline]
     pub const fn of<const W: usize>(self, marking: &[u64; W]) -> u32 {
-        let mask = (1_u64 << self.width) - 1;
-        if (self.word as usize) < W { ((marking[self.word as usize] >> self.shift) & mask) as u32 } else { 0 }
+        if (self.word as usize) < W {
+            (marking[self.word as usize].wrapping_shr(self.shift as u32) & self.mask()) as u32
+        } else {
+            0
+        }
+    }
+
+    /// All tokens that it can hold, at the lowest bits.
+    pub(super) const fn mask(self) -> u64 {
+        1_u64.wrapping_shl(self.width as u32).wrapping_sub(1)
     }
 }
 
@@ -569,8 +577,8 @@ impl<'c, const W: usize> Code<'c, W> {
         marking: &[u64; W],
         can: impl Fn(&Entry<W>) -> bool,
     ) -> Option<&'c Entry<W>> {
-        let row = if self.control == 0 { kind } else { kind * self.states as usize + self.state(marking) };
-        let Some(&[start, end]) = self.rows.get(2 * row..2 * row + 2) else { return None };
+        let row = 2 * kind * usize::from(self.states) + self.control_bit(marking);
+        let Some(&[start, end]) = self.rows.get(row..row + 2) else { return None };
         let mut at = usize::from(start);
         loop {
             let entry = self.entries.get(at)?;
@@ -588,20 +596,34 @@ impl<'c, const W: usize> Code<'c, W> {
     /// kind after that: those that do in an interval.
     pub fn kind(&self, kind: usize) -> &'c [Entry<W>] {
         // Where the last row of a kind ends the first one of the next begins.
-        let mut ends = self.rows.chunks_exact(2 * usize::from(self.states)).filter_map(|rows| rows.last());
-        let start = if kind == 0 { Some(&0) } else { ends.nth(kind - 1) };
-        match (start, ends.next()) {
-            (Some(&start), Some(&end)) => {
-                self.entries.get(usize::from(start)..usize::from(end)).unwrap_or(&[])
-            }
-            _ => &[],
-        }
+        let end = |kinds: usize| {
+            let row = kinds.checked_mul(2 * usize::from(self.states))?.checked_sub(1)?;
+            Some(usize::from(*self.rows.get(row)?))
+        };
+        let entries =
+            end(kind.saturating_add(1)).and_then(|last| self.entries.get(end(kind).unwrap_or(0)..last));
+        entries.unwrap_or(&[])
     }
 
     /// The position of the marked place of a state machine.
     #[inline]
     pub fn state(&self, marking: &[u64; W]) -> usize {
-        marking.first().map_or(0, |word| ((word & self.control).trailing_zeros() / 2) as usize)
+        self.control_bit(marking) / 2
+    }
+
+    /// The bit of the marked place of a state machine: twice its position. Zero for a net that is none.
+    #[inline]
+    fn control_bit(&self, marking: &[u64; W]) -> usize {
+        let marked = marking.first().map_or(0, |word| word & self.control);
+        // Most have up to sixteen states: half a word, for which small processors need half the instructions.
+        let bit = if self.control == 0 {
+            0
+        } else if self.control <= u64::from(u32::MAX) {
+            (marked as u32).trailing_zeros()
+        } else {
+            marked.trailing_zeros()
+        };
+        bit as usize
     }
 
     /// The transition that fires next at once by itself, if it `can`.
@@ -619,15 +641,13 @@ impl<'c, const W: usize> Code<'c, W> {
     /// Whether these tokens are there.
     #[inline]
     pub const fn holds(&self, marking: &[u64; W], need: &[u64; W]) -> bool {
-        let mut word = 0;
+        let (mut word, mut lacking) = (0, 0);
         while word < W {
             let guards = self.guards[word];
-            if (marking[word] | guards).wrapping_sub(need[word]) & guards != guards {
-                return false;
-            }
+            lacking |= !(marking[word] | guards).wrapping_sub(need[word]) & guards;
             word += 1;
         }
-        true
+        lacking == 0
     }
 
     /// The marking after firing, whatever the bounds; a field that exceeds its bound does not disturb others.
@@ -687,8 +707,9 @@ pub const fn lines<const T: usize>(net: &Net<'_>) -> [u16; T] {
     lines
 }
 
-/// The lists of a [`Code`] whose lengths are known when compiling.
+/// The lists of a [`Code`] whose lengths are known when compiling, those first that every event needs.
 #[derive(Clone, Copy, Debug)]
+#[repr(C)]
 pub struct Arrays<
     const W: usize,
     const T: usize,
@@ -698,9 +719,9 @@ pub struct Arrays<
     const E: usize,
 > {
     entries: [Entry<W>; T],
+    rows: [u16; R],
     takes: [[u64; W]; T],
     order: [u16; T],
-    rows: [u16; R],
     clocks: [Clock<W>; C],
     fields: [Field; P],
     ignored: [[u64; W]; E],

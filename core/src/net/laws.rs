@@ -2,8 +2,8 @@
 //! and the shortest way there.
 
 use super::code::Code;
-use super::data::{EventId, Law, Net, PlaceId};
-use super::explore::{Graph, MARKINGS, marked, said};
+use super::data::{Law, Net, PlaceId, Role};
+use super::explore::{AT_ONCE, FIRINGS, Graph, MARKINGS, NONE, SHARED, held, marked, said};
 use super::text::Text;
 
 /// What is known of a net when it is compiled.
@@ -50,8 +50,13 @@ pub const fn check<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, left_to_ch
         check.exceeded(from as usize, by as usize);
     }
     if !graph.complete {
-        Text::new().with("net ").name(net.name).with(" has more than ").number(MARKINGS as u64)
-            .with(" markings, too many to explore while compiling: say `left_to_checker;` in its laws, and check it with the model checker")
+        let text = Text::new().with("net ").name(net.name).with(" has more than ");
+        let text = if graph.fired < FIRINGS {
+            text.number(MARKINGS as u64).with(" markings")
+        } else {
+            text.number(FIRINGS as u64).with(" firings between its markings")
+        };
+        text.with(", too many to explore while compiling: say `left_to_checker;` in its laws, and check it with the model checker")
             .stop();
     }
     let settle = check.settles();
@@ -60,8 +65,7 @@ pub const fn check<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, left_to_ch
         check.law(&net.laws[at]);
         at += 1;
     }
-    let firings = graph.from(graph.count - 1).1;
-    Known::Explored { markings: graph.count, firings, settle }
+    Known::Explored { markings: graph.count, firings: graph.fired, settle }
 }
 
 struct Check<'c, const W: usize> {
@@ -81,46 +85,55 @@ impl<const W: usize> Check<'_, W> {
     }
 
     const fn tokens(&self, place: PlaceId, marking: usize) -> u32 {
-        self.code.fields[place.0 as usize].of(&self.graph.markings[marking])
+        let field = &self.code.fields[place.0 as usize];
+        (self.graph.markings[marking][field.word as usize] >> field.shift) as u32 & ((1 << field.width) - 1)
+    }
+
+    /// Adds where it is so: the way to a marking, and what is marked there.
+    const fn found(&self, text: Text, marking: usize) -> Text {
+        let text = self.graph.way(self.net, self.code, text.with("\n  "), marking);
+        marked(self.net, self.code, text.with("\n  "), &self.graph.markings[marking])
     }
 
     /// Ends the compilation: this is so in this marking.
     const fn refuted(&self, text: Text, marking: usize) -> ! {
-        let text = self.graph.way(self.net, self.code, text.with("\n  "), marking);
-        marked(self.net, self.code, text.with("\n  "), &self.graph.markings[marking]).stop()
+        self.found(text, marking).stop()
     }
 
     const fn exceeded(&self, from: usize, by: usize) -> ! {
-        let marking = &self.graph.markings[from];
         let entry = &self.code.entries[by];
-        let after = self.code.after(marking, &entry.delta);
+        let after = self.code.after(&self.graph.markings[from], &entry.delta);
         let mut at = 0;
-        let mut text = self.says("");
-        while at < self.net.places.len() {
-            let field = self.code.fields[at];
-            // With the guard bit: what a field holds beyond its bound.
-            let held = (after[field.word as usize] >> field.shift) & ((2 << field.width) - 1);
-            let bound = self.net.places[at].bound as u64;
-            if held > bound {
-                text = text
-                    .with("place ")
-                    .name(self.net.places[at].name)
-                    .with(" gets ")
-                    .number(held)
-                    .with(" tokens, and is declared for ")
-                    .number(bound);
-                break;
-            }
+        while held(self.code, &after, at) <= self.net.places[at].bound as u64 {
             at += 1;
         }
-        let text = self.graph.way(self.net, self.code, text.with("\n  "), from);
-        let text = said(self.net, self.code, text.with(", then "), by);
-        if self.graph.grows(from, &after, self.code) {
-            text.with("\n  this can be repeated without end: the net is unbounded").stop()
-        }
-        text.with("\n  declare a larger bound, as `")
-            .with(self.net.places[at].name)
-            .with(": 0 of 2`, or let the transition wait for room")
+        let (place, tokens) = (&self.net.places[at], held(self.code, &after, at));
+        let text = self
+            .says("place ")
+            .name(place.name)
+            .with(" gets ")
+            .number(tokens)
+            .with(" tokens, and is declared for ");
+        let text = text.number(place.bound as u64).with("\n  ");
+        let text = if from == 0 {
+            text.with("after: ")
+        } else {
+            self.graph.way(self.net, self.code, text, from).with(", then ")
+        };
+        let text = said(self.net, self.code, text, by);
+        let text = if self.graph.grows(from, &after, self.code) {
+            text.with("\n  this can be repeated without end, so no bound is large enough: let ")
+        } else {
+            text.with("\n  declare a larger bound, as `")
+                .with(place.name)
+                .with(": ")
+                .digits(place.initial as u64)
+                .with(" of ")
+                .digits(tokens)
+                .with("`, or let ")
+        };
+        text.name(self.net.transitions[entry.transition as usize].name)
+            .with(" wait for room, by taking a token from a place that stands for it")
             .stop()
     }
 
@@ -191,174 +204,154 @@ impl<const W: usize> Check<'_, W> {
         }
         self.says("law `reachable(")
             .with(self.name(place))
-            .with(")` does not hold: none of the ")
-            .number(self.graph.count as u64)
-            .with(" reachable markings has a token in ")
+            .with(")` does not hold: no firing sequence puts a token into ")
             .name(self.name(place))
+            .with(" (markings explored: ")
+            .number(self.graph.count as u64)
+            .with(")")
             .stop()
     }
 
     const fn always_can(&self, place: PlaceId) {
+        // Backwards from the markings where it is marked.
         let mut can = [false; MARKINGS];
-        let mut changed = true;
-        while changed {
-            changed = false;
-            let mut marking = self.graph.count;
-            while marking > 0 {
-                marking -= 1;
-                if !can[marking] && (self.tokens(place, marking) > 0 || self.leads_to(marking, &can)) {
-                    can[marking] = true;
-                    changed = true;
-                }
-            }
-        }
+        let mut queue = [0_u16; MARKINGS];
+        let mut found = 0;
         let mut marking = 0;
         while marking < self.graph.count {
-            if !can[marking] {
-                let text = self
-                    .says("law `always_can(")
-                    .with(self.name(place))
-                    .with(")` does not hold: from here no firing sequence marks ");
-                self.refuted(text.name(self.name(place)), marking);
+            if self.tokens(place, marking) > 0 {
+                can[marking] = true;
+                queue[found] = marking as u16;
+                found += 1;
             }
             marking += 1;
         }
-    }
-
-    const fn leads_to(&self, marking: usize, goal: &[bool; MARKINGS]) -> bool {
-        let (mut at, end) = self.graph.from(marking);
-        while at < end {
-            if goal[self.graph.firing(at).0] {
-                return true;
-            }
-            at += 1;
-        }
-        false
-    }
-
-    /// Whether a move is a transition that fires at once by itself.
-    const fn immediate(&self, by: usize) -> bool {
-        if by >= self.code.entries.len() {
-            return false;
-        }
-        let transition = &self.net.transitions[self.code.entries[by].transition as usize];
-        transition.on.is_none() && transition.within.is_none()
-    }
-
-    /// How many transitions that fire at once by themselves are enabled, and the first two.
-    const fn urgent(&self, marking: usize) -> (usize, usize, usize) {
-        let (mut count, mut first, mut second) = (0, 0, 0);
-        let (mut at, end) = self.graph.from(marking);
-        while at < end {
-            let by = self.graph.firing(at).1;
-            if self.immediate(by) {
-                if count == 0 {
-                    first = by;
-                } else if count == 1 {
-                    second = by;
+        let mut next = 0;
+        while next < found {
+            let mut firing = self.graph.arrivals[queue[next] as usize];
+            while firing != NONE {
+                let from = self.graph.firings[firing as usize].from;
+                if !can[from as usize] {
+                    can[from as usize] = true;
+                    queue[found] = from;
+                    found += 1;
                 }
-                count += 1;
+                firing = self.graph.earlier[firing as usize];
             }
-            at += 1;
+            next += 1;
         }
-        (count, first, second)
+        if found < self.graph.count {
+            let mut marking = 0;
+            while can[marking] {
+                marking += 1;
+            }
+            let text = self
+                .says("law `always_can(")
+                .with(self.name(place))
+                .with(")` does not hold: no firing sequence puts a token into ");
+            self.refuted(text.name(self.name(place)), marking);
+        }
     }
 
     /// Checks that transitions which fire at once by themselves come to an end; gives back after how many.
     const fn settles(&self) -> u32 {
-        let mut depths = [0_u32; MARKINGS];
-        let mut changed = true;
-        while changed {
-            changed = false;
-            let mut marking = self.graph.count;
-            while marking > 0 {
-                marking -= 1;
-                let (mut at, end) = self.graph.from(marking);
-                while at < end {
-                    let (to, by) = self.graph.firing(at);
-                    if self.immediate(by) && depths[marking] <= depths[to] {
-                        depths[marking] = depths[to] + 1;
-                        changed = true;
-                        if depths[marking] as usize > self.graph.count {
-                            self.endless(marking);
-                        }
-                    }
-                    at += 1;
-                }
+        // How many such firings leave a marking to one that is not known to settle.
+        let mut open = [0_u16; MARKINGS];
+        let mut any = false;
+        let mut firing = 0;
+        while firing < self.graph.fired {
+            if self.graph.firings[firing].kind == AT_ONCE {
+                open[self.graph.firings[firing].from as usize] += 1;
+                any = true;
             }
+            firing += 1;
         }
-        let (mut most, mut marking) = (0, 0);
+        if !any {
+            return 0;
+        }
+        let mut queue = [0_u16; MARKINGS];
+        let mut settled = 0;
+        let mut marking = 0;
         while marking < self.graph.count {
-            most = if depths[marking] > most { depths[marking] } else { most };
+            if open[marking] == 0 {
+                queue[settled] = marking as u16;
+                settled += 1;
+            }
             marking += 1;
+        }
+        let mut depths = [0_u32; MARKINGS];
+        let (mut most, mut next) = (0, 0);
+        while next < settled {
+            let to = queue[next] as usize;
+            let mut firing = self.graph.arrivals[to];
+            while firing != NONE {
+                let it = &self.graph.firings[firing as usize];
+                if it.kind == AT_ONCE {
+                    let from = it.from as usize;
+                    if depths[from] <= depths[to] {
+                        depths[from] = depths[to] + 1;
+                    }
+                    open[from] -= 1;
+                    if open[from] == 0 {
+                        queue[settled] = it.from;
+                        settled += 1;
+                    }
+                }
+                firing = self.graph.earlier[firing as usize];
+            }
+            // What settles last is the deepest of those that lead to it.
+            most = if depths[to] > most { depths[to] } else { most };
+            next += 1;
+        }
+        if settled < self.graph.count {
+            self.endless(&open);
         }
         most
     }
 
-    /// Ends the compilation: from here transitions fire by themselves for ever.
-    const fn endless(&self, from: usize) -> ! {
-        // Step until a marking comes back; then once round from there.
-        let mut seen = [false; MARKINGS];
-        let mut marking = from;
-        while !seen[marking] {
-            seen[marking] = true;
-            marking = self.follow(marking, &[true; MARKINGS]).0;
-        }
-        let mut first = 0;
-        while first < self.graph.count {
-            if seen[first] && self.returns(first) {
-                break;
-            }
-            first += 1;
-        }
-        let start = if first < self.graph.count { first } else { marking };
-        let mut text =
-            self.says("law `settles` does not hold: transitions without event and interval fire for ever");
-        text = self.graph.way(self.net, self.code, text.with("\n  "), start).with("\n  for ever: ");
-        let mut at = start;
-        let mut steps = 0;
-        loop {
-            let (to, by) = self.follow(at, &seen);
-            text = if steps > 0 { text.with(", ") } else { text };
-            text = said(self.net, self.code, text, by);
-            at = to;
-            steps += 1;
-            if at == start || steps > self.graph.count {
-                break;
-            }
-        }
-        text.stop()
-    }
-
-    /// Whether following the immediate transitions among the deepest leads back.
-    const fn returns(&self, start: usize) -> bool {
-        let mut at = start;
-        let mut steps = 0;
-        while steps <= self.graph.count {
-            let (to, by) = self.follow(at, &[true; MARKINGS]);
-            if by == usize::MAX {
-                return false;
-            }
-            at = to;
-            if at == start {
-                return true;
-            }
-            steps += 1;
-        }
-        false
-    }
-
-    /// The first immediate firing from a marking that leads on.
-    const fn follow(&self, marking: usize, among: &[bool; MARKINGS]) -> (usize, usize) {
-        let (mut at, end) = self.graph.from(marking);
-        while at < end {
-            let (to, by) = self.graph.firing(at);
-            if self.immediate(by) && among[to] && self.urgent(to).0 > 0 {
-                return (to, by);
-            }
+    /// Ends the compilation: in the open markings transitions fire by themselves for ever.
+    const fn endless(&self, open: &[u16; MARKINGS]) -> ! {
+        let mut at = 0;
+        while open[at] == 0 {
             at += 1;
         }
-        (marking, usize::MAX)
+        // Step until a marking comes back; once round from there, what is nearest to the start.
+        let mut seen = [false; MARKINGS];
+        while !seen[at] {
+            seen[at] = true;
+            at = self.graph.firings[self.onwards(at, open)].to as usize;
+        }
+        let (mut start, end) = (at, at);
+        loop {
+            at = self.graph.firings[self.onwards(at, open)].to as usize;
+            start = if at < start { at } else { start };
+            if at == end {
+                break;
+            }
+        }
+        let text =
+            self.says("law `settles` does not hold: transitions without event and interval fire for ever");
+        let mut text = self.graph.way(self.net, self.code, text.with("\n  "), start).with("\n  for ever: ");
+        at = start;
+        loop {
+            let firing = &self.graph.firings[self.onwards(at, open)];
+            text = said(self.net, self.code, text, firing.by as usize);
+            at = firing.to as usize;
+            if at == start {
+                text.with("\n  give one of them an event or an interval").stop();
+            }
+            text = text.with(", ");
+        }
+    }
+
+    /// The first firing that stays among the open markings.
+    const fn onwards(&self, marking: usize, open: &[u16; MARKINGS]) -> usize {
+        let mut firing = self.graph.starts[marking] as usize;
+        while self.graph.firings[firing].kind != AT_ONCE || open[self.graph.firings[firing].to as usize] == 0
+        {
+            firing += 1;
+        }
+        firing
     }
 
     const fn deadlock_free(&self, end: Option<PlaceId>) {
@@ -373,107 +366,130 @@ impl<const W: usize> Check<'_, W> {
                     Some(end) => self.says("law `deadlock_free_except(").with(self.name(end)).with(")"),
                     None => self.says("law `deadlock_free"),
                 };
-                self.refuted(text.with("` does not hold: no transition is enabled"), marking);
+                let text = self.found(text.with("` does not hold: no transition is enabled"), marking);
+                match (end, self.first_marked(marking)) {
+                    (None, Some(place)) => text
+                        .with("\n  if it is meant to end there, say `deadlock_free_except(")
+                        .with(place)
+                        .with(")`")
+                        .stop(),
+                    _ => text.stop(),
+                }
             }
             marking += 1;
         }
     }
 
     const fn any_transition(&self, marking: usize) -> bool {
-        let (mut at, end) = self.graph.from(marking);
-        while at < end {
-            if self.graph.firing(at).1 < self.code.entries.len() {
-                return true;
-            }
-            at += 1;
-        }
-        false
-    }
-
-    const fn on(&self, by: usize) -> Option<EventId> {
-        if by < self.code.entries.len() {
-            self.net.transitions[self.code.entries[by].transition as usize].on
-        } else {
-            None
-        }
+        // Changes of shared places come last.
+        let first = self.graph.starts[marking];
+        first < self.graph.starts[marking + 1] && self.graph.firings[first as usize].kind != SHARED
     }
 
     const fn handles_all(&self) {
-        let mut event = 0;
-        while event < self.net.events.len() {
-            let mut marking = 0;
-            while marking < self.graph.count {
-                if self.urgent(marking).0 == 0 && !self.handled(event, marking) {
-                    let text = self
-                        .says("law `handles(all)` does not hold: event ")
-                        .name(self.net.events[event].name)
-                        .with(" is neither used nor ignored on purpose");
-                    let text = self.graph.way(self.net, self.code, text.with("\n  "), marking);
-                    let text = marked(self.net, self.code, text.with("\n  "), &self.graph.markings[marking]);
-                    text.with("\n  add a transition, or `ignore { ")
-                        .with(self.net.events[event].name)
-                        .with(" in ")
-                        .with(self.first_marked(marking))
-                        .with("; }`")
-                        .stop();
-                }
-                marking += 1;
+        // The first event that is forgotten, with the marking nearest to the start.
+        let (mut event, mut place) = (self.net.events.len(), 0);
+        let mut marking = 0;
+        while marking < self.graph.count {
+            let first = self.forgotten(marking, event);
+            if first < event {
+                (event, place) = (first, marking);
             }
-            event += 1;
+            marking += 1;
+        }
+        if event == self.net.events.len() {
+            return;
+        }
+        let text = self
+            .says("law `handles(all)` does not hold: event ")
+            .name(self.net.events[event].name)
+            .with(" is neither used nor ignored on purpose");
+        let text = self.found(text, place).with("\n  add a transition on it");
+        match self.first_marked(place) {
+            Some(place) => text
+                .with(", or `ignore { ")
+                .with(self.net.events[event].name)
+                .with(" in ")
+                .with(place)
+                .with("; }`")
+                .stop(),
+            None => text.stop(),
         }
     }
 
-    const fn first_marked(&self, marking: usize) -> &str {
+    /// The first event before `most` that nothing answers in a marking where the net has settled; `most` if there is none.
+    const fn forgotten(&self, marking: usize, most: usize) -> usize {
+        let (start, end) = (self.graph.starts[marking] as usize, self.graph.starts[marking + 1] as usize);
+        let mut first = 0;
+        while first < most {
+            // 64 events at a time.
+            let mut answered = 0_u64;
+            let mut at = start;
+            while at < end {
+                let kind = self.graph.firings[at].kind;
+                if kind == AT_ONCE {
+                    return most;
+                }
+                if kind as usize >= first && kind as usize - first < 64 {
+                    answered |= 1 << (kind as usize - first);
+                }
+                at += 1;
+            }
+            let mut event = first;
+            while event < most && event < first + 64 {
+                let mut word = if answered >> (event - first) & 1 == 0 { 0 } else { W + 1 };
+                while word < W && self.code.ignored[event][word] & self.graph.markings[marking][word] == 0 {
+                    word += 1;
+                }
+                if word == W {
+                    return event;
+                }
+                event += 1;
+            }
+            first += 64;
+        }
+        most
+    }
+
+    /// The first marked place that `net!` has a name for.
+    const fn first_marked(&self, marking: usize) -> Option<&str> {
         let mut at = 0;
         while at < self.net.places.len() {
-            if self.tokens(PlaceId(at as u32), marking) > 0 {
-                return self.net.places[at].name;
+            let named = !matches!(self.net.places[at].role, Role::Complement(_));
+            if named && self.tokens(PlaceId(at as u32), marking) > 0 {
+                return Some(self.net.places[at].name);
             }
             at += 1;
         }
-        "..."
-    }
-
-    const fn handled(&self, event: usize, marking: usize) -> bool {
-        let (mut at, end) = self.graph.from(marking);
-        while at < end {
-            if let Some(on) = self.on(self.graph.firing(at).1)
-                && on.0 as usize == event
-            {
-                return true;
-            }
-            at += 1;
-        }
-        let mut word = 0;
-        while word < W {
-            if self.code.ignored[event][word] & self.graph.markings[marking][word] != 0 {
-                return true;
-            }
-            word += 1;
-        }
-        false
+        None
     }
 
     const fn deterministic(&self) {
         let mut marking = 0;
         while marking < self.graph.count {
-            let (urgent, first, second) = self.urgent(marking);
-            if urgent > 1 {
-                self.conflict(marking, first, second, "by themselves");
+            let (start, end) = (self.graph.starts[marking] as usize, self.graph.starts[marking + 1] as usize);
+            // Before the net has settled, it is not offered events.
+            let mut at_once = 0;
+            let mut at = start;
+            while at < end {
+                at_once += (self.graph.firings[at].kind == AT_ONCE) as usize;
+                at += 1;
             }
-            let (begin, end) = self.graph.from(marking);
-            let mut at = begin;
-            while urgent == 0 && at < end {
-                let by = self.graph.firing(at).1;
-                let mut other = begin;
-                while other < at {
-                    let with = self.graph.firing(other).1;
-                    if let (Some(a), Some(b)) = (self.on(by), self.on(with))
-                        && a.0 == b.0
-                    {
-                        self.conflict(marking, with, by, self.net.events[a.0 as usize].name);
+            // Kinds that were met, some of them sharing a bit.
+            let mut met = 0_u64;
+            at = start;
+            while at < end && at_once != 1 {
+                let kind = self.graph.firings[at].kind;
+                if kind == AT_ONCE || kind < SHARED && at_once == 0 {
+                    let bit = 1 << (kind % 64);
+                    let mut other = if met & bit == 0 { at } else { start };
+                    while other < at {
+                        if self.graph.firings[other].kind == kind {
+                            self.conflict(marking, other, at);
+                        }
+                        other += 1;
                     }
-                    other += 1;
+                    met |= bit;
                 }
                 at += 1;
             }
@@ -481,16 +497,19 @@ impl<const W: usize> Check<'_, W> {
         }
     }
 
-    const fn conflict(&self, marking: usize, a: usize, b: usize, event: &str) -> ! {
-        let a = self.net.transitions[self.code.entries[a].transition as usize].name;
-        let b = self.net.transitions[self.code.entries[b].transition as usize].name;
+    const fn conflict(&self, marking: usize, a: usize, b: usize) -> ! {
+        let (a, b) = (&self.graph.firings[a], &self.graph.firings[b]);
         let text = self
             .says("law `deterministic` does not hold: ")
-            .name(a)
+            .name(self.net.transitions[self.code.entries[a.by as usize].transition as usize].name)
             .with(" and ")
-            .name(b)
-            .with(" are enabled together, on ")
-            .with(event);
-        self.refuted(text, marking)
+            .name(self.net.transitions[self.code.entries[b.by as usize].transition as usize].name)
+            .with(" are enabled together, both ");
+        let text = if a.kind == AT_ONCE {
+            text.with("without event and interval")
+        } else {
+            text.with("on ").name(self.net.events[a.kind as usize].name)
+        };
+        self.found(text, marking).with("\n  tell them apart by their guards or the places they need").stop()
     }
 }

@@ -2,8 +2,8 @@
 
 use super::data::{Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Signal, Transition, Within};
 use super::source::{Claim, Line, Source};
-use super::text::{Text, as_str, distance, same};
-use super::variant::{Found, MOST, suggest};
+use super::text::{Text, as_str, same};
+use super::variant::{Found, MOST, Meant};
 
 /// How long the lists of a net are.
 #[derive(Clone, Copy, Debug, Default)]
@@ -77,6 +77,15 @@ impl<'n> Source<'n> {
         let mut at = 0;
         while at < self.own_places() {
             let it = self.declared(at);
+            let flag = at >= self.places.len() && at < self.places.len() + self.flags.len();
+            if flag && it.initial > 1 {
+                text.with("the flag ")
+                    .name(it.name)
+                    .with(" starts with ")
+                    .number(it.initial)
+                    .with("; it is `true` or `false`, what counts further is a counter")
+                    .stop();
+            }
             if it.bound == 0 || it.bound > MOST {
                 text.with("the bound ")
                     .number(it.bound)
@@ -86,17 +95,21 @@ impl<'n> Source<'n> {
                     .stop();
             }
             if it.initial > it.bound {
-                text.name(it.name)
+                let text = text
+                    .name(it.name)
                     .with(" starts with ")
                     .number(it.initial)
                     .with(", more than its bound ")
-                    .number(it.bound)
-                    .with("; write the bound, as `")
+                    .number(it.bound);
+                if it.initial > MOST {
+                    text.with("; a bound is at most 65,535").stop();
+                }
+                text.with("; declare a larger bound, as `")
                     .with(it.name)
                     .with(": ")
-                    .number(it.initial)
+                    .digits(it.initial)
                     .with(" of ")
-                    .number(it.initial)
+                    .digits(it.initial)
                     .with("`")
                     .stop();
             }
@@ -136,11 +149,20 @@ impl<'n> Source<'n> {
                         .stop();
                 }
                 if late >= u32::MAX as u64 {
-                    self.at_line(line).with("an interval ends before 4,294,967,295 ms (49 days)").stop();
+                    self.at_line(line)
+                        .with("its interval reaches to ")
+                        .number(late)
+                        .with(" ms, and at most 4,294,967,294 ms (49 days) can be counted")
+                        .stop();
                 }
             }
             if line.priority < i16::MIN as i64 || line.priority > i16::MAX as i64 {
-                self.at_line(line).with("a priority is from -32,768 to 32,767").stop();
+                self.at_line(line)
+                    .with("its priority ")
+                    .with(if line.priority < 0 { "-" } else { "" })
+                    .number(line.priority.unsigned_abs())
+                    .with(" is not from -32,768 to 32,767")
+                    .stop();
             }
             at += 1;
         }
@@ -155,18 +177,20 @@ impl<'n> Source<'n> {
             }
             let mut member = 0;
             while member < group.members.len() {
-                if !matches!(self.find(group.members[member]), Found::Place(_)) {
-                    self.no_place(text.with("in group ").name(group.name).with(": "), group.members[member]);
+                let name = group.members[member];
+                let text = text.with("in group ").name(group.name).with(": ");
+                match self.find(name) {
+                    Found::Place(_) => {}
+                    Found::Data(..) => {
+                        text.name(name).with(" is data, not a place; test it in guards").stop()
+                    }
+                    Found::Group(_) => text.name(name).with(" is a group itself; name its places").stop(),
+                    Found::Nothing => self.nothing(text, name, Meant::Place),
                 }
                 let mut other = 0;
                 while other < member {
                     if same(group.members[other], group.members[member]) {
-                        text.with("group ")
-                            .name(group.name)
-                            .with(" names ")
-                            .name(group.members[member])
-                            .with(" twice")
-                            .stop();
+                        text.name(name).with(" is named twice").stop();
                     }
                     other += 1;
                 }
@@ -188,13 +212,15 @@ impl<'n> Source<'n> {
         let mut at = 0;
         while at < self.lines.len() {
             let line = &self.lines[at];
-            let mut possible = 0;
+            let variants = self.variants(line);
+            let (mut possible, mut labels) = (0, 0);
             let mut number = 0;
-            while number < self.variants(line) {
+            while number < variants {
                 let variant = self.variant(line, number);
                 if variant.possible {
                     possible += 1;
                     size.emits += line.emits.len();
+                    labels += self.label(line, number, variants > 1, &mut [0; 512], 0);
                     let mut touched = 0;
                     while touched < variant.len() {
                         let (_, take, read, give) = variant.arcs(touched);
@@ -206,17 +232,11 @@ impl<'n> Source<'n> {
             }
             if possible == 0 {
                 self.at_line(line)
-                    .with("its guard can never hold, as its conditions contradict each other")
+                    .with("it can never fire: its conditions contradict each other, or its changes")
                     .stop();
             }
             size.transitions += possible;
-            let mut number = 0;
-            while number < self.variants(line) {
-                if self.variant(line, number).possible {
-                    size.text += self.label(line, number, possible > 1, &mut [0; 512], 0);
-                }
-                number += 1;
-            }
+            size.text += if possible > 1 { labels } else { line.name.len() };
             at += 1;
         }
         let mut at = 0;
@@ -339,11 +359,11 @@ impl<'n> Source<'n> {
     }
 
     /// A place, flag or counter that a law or an ignored event names.
-    const fn place(&self, text: Text, name: &str) -> PlaceId {
+    const fn place(&self, text: Text, name: &str, meant: Meant) -> PlaceId {
         match self.find(name) {
             Found::Place(place) | Found::Data(place, _) => PlaceId(place as u32),
             Found::Group(_) => text.name(name).with(" is a group; name a place").stop(),
-            Found::Nothing => self.no_place(text, name),
+            Found::Nothing => self.nothing(text, name, meant),
         }
     }
 }
@@ -370,20 +390,21 @@ const fn unique_signals(text: Text, what: &str, signals: &[Signal<'_>]) {
 }
 
 const fn signal(text: Text, what: &str, signals: &[Signal<'_>], name: &str) -> u32 {
-    let mut best = "";
-    let mut least = 3;
     let mut at = 0;
     while at < signals.len() {
-        let far = distance(signals[at].name, name);
         if same(signals[at].name, name) {
             return at as u32;
         }
-        if far < least {
-            (best, least) = (signals[at].name, far);
-        }
         at += 1;
     }
-    suggest(text.with("there is no ").with(what).with(" ").name(name), best)
+    let mut known = [""; 256];
+    let count = if signals.len() < known.len() { signals.len() } else { known.len() };
+    let mut at = 0;
+    while at < count {
+        known[at] = signals[at].name;
+        at += 1;
+    }
+    text.unknown(what, name, known.split_at(count).0)
 }
 
 /// Writes a text; where it ends.
@@ -417,15 +438,16 @@ impl<
         let source = self.source;
         let line = &source.lines[at];
         let emits = self.outputs(line);
-        let first = self.size.transitions;
+        let on = if line.on.is_empty() { None } else { Some(source.event(source.at_line(line), line.on)) };
+        let variants = source.variants(line);
         let mut several = 0;
         let mut number = 0;
-        while number < source.variants(line) {
+        while variants > 1 && number < variants {
             several += source.variant(line, number).possible as usize;
             number += 1;
         }
         let mut number = 0;
-        while number < source.variants(line) {
+        while number < variants {
             let variant = source.variant(line, number);
             if variant.possible {
                 let start = self.size.text;
@@ -438,11 +460,7 @@ impl<
                     name: Span { start, length },
                     doc: line.doc,
                     line: at as u32,
-                    on: if line.on.is_empty() {
-                        None
-                    } else {
-                        Some(source.event(source.at_line(line), line.on))
-                    },
+                    on,
                     take,
                     read,
                     give,
@@ -459,9 +477,6 @@ impl<
                 self.size.transitions += 1;
             }
             number += 1;
-        }
-        if self.size.transitions == first {
-            source.at_line(line).with("its guard can never hold").stop();
         }
     }
 
@@ -504,13 +519,14 @@ impl<
             if let Found::Group(group) = source.find(place) {
                 let mut member = 0;
                 while member < source.groups[group].members.len() {
-                    let place = source.place(text, source.groups[group].members[member]);
+                    let place = source.place(text, source.groups[group].members[member], Meant::Place);
                     self.ignored[self.size.ignored] = Ignored { event, place };
                     self.size.ignored += 1;
                     member += 1;
                 }
             } else {
-                self.ignored[self.size.ignored] = Ignored { event, place: source.place(text, place) };
+                self.ignored[self.size.ignored] =
+                    Ignored { event, place: source.place(text, place, Meant::AnyOrGroup) };
                 self.size.ignored += 1;
             }
             at += 1;
@@ -528,6 +544,18 @@ impl<
                     let mut term = 0;
                     while term < sum.len() {
                         let (name, weight) = sum[term];
+                        let mut other = 0;
+                        while other < term {
+                            if same(sum[other].0, name) {
+                                text.with("an invariant names ")
+                                    .name(name)
+                                    .with(" twice; write a weight, as `")
+                                    .with(name)
+                                    .with(" * 2`")
+                                    .stop();
+                            }
+                            other += 1;
+                        }
                         if weight == 0 || weight > MOST {
                             text.with("the weight ")
                                 .number(weight)
@@ -537,7 +565,7 @@ impl<
                                 .stop();
                         }
                         self.arcs[self.size.arcs] =
-                            Arc { place: source.place(text, name), weight: weight as u32 };
+                            Arc { place: source.place(text, name, Meant::Any), weight: weight as u32 };
                         self.size.arcs += 1;
                         term += 1;
                     }
@@ -640,15 +668,18 @@ impl<
                     }
                     Law::Invariant { sum: self.arcs(span), equals: equals as u32 }
                 }
-                Claim::NeverBoth(a, b) => {
-                    Law::NeverBoth(self.source.place(text, a), self.source.place(text, b))
-                }
-                Claim::Reachable(place) => Law::Reachable(self.source.place(text, place)),
-                Claim::AlwaysCan(place) => Law::AlwaysCan(self.source.place(text, place)),
+                Claim::NeverBoth(a, b) => Law::NeverBoth(
+                    self.source.place(text, a, Meant::Any),
+                    self.source.place(text, b, Meant::Any),
+                ),
+                Claim::Reachable(place) => Law::Reachable(self.source.place(text, place, Meant::Any)),
+                Claim::AlwaysCan(place) => Law::AlwaysCan(self.source.place(text, place, Meant::Any)),
                 Claim::HandlesAll => Law::HandlesAll,
                 Claim::Settles | Claim::LeftToChecker => Law::Settles,
                 Claim::DeadlockFree(end) if end.is_empty() => Law::DeadlockFree { end: None },
-                Claim::DeadlockFree(end) => Law::DeadlockFree { end: Some(self.source.place(text, end)) },
+                Claim::DeadlockFree(end) => {
+                    Law::DeadlockFree { end: Some(self.source.place(text, end, Meant::Any)) }
+                }
                 Claim::Deterministic => Law::Deterministic,
             };
             at += 1;

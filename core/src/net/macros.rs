@@ -166,20 +166,20 @@ macro_rules! net {
                     name: stringify!($line),
                     doc: net_source::doc(concat!($($line_doc,)* "")),
                     on: concat!($( stringify!($on), )? ""),
-                    guard: $crate::net_guard!([] $($($guard)*)?),
+                    guard: $crate::net_guard!(($name $line) [] $($($guard)*)?),
                     take: &[$( (stringify!($take), net_source::first(&[$( $take_weight, )? 1])), )+],
                     give: &[$( (stringify!($give), net_source::first(&[$( $give_weight, )? 1])), )+],
                     read: &[$( $( (stringify!($read), net_source::first(&[$( $read_weight, )? 1])), )+ )?],
                     changes: &[$( $( net_source::Change {
                         name: stringify!($change),
-                        by: $crate::net_change!($change_by $change_value),
+                        by: $crate::net_change!(($name $line $change) $change_by $change_value),
                     }, )+ )?],
                     emits: &[$( $( stringify!($emit), )+ )?],
-                    within: net_source::interval(&[$( ($earliest, Some($latest)), )? $( ($after, None), )?]),
+                    within: net_source::interval(stringify!($name), stringify!($line), &[$( ($earliest, Some($latest)), )? $( ($after, None), )?]),
                     priority: net_source::priority(&[$( $priority, )? 0]),
                 }, )*],
                 ignored: &[$( $( $( (stringify!($ignored), stringify!($ignored_in)), )+ )* )?],
-                laws: &[$( $( $crate::net_claim!($law $(( $($law_of)* ))?), )* )?],
+                laws: &[$( $( $crate::net_claim!(($name) $law $(( $($law_of)* ))?), )* )?],
             };
             const SIZE: net_lower::Size = SOURCE.size();
             const LOWERED: &net_lower::Lowered<
@@ -334,33 +334,34 @@ macro_rules! net {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! net_guard {
-    ([$($done:tt)*]) => { &[$($done)*] };
-    ([$($done:tt)*] & $($rest:tt)+) => { $crate::net_guard!([$($done)*] $($rest)+) };
-    ([$($done:tt)*] ! $name:ident $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name AtMost 0),] $($rest)*)
+    ($of:tt [$($done:tt)*]) => { &[$($done)*] };
+    ($of:tt [$($done:tt)*] & $($rest:tt)+) => { $crate::net_guard!($of [$($done)*] $($rest)+) };
+    ($of:tt [$($done:tt)*] ! $name:ident $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtMost 0),] $($rest)*)
     };
-    ([$($done:tt)*] $name:ident < $value:literal $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name Less $value),] $($rest)*)
+    ($of:tt [$($done:tt)*] $name:ident < $value:literal $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name Less $value),] $($rest)*)
     };
-    ([$($done:tt)*] $name:ident <= $value:literal $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name AtMost $value),] $($rest)*)
+    ($of:tt [$($done:tt)*] $name:ident <= $value:literal $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtMost $value),] $($rest)*)
     };
-    ([$($done:tt)*] $name:ident == $value:literal $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name Equal $value),] $($rest)*)
+    ($of:tt [$($done:tt)*] $name:ident == $value:literal $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name Equal $value),] $($rest)*)
     };
-    ([$($done:tt)*] $name:ident >= $value:literal $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name AtLeast $value),] $($rest)*)
+    ($of:tt [$($done:tt)*] $name:ident >= $value:literal $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtLeast $value),] $($rest)*)
     };
-    ([$($done:tt)*] $name:ident > $value:literal $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name More $value),] $($rest)*)
+    ($of:tt [$($done:tt)*] $name:ident > $value:literal $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name More $value),] $($rest)*)
     };
-    ([$($done:tt)*] $name:ident $($rest:tt)*) => {
-        $crate::net_guard!([$($done)* $crate::net_test!($name AtLeast 1),] $($rest)*)
+    ($of:tt [$($done:tt)*] $name:ident $($rest:tt)*) => {
+        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtLeast 1),] $($rest)*)
     };
-    ([$($done:tt)*] $($rest:tt)+) => {
+    (($net:ident $line:ident) [$($done:tt)*] $($rest:tt)+) => {
         compile_error!(concat!(
-            "a guard is a conjunction, as `[flag & !other & counter < 3]`; this is not part of one: ",
-            stringify!($($rest)+)
+            "net `", stringify!($net), "`, transition `", stringify!($line), "`: `", stringify!($($rest)+),
+            "` cannot be part of a guard, which is a conjunction as `[flag & !other & counter < 3]`; ",
+            "write an `or` as two transitions"
         ))
     };
 }
@@ -382,11 +383,14 @@ macro_rules! net_test {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! net_change {
-    (+= $value:literal) => { $crate::net::source::By::Add($value) };
-    (-= $value:literal) => { $crate::net::source::By::Subtract($value) };
-    (= $value:literal) => { $crate::net::source::By::Become($value as u64) };
-    ($($other:tt)*) => {
-        compile_error!(concat!("`do` takes `counter += 1`, `counter -= 1`, `counter = 0` or `flag = true`, not ", stringify!($($other)*)))
+    ($of:tt += $value:literal) => { $crate::net::source::By::Add($value) };
+    ($of:tt -= $value:literal) => { $crate::net::source::By::Subtract($value) };
+    ($of:tt = $value:literal) => { $crate::net::source::By::Become($value as u64) };
+    (($net:ident $line:ident $change:ident) $($other:tt)*) => {
+        compile_error!(concat!(
+            "net `", stringify!($net), "`, transition `", stringify!($line), "`: `", stringify!($change), " ",
+            stringify!($($other)*), "` is no change; there are `counter += 1`, `counter -= 1`, `counter = 0` and `flag = true`"
+        ))
     };
 }
 
@@ -394,26 +398,26 @@ macro_rules! net_change {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! net_claim {
-    (invariant ( $( $place:ident $(* $weight:literal)? )&+ = $sum:literal )) => {
+    ($of:tt invariant ( $( $place:ident $(* $weight:literal)? )&+ = $sum:literal )) => {
         $crate::net::source::Claim::Invariant(
             &[$( (stringify!($place), $crate::net::source::first(&[$( $weight, )? 1])), )+],
             $sum,
         )
     };
-    (never_both ( $a:ident, $b:ident )) => { $crate::net::source::Claim::NeverBoth(stringify!($a), stringify!($b)) };
-    (reachable ( $place:ident )) => { $crate::net::source::Claim::Reachable(stringify!($place)) };
-    (always_can ( $place:ident )) => { $crate::net::source::Claim::AlwaysCan(stringify!($place)) };
-    (handles ( all )) => { $crate::net::source::Claim::HandlesAll };
-    (settles) => { $crate::net::source::Claim::Settles };
-    (deadlock_free) => { $crate::net::source::Claim::DeadlockFree("") };
-    (deadlock_free_except ( $place:ident )) => { $crate::net::source::Claim::DeadlockFree(stringify!($place)) };
-    (deterministic) => { $crate::net::source::Claim::Deterministic };
-    (left_to_checker) => { $crate::net::source::Claim::LeftToChecker };
-    ($($other:tt)*) => {
+    ($of:tt never_both ( $a:ident, $b:ident )) => { $crate::net::source::Claim::NeverBoth(stringify!($a), stringify!($b)) };
+    ($of:tt reachable ( $place:ident )) => { $crate::net::source::Claim::Reachable(stringify!($place)) };
+    ($of:tt always_can ( $place:ident )) => { $crate::net::source::Claim::AlwaysCan(stringify!($place)) };
+    ($of:tt handles ( all )) => { $crate::net::source::Claim::HandlesAll };
+    ($of:tt settles) => { $crate::net::source::Claim::Settles };
+    ($of:tt deadlock_free) => { $crate::net::source::Claim::DeadlockFree("") };
+    ($of:tt deadlock_free_except ( $place:ident )) => { $crate::net::source::Claim::DeadlockFree(stringify!($place)) };
+    ($of:tt deterministic) => { $crate::net::source::Claim::Deterministic };
+    ($of:tt left_to_checker) => { $crate::net::source::Claim::LeftToChecker };
+    (($net:ident) $law:ident $(( $($other:tt)* ))?) => {
         compile_error!(concat!(
-            "there is no law `", stringify!($($other)*), "`: there are `invariant(A & B * 2 = 1)`, `never_both(A, B)`, ",
-            "`reachable(A)`, `always_can(A)`, `handles(all)`, `settles`, `deadlock_free`, `deadlock_free_except(A)`, ",
-            "`deterministic` and `left_to_checker`"
+            "net `", stringify!($net), "`: no law is written `", stringify!($law) $(, "(", stringify!($($other)*), ")")?,
+            "`; there are `invariant(A & B * 2 = 1)`, `never_both(A, B)`, `reachable(A)`, `always_can(A)`, `handles(all)`, ",
+            "`settles`, `deadlock_free`, `deadlock_free_except(A)`, `deterministic` and `left_to_checker`"
         ))
     };
 }

@@ -93,11 +93,12 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             if let Some(fired) = fired_clocks.get_mut(usize::from(entry.clock)) {
                 *fired = true;
             }
-            round.fired += 1;
+            round.fired = round.fired.saturating_add(1);
             let id = entry.id();
-            for (place, _) in events.iter().take(64).enumerate().filter(|(_, event)| self.is_on(entry, event))
-            {
-                round.ignored &= !(1 << place);
+            for (event, bit) in events.iter().zip((0..u64::BITS).map(|bit| 1_u64.wrapping_shl(bit))) {
+                if self.is_on(entry, event) {
+                    round.ignored &= !bit;
+                }
             }
             observer.on_fire(&Firing {
                 transition: self.program.transition(id),

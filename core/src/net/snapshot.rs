@@ -60,15 +60,13 @@ impl<const W: usize, const C: usize> Snapshot<W, C> {
     /// Writes it, little endian; `None` when there is not enough room.
     pub fn write<'b>(&self, bytes: &'b mut [u8]) -> Option<&'b [u8]> {
         let (written, _) = bytes.split_at_mut_checked(Self::BYTES)?;
-        let mut at = 0;
-        let words = core::iter::once(self.fingerprint).chain(self.marking).map(u64::to_le_bytes);
-        for word in words {
-            written.get_mut(at..at + 8)?.copy_from_slice(&word);
-            at += 8;
+        let (words, clocks) = written.split_at_mut_checked(8 + 8 * W)?;
+        let of_words = core::iter::once(self.fingerprint).chain(self.marking);
+        for (bytes, word) in words.chunks_exact_mut(8).zip(of_words) {
+            *bytes.first_chunk_mut()? = word.to_le_bytes();
         }
-        for clock in self.clocks {
-            written.get_mut(at..at + 4)?.copy_from_slice(&clock.to_le_bytes());
-            at += 4;
+        for (bytes, clock) in clocks.chunks_exact_mut(4).zip(self.clocks) {
+            *bytes.first_chunk_mut()? = clock.to_le_bytes();
         }
         Some(written)
     }
@@ -111,7 +109,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let mut fields = [0_u64; W];
         for field in code.fields {
             if let Some(word) = fields.get_mut(usize::from(field.word)) {
-                *word |= ((1 << field.width) - 1) << field.shift;
+                *word |= field.mask().wrapping_shl(u32::from(field.shift));
             }
         }
         let stray = fields.iter().zip(&from.marking).any(|(field, word)| word & !field != 0);
@@ -122,7 +120,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             return Err(RestoreError::Marking);
         }
         let tokens = |place| u64::from(code.tokens(&from.marking, place));
-        let broken = player.program.laws().iter().position(|law| match *law {
+        let is_broken = |law: &Law<'_>| match *law {
             Law::Invariant { sum, equals } => {
                 sum.iter()
                     .map(|arc| u64::from(arc.weight).saturating_mul(tokens(arc.place)))
@@ -131,8 +129,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             }
             Law::NeverBoth(a, b) => tokens(a) > 0 && tokens(b) > 0,
             _ => false,
-        });
-        if let Some(law) = broken {
+        };
+        if let Some((law, _)) = player.program.laws().iter().enumerate().find(|(_, law)| is_broken(law)) {
             return Err(RestoreError::Law(law));
         }
         for (clock, &elapsed) in code.clocks.iter().zip(&from.clocks) {
@@ -153,7 +151,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         self.program.places().iter().enumerate().all(|(at, place)| match place.role {
             Role::Complement(of) => {
                 let complement = code.tokens(&self.marking, PlaceId(at as u32));
-                code.tokens(&self.marking, of) + complement == place.bound
+                code.tokens(&self.marking, of).checked_add(complement) == Some(place.bound)
             }
             _ => true,
         })

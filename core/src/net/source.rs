@@ -1,6 +1,7 @@
 //! What `net!` read, before names are looked up: the left end of the walk from text to [`Net`](super::Net).
 
 use super::data::Signal;
+use super::text::Text;
 
 /// A net as it was written.
 #[derive(Clone, Copy, Debug)]
@@ -173,9 +174,19 @@ pub const fn first(numbers: &[u64]) -> u64 {
     numbers[0]
 }
 
-/// The interval that was written.
-pub const fn interval(written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
-    if written.is_empty() { None } else { Some(written[0]) }
+/// The interval that was written for a transition of a net.
+pub const fn interval(net: &str, line: &str, written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
+    match written {
+        [] => None,
+        [interval] => Some(*interval),
+        _ => Text::new()
+            .with("net ")
+            .name(net)
+            .with(", transition ")
+            .name(line)
+            .with(": it has two intervals; say either `within` or `after`")
+            .stop(),
+    }
 }
 
 /// The priority that was written, or what is last in the list when none was.

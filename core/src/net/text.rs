@@ -3,6 +3,9 @@
 /// The longest text; what goes beyond is cut off with "...".
 const LIMIT: usize = 1_500;
 
+/// The most names that are listed when one is not found.
+const LISTED: usize = 12;
+
 /// A text that grows, also in a `const`.
 #[derive(Clone, Copy)]
 pub(crate) struct Text {
@@ -32,8 +35,24 @@ impl Text {
         self.with("`").with(name).with("`")
     }
 
-    /// The same with a number at its end.
+    /// The same with a number at its end, as 65,535.
     pub(crate) const fn number(self, number: u64) -> Self {
+        if number < 1_000 {
+            return self.digits(number);
+        }
+        let rest = number % 1_000;
+        let zeros = if rest < 10 {
+            ",00"
+        } else if rest < 100 {
+            ",0"
+        } else {
+            ","
+        };
+        self.number(number / 1_000).with(zeros).digits(rest)
+    }
+
+    /// The same with a number at its end as it is written in code, as 65535.
+    pub(crate) const fn digits(self, number: u64) -> Self {
         let mut digits = [0_u8; 20];
         let mut rest = number;
         let mut at = digits.len();
@@ -52,6 +71,30 @@ impl Text {
     pub(crate) const fn stop(self) -> ! {
         let cut = if self.length == LIMIT { self.cut() } else { self };
         panic!("{}", as_str(cut.bytes.split_at(cut.length).0))
+    }
+
+    /// Ends the compilation: this name is not among those that are known.
+    pub(crate) const fn unknown(self, what: &str, name: &str, known: &[&str]) -> ! {
+        let text = self.with("there is no ").with(what).with(" ").name(name);
+        let (mut best, mut least) = ("", 3);
+        let mut at = 0;
+        while at < known.len() {
+            let far = distance(known[at], name);
+            if far < least && 2 * far <= name.len() {
+                (best, least) = (known[at], far);
+            }
+            at += 1;
+        }
+        if !best.is_empty() {
+            text.with("; did you mean ").name(best).with("?").stop()
+        }
+        let mut text = text.with(if known.is_empty() { "; none is declared" } else { "; there are: " });
+        let mut at = 0;
+        while at < known.len() && at < LISTED {
+            text = text.with(if at > 0 { ", " } else { "" }).name(known[at]);
+            at += 1;
+        }
+        if known.len() > LISTED { text.with(", ...").stop() } else { text.stop() }
     }
 
     /// Ends with "...", at a border of characters.
@@ -75,17 +118,15 @@ pub(crate) const fn as_str(bytes: &[u8]) -> &str {
 /// Whether two names are the same.
 pub(crate) const fn same(a: &str, b: &str) -> bool {
     let (a, b) = (a.as_bytes(), b.as_bytes());
-    if a.len() != b.len() {
+    let length = a.len();
+    if length != b.len() {
         return false;
     }
     let mut at = 0;
-    while at < a.len() {
-        if a[at] != b[at] {
-            return false;
-        }
+    while at < length && a[at] == b[at] {
         at += 1;
     }
-    true
+    at == length
 }
 
 /// How many letters must be inserted, removed or exchanged to get from one name to the other (Levenshtein), for

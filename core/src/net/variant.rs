@@ -3,10 +3,12 @@
 
 use super::data::PlaceId;
 use super::source::{By, Declared, Group, Line, Relation, Source};
-use super::text::{Text, distance, same};
+use super::text::{Text, same};
 
 /// The most places that one transition may touch.
 const TOUCHED: usize = 32;
+/// The most transitions that one line may stand for.
+const VARIANTS: usize = 4_096;
 /// The most tokens of a place, and the largest weight.
 pub(super) const MOST: u64 = 65_535;
 
@@ -44,6 +46,24 @@ pub(super) enum Found {
     Nothing,
 }
 
+/// What a name should be.
+#[derive(Clone, Copy)]
+pub(super) enum Meant {
+    /// A place.
+    Place,
+    /// A place or a group.
+    PlaceOrGroup,
+    /// A flag, counter or shared place.
+    Data,
+    /// Any of these but a group.
+    Any,
+    /// Any of these.
+    AnyOrGroup,
+}
+
+/// The most names among which a misspelt one is looked for.
+const SEARCHED: usize = 256;
+
 impl Source<'_> {
     /// Places without complements: places, flags, counters and shared ones, in this order.
     pub(super) const fn own_places(&self) -> usize {
@@ -70,16 +90,22 @@ impl Source<'_> {
     }
 
     pub(super) const fn find(&self, name: &str) -> Found {
-        let mut at = 0;
-        while at < self.own_places() {
-            if same(self.declared(at).name, name) {
-                return if at < self.places.len() {
-                    Found::Place(at)
-                } else {
-                    Found::Data(at, at - self.places.len())
-                };
+        let places = self.places.len();
+        let mut before = 0;
+        let lists = [self.places, self.flags, self.counters, self.shared];
+        let mut list = 0;
+        while list < lists.len() {
+            let length = lists[list].len();
+            let mut at = 0;
+            while at < length {
+                if same(lists[list][at].name, name) {
+                    let place = before + at;
+                    return if list == 0 { Found::Place(place) } else { Found::Data(place, place - places) };
+                }
+                at += 1;
             }
-            at += 1;
+            before += length;
+            list += 1;
         }
         let mut at = 0;
         while at < self.groups.len() {
@@ -101,20 +127,30 @@ impl Source<'_> {
         Text::new().with("net ").name(self.name).with(", transition ").name(line.name).with(": ")
     }
 
-    /// Ends the compilation: this place is not there.
-    pub(super) const fn no_place(&self, text: Text, name: &str) -> ! {
-        let mut best: &str = "";
-        let mut least = 3;
+    /// Ends the compilation: this name is not there.
+    pub(super) const fn nothing(&self, text: Text, name: &str, meant: Meant) -> ! {
+        let (places, own) = (self.places.len(), self.own_places());
+        let (what, mut from, to, groups) = match meant {
+            Meant::Place => ("place", 0, places, false),
+            Meant::PlaceOrGroup => ("place or group", 0, places, true),
+            Meant::Data => ("flag, counter or shared place", places, own, false),
+            Meant::Any => ("place, flag or counter", 0, own, false),
+            Meant::AnyOrGroup => ("place, flag, counter or group", 0, own, true),
+        };
+        let mut known = [""; SEARCHED];
+        let mut count = 0;
+        while from < to && count < SEARCHED {
+            known[count] = self.declared(from).name;
+            count += 1;
+            from += 1;
+        }
         let mut at = 0;
-        while at < self.own_places() {
-            let known = self.declared(at).name;
-            let far = distance(name, known);
-            if far < least {
-                (best, least) = (known, far);
-            }
+        while groups && at < self.groups.len() && count < SEARCHED {
+            known[count] = self.groups[at].name;
+            count += 1;
             at += 1;
         }
-        suggest(text.with("there is no place ").name(name), best)
+        text.unknown(what, name, known.split_at(count).0)
     }
 
     /// The group that a line takes from or reads; only one can.
@@ -147,11 +183,17 @@ impl Source<'_> {
             let change = line.changes[at];
             if let (By::Become(_), Found::Data(place, _)) = (change.by, self.find(change.name)) {
                 variants *= self.declared(place).bound as usize + 1;
+                if variants > VARIANTS {
+                    self.at_line(line)
+                        .with("it stands for more than ")
+                        .number(VARIANTS as u64)
+                        .with(" transitions: one for each old value of ")
+                        .name(change.name)
+                        .with("; set what has fewer values, or count with `+= 1` and `-= 1`")
+                        .stop();
+                }
             }
             at += 1;
-        }
-        if variants > 4_096 {
-            self.at_line(line).with("it stands for more than 4,096 transitions").stop();
         }
         variants
     }
@@ -174,14 +216,15 @@ impl Source<'_> {
 
         let mut at = 0;
         while at < line.take.len() {
-            if let Some((place, weight)) = self.arc(line, line.take[at], member) {
+            if let Some((place, weight)) = self.arc(line, line.take[at], member, Meant::PlaceOrGroup) {
                 let touch = variant.touch(self, line, place);
                 if touch.take > 0 {
                     self.at_line(line)
                         .with("it takes ")
                         .name(line.take[at].0)
-                        .with(" twice; write a weight, as ")
-                        .name("A * 2")
+                        .with(" twice; write a weight, as `")
+                        .with(self.declared(place.0 as usize).name)
+                        .with(" * 2`")
                         .stop();
                 }
                 touch.take = weight;
@@ -190,21 +233,22 @@ impl Source<'_> {
         }
         let mut at = 0;
         while at < line.read.len() {
-            if let Some((place, weight)) = self.arc(line, line.read[at], member) {
+            if let Some((place, weight)) = self.arc(line, line.read[at], member, Meant::PlaceOrGroup) {
                 variant.needs(self, line, place, weight);
             }
             at += 1;
         }
         let mut at = 0;
         while at < line.give.len() {
-            if let Some((place, weight)) = self.arc(line, line.give[at], None) {
+            if let Some((place, weight)) = self.arc(line, line.give[at], None, Meant::Place) {
                 let touch = variant.touch(self, line, place);
                 if touch.give > 0 {
                     self.at_line(line)
                         .with("it gives ")
                         .name(line.give[at].0)
-                        .with(" twice; write a weight, as ")
-                        .name("A * 2")
+                        .with(" twice; write a weight, as `")
+                        .with(line.give[at].0)
+                        .with(" * 2`")
                         .stop();
                 }
                 touch.give = weight;
@@ -231,6 +275,7 @@ impl Source<'_> {
         line: &Line<'_>,
         written: (&str, u64),
         member: Option<&str>,
+        meant: Meant,
     ) -> Option<(PlaceId, u64)> {
         let (name, weight) = written;
         if same(name, "_") {
@@ -249,7 +294,11 @@ impl Source<'_> {
             (Found::Place(place), _) => place,
             (Found::Group(_), Some(member)) => match self.find(member) {
                 Found::Place(place) => place,
-                _ => self.no_place(self.at_line(line).with("in group ").name(name).with(": "), member),
+                _ => self.nothing(
+                    self.at_line(line).with("in group ").name(name).with(": "),
+                    member,
+                    Meant::Place,
+                ),
             },
             (Found::Group(_), None) => self
                 .at_line(line)
@@ -265,7 +314,7 @@ impl Source<'_> {
                 .with(name)
                 .with("]`, and change it with `do`")
                 .stop(),
-            (Found::Nothing, _) => self.no_place(self.at_line(line), name),
+            (Found::Nothing, _) => self.nothing(self.at_line(line), name, meant),
         };
         let bound = self.declared(place).bound;
         if weight > bound {
@@ -276,9 +325,14 @@ impl Source<'_> {
                 .name(name)
                 .with(" is more than the ")
                 .number(bound)
-                .with(" token")
-                .with(if bound == 1 { "" } else { "s" })
-                .with(" that it is declared for")
+                .with(if bound == 1 { " token" } else { " tokens" })
+                .with(" that it is declared for; declare a larger bound, as `")
+                .with(name)
+                .with(": ")
+                .digits(self.declared(place).initial)
+                .with(" of ")
+                .digits(weight)
+                .with("`")
                 .stop();
         }
         Some((PlaceId(place as u32), weight))
@@ -293,7 +347,10 @@ impl Variant {
             at += 1;
         }
         if at == TOUCHED {
-            source.at_line(line).with("it touches more than 32 places").stop();
+            source
+                .at_line(line)
+                .with("it touches more than 32 places; split it into several transitions")
+                .stop();
         }
         if at == self.length {
             self.touched[at] = Touch { place, take: 0, give: 0, need: 0 };
@@ -323,7 +380,9 @@ impl Variant {
                 .with(test.name)
                 .with("`")
                 .stop(),
-            Found::Nothing => source.no_place(source.at_line(line).with("in its guard: "), test.name),
+            Found::Nothing => {
+                source.nothing(source.at_line(line).with("in its guard: "), test.name, Meant::Any)
+            }
         };
         let bound = source.declared(place).bound;
         // The value is at least `low` and at most `high`.
@@ -336,8 +395,13 @@ impl Variant {
             Relation::More => (test.value.saturating_add(1), bound),
         };
         if low > bound {
-            self.possible = false;
-            return;
+            source
+                .at_line(line)
+                .with("its guard can never hold: ")
+                .name(test.name)
+                .with(" is at most ")
+                .number(bound)
+                .stop();
         }
         if low > 0 {
             self.needs(source, line, PlaceId(place as u32), low);
@@ -346,7 +410,8 @@ impl Variant {
             match complement {
                 Some(complement) => self.needs(source, line, complement, bound - high),
                 None => source.at_line(line).with("its guard asks that the place ").name(test.name)
-                    .with(" holds few tokens, which a net cannot see: only flags, counters and shared places can be tested for absence")
+                    .with(if high == 0 { " is empty" } else { " holds few tokens" })
+                    .with(", and a transition can only ask for tokens that are there: test a flag or a counter, or read a place that is marked instead")
                     .stop(),
             }
         }
@@ -363,8 +428,22 @@ impl Variant {
                 .name(change.name)
                 .with(" is a place: move tokens with `=>`")
                 .stop(),
-            Found::Nothing => source.no_place(source.at_line(line).with("in its `do`: "), change.name),
+            Found::Nothing => {
+                source.nothing(source.at_line(line).with("in its `do`: "), change.name, Meant::Data)
+            }
         };
+        let mut other = 0;
+        while other < at {
+            if same(line.changes[other].name, change.name) {
+                source
+                    .at_line(line)
+                    .with("it changes ")
+                    .name(change.name)
+                    .with(" twice; write one change")
+                    .stop();
+            }
+            other += 1;
+        }
         let bound = source.declared(place).bound;
         let place = PlaceId(place as u32);
         let (up, down, rest) = match change.by {
@@ -453,9 +532,4 @@ impl Variant {
             (touch.place, touch.take, 0, touch.give)
         }
     }
-}
-
-/// Ends the compilation with a name that may have been meant.
-pub(super) const fn suggest(text: Text, best: &str) -> ! {
-    if best.is_empty() { text.stop() } else { text.with("; did you mean ").name(best).with("?").stop() }
 }

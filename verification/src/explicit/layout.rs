@@ -1,0 +1,183 @@
+//! How a marking is packed into machine words.
+//!
+//! Every place is a field of a word. Where the bound of a place is proved the field is as wide as the bound; elsewhere it
+//! has a guess, and one bit more that tells when the guess was too small. The map from markings to words is linear, so
+//! firing a transition is one addition to each word, whatever it takes and gives. Places that others imply are left out
+//! where that saves a word.
+
+use super::implied::{Implied, implied};
+use crate::bounds::bounds;
+use crate::pt::Pt;
+
+/// Always set in the first word: no marking is all zeros.
+pub(super) const PRESENT: u64 = 1 << 63;
+
+/// How many words a marking may have: those for which the search is compiled.
+pub(super) const SIZES: [usize; 12] = [1, 2, 3, 4, 5, 6, 8, 12, 16, 32, 64, 128];
+
+/// How wide the field of a place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Width {
+    /// Bits for tokens.
+    pub(super) bits: u32,
+    /// Whether it is proved that they are enough.
+    pub(super) proved: bool,
+}
+
+impl Width {
+    /// For each place what is proved, or a first guess.
+    pub(super) fn of(pt: &Pt) -> Vec<Self> {
+        let width = |tokens: u32| (u32::BITS - tokens.leading_zeros()).max(1);
+        let first = |(place, bound): (usize, Option<u32>)| match bound {
+            Some(bound) => Self { bits: width(bound), proved: true },
+            None => {
+                // One firing beyond the guess must not pass the additional bit.
+                let given = pt.changers.of(place as u32).iter().map(|it| it.1).max().unwrap_or(0).max(0);
+                Self { bits: width(pt.initial[place].max(given as u32)), proved: false }
+            }
+        };
+        bounds(pt).into_iter().enumerate().map(first).collect()
+    }
+
+    fn field(self) -> u32 {
+        self.bits + u32::from(!self.proved)
+    }
+}
+
+/// Where a place lies.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Field {
+    /// The word. Those after the stored ones are computed.
+    pub(super) word: usize,
+    /// The lowest bit.
+    pub(super) shift: u32,
+    /// Bits.
+    pub(super) width: u32,
+}
+
+impl Field {
+    pub(super) fn tokens(self, word: u64) -> u64 {
+        (word >> self.shift) & ((1 << self.width) - 1)
+    }
+}
+
+/// Where the places of a net lie.
+#[derive(Debug)]
+pub(super) struct Layout {
+    /// For each place where it lies.
+    pub(super) fields: Vec<Field>,
+    /// How many words are stored.
+    pub(super) stored: usize,
+    /// How many words are computed from them: those of implied places.
+    pub(super) computed: usize,
+    /// Places in computed words.
+    pub(super) implied: Vec<Implied>,
+    /// For each stored word the bits that tell that a guess was too small.
+    pub(super) guards: Vec<u64>,
+    /// The initial marking.
+    pub(super) initial: Vec<u64>,
+}
+
+impl Layout {
+    /// Packs places of these widths; `None` when a marking needs more words than the largest of [`SIZES`].
+    pub(super) fn new(pt: &Pt, widths: &[Width]) -> Option<Self> {
+        let implied = left_out(pt, widths);
+        let mut is_stored = vec![true; widths.len()];
+        for it in &implied {
+            is_stored[it.place as usize] = false;
+        }
+        let mut words = Words::new(63);
+        let mut fields = vec![Field { word: 0, shift: 0, width: 0 }; widths.len()];
+        for (at, width) in widths.iter().enumerate().filter(|it| is_stored[it.0]) {
+            fields[at] = words.add(width.field());
+        }
+        let used = words.used.len();
+        let stored = SIZES.into_iter().find(|&it| it >= used)?;
+        let mut words = Words::new(u64::BITS);
+        for it in &implied {
+            let field = words.add(widths[it.place as usize].field());
+            fields[it.place as usize] = Field { word: stored + field.word, ..field };
+        }
+        let computed = if implied.is_empty() { 0 } else { words.used.len() };
+        let (mut guards, mut initial) = (vec![0; stored], vec![0; stored]);
+        initial[0] = PRESENT;
+        for (at, field) in fields.iter().enumerate().filter(|it| it.1.word < stored) {
+            initial[field.word] |= u64::from(pt.initial[at]) << field.shift;
+            if !widths[at].proved {
+                guards[field.word] |= 1 << (field.shift + widths[at].bits);
+            }
+        }
+        Some(Self { fields, stored, computed, implied, guards, initial })
+    }
+
+    /// What firing a transition adds to the stored words.
+    pub(super) fn delta(&self, pt: &Pt, transition: u32) -> Vec<u64> {
+        let mut words = vec![0_u64; self.stored];
+        for &(place, by) in pt.effects.of(transition) {
+            let field = self.fields[place as usize];
+            if field.word < self.stored {
+                words[field.word] = words[field.word].wrapping_add((by as u64) << field.shift);
+            }
+        }
+        words
+    }
+}
+
+/// Fields put into words one after the other, each where there is room first.
+struct Words {
+    /// How many bits of the first word may be used.
+    first: u32,
+    used: Vec<u32>,
+}
+
+impl Words {
+    fn new(first: u32) -> Self {
+        Self { first, used: vec![0] }
+    }
+
+    fn add(&mut self, width: u32) -> Field {
+        let first = self.first;
+        let room =
+            |&(word, used): &(usize, &u32)| used + width <= if word == 0 { first } else { u64::BITS };
+        let word = self.used.iter().enumerate().find(room).map_or(self.used.len(), |it| it.0);
+        if word == self.used.len() {
+            self.used.push(0);
+        }
+        let shift = self.used[word];
+        self.used[word] += width;
+        Field { word, shift, width }
+    }
+}
+
+/// Implied places, if leaving them out saves a word, and no more than are needed for that.
+fn left_out(pt: &Pt, widths: &[Width]) -> Vec<Implied> {
+    let words = |without: &[Implied]| {
+        let mut kept = vec![true; widths.len()];
+        without.iter().for_each(|it| kept[it.place as usize] = false);
+        let mut words = Words::new(63);
+        for (width, _) in widths.iter().zip(kept).filter(|it| it.1) {
+            words.add(width.field());
+        }
+        words.used.len()
+    };
+    let all = words(&[]);
+    if all == 1 {
+        return Vec::new();
+    }
+    let mut candidates: Vec<u32> =
+        (0..widths.len() as u32).filter(|&place| widths[place as usize].proved).collect();
+    // Places that nothing needs cost least to compute, wide ones save most.
+    candidates.sort_by_key(|&it| (!pt.consumers.of(it).is_empty(), u32::MAX - widths[it as usize].bits));
+    let mut places = implied(pt, &candidates);
+    let least = words(&places);
+    if least == all {
+        return Vec::new();
+    }
+    let (mut few, mut many) = (0, places.len());
+    while few < many {
+        let half = usize::midpoint(few, many);
+        if words(&places[..half]) == least { many = half } else { few = half + 1 }
+    }
+    places.truncate(many);
+    places
+}
