@@ -145,8 +145,9 @@ impl<const A: usize> Monitor<A> {
         let mut margins = [0; A];
         for axis in 0..A {
             let rest = checked(axis, rest[axis])?;
-            margins[axis] =
-                self.limits[axis].cast_signed() - self.used[axis].cast_signed() - rest.cast_signed();
+            // Exact: none of the three is beyond `MAX_AMOUNT`.
+            let left = self.limits[axis].cast_signed().saturating_sub(self.used[axis].cast_signed());
+            margins[axis] = left.saturating_sub(rest.cast_signed());
         }
         Ok(margins)
     }
@@ -175,7 +176,7 @@ impl<const A: usize> Monitor<A> {
             return Ok(Request::Down(Cause::Hardware));
         }
         let margins = self.margins(rest)?;
-        if let Some(axis) = self.order.into_iter().find(|&axis| margins[axis] < 0) {
+        if let Some(axis) = self.order.into_iter().find(|&axis| margins.get(axis).is_some_and(|&it| it < 0)) {
             return Ok(Request::Down(Cause::Margin { axis }));
         }
         let Some(upward) = self.upward else { return Ok(Request::Keep) };
@@ -205,7 +206,7 @@ pub fn worst<const A: usize>(activities: &[&[Candidate<A>]]) -> [u64; A] {
         activities
             .iter()
             .map(|candidates| candidates.iter().map(|c| u64::from(c.cost[axis])).max().unwrap_or(0))
-            .sum()
+            .fold(0, u64::saturating_add)
     })
 }
 

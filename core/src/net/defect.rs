@@ -17,7 +17,7 @@ pub enum Defect {
         /// The position of the transition.
         transition: usize,
     },
-    /// A transition's interval ends before it begins.
+    /// A transition's interval ends before it begins, or only after 4,294,967,294 ms.
     Interval {
         /// The position of the transition.
         transition: usize,
@@ -65,8 +65,9 @@ impl Net<'_> {
                 && it.on.is_none_or(|event| (event.0 as usize) < self.events.len())
                 && it.emits.iter().all(|output| (output.0 as usize) < self.outputs.len());
             let sound = once([it.take, it.read]) && once([it.give, &[]]);
-            let timed =
-                it.within.is_none_or(|within| within.latest.is_none_or(|latest| within.earliest <= latest));
+            let timed = it.within.is_none_or(|within| {
+                within.latest.is_none_or(|latest| (within.earliest..u32::MAX).contains(&latest))
+            });
             match (known, sound, timed) {
                 (false, ..) => Some(Defect::UnknownId { transition }),
                 (_, false, _) => Some(Defect::Arcs { transition }),

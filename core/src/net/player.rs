@@ -243,7 +243,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             && let Some(take) = code.takes.get(usize::from(entry.transition))
         {
             let between = minus(&self.marking, take);
-            restart(&mut self.clocks, &code, &between, &after, |clock| clock == entry.clock);
+            restart(&mut self.clocks, &code, &between, |clock| clock == entry.clock);
         }
         self.marking = after;
         let id = entry.id();
@@ -375,11 +375,11 @@ pub(super) fn restart<const W: usize, const C: usize>(
     clocks: &mut [u32; C],
     code: &Code<'_, W>,
     between: &[u64; W],
-    after: &[u64; W],
     fired: impl Fn(u16) -> bool,
 ) {
     for (number, (elapsed, clock)) in (0_u16..).zip(clocks.iter_mut().zip(code.clocks)) {
-        let kept = enables(code, clock, after) && enables(code, clock, between) && !fired(number);
+        // What is enabled in between is enabled after, as firing only adds to it.
+        let kept = enables(code, clock, between) && !fired(number);
         if !kept {
             *elapsed = 0;
         }

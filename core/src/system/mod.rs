@@ -6,7 +6,9 @@
 mod arrays;
 pub mod code;
 mod data;
+mod happening;
 mod macros;
+mod pack;
 mod player;
 #[allow(clippy::large_types_passed_by_value, reason = "texts live while compiling")]
 pub mod source;
@@ -14,4 +16,5 @@ pub mod source;
 #[cfg(feature = "alloc")]
 pub use arrays::Packed;
 pub use data::{Binding, Clear, Component, DEPTH, Delivery, Link, Of, System, SystemDefect, Target};
-pub use player::{CATCH_UP, Happening, Offered, Player, Program, SETTLE, Turned, Witness, event};
+pub use happening::{Happening, Offered, Turned, Witness};
+pub use player::{CATCH_UP, Player, Program, SETTLE, event};
