@@ -7,7 +7,9 @@
 //! this from a `panorama-mission/1` file and reports every error at once; what it returns is complete, so that
 //! nothing after it can fail on the mission's account.
 //!
-//! Without the feature `std` only [`tables`] and [`patrol_tables`] remain, without heap, for firmware.
+//! The other half of the crate are [`nets`]: ready supervisors, checked while compiling, and families of nets.
+//!
+//! Without the feature `std` only [`tables`], [`patrol_tables`] and the ready [`nets`] remain, without heap, for firmware.
 //!
 //! ```
 //! # #[cfg(feature = "std")] {

@@ -2,6 +2,7 @@
 
 use super::families::{self, Family, OutOfRange};
 use super::{ace, charger, crossing, door, watchdog};
+use crate::reader::quoted;
 use core::fmt;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Known, Net};
@@ -79,7 +80,7 @@ pub enum FindError {
     NumberMissing(&'static str),
     /// It is one net, and takes no number.
     NoFamily(&'static str),
-    /// What stands after the colon is no number that ids can count.
+    /// What stands after the colon is no number of 32 bits.
     NotANumber {
         /// The family.
         family: &'static str,
@@ -94,10 +95,10 @@ impl fmt::Display for FindError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Unknown { name, nearest: Some(nearest) } => {
-                write!(f, "there is no net `{}`; did you mean `{nearest}`?", name.escape_debug())
+                write!(f, "there is no net {}; did you mean `{nearest}`?", quoted(name))
             }
             Self::Unknown { name, nearest: None } => {
-                write!(f, "there is no net `{}`; there are", name.escape_debug())?;
+                write!(f, "there is no net {}; there are", quoted(name))?;
                 all().iter().enumerate().try_for_each(|(at, it)| {
                     let number = if matches!(it.model, Model::Family(_)) { ":N" } else { "" };
                     write!(f, "{} {}{number}", if at > 0 { "," } else { "" }, it.name)
@@ -108,8 +109,12 @@ impl fmt::Display for FindError {
             }
             Self::NoFamily(name) => write!(f, "`{name}` is one net and takes no number: say `{name}`"),
             Self::NotANumber { family, found } => {
-                let found = found.escape_debug();
-                write!(f, "`{found}` is no number: say which net of the family it is, as `{family}:5`")
+                let found = quoted(found);
+                write!(
+                    f,
+                    "{found} is no number from 0 to {}: say which net of the family, as `{family}:5`",
+                    u32::MAX
+                )
             }
             Self::OutOfRange(error) => error.fmt(f),
         }
