@@ -91,7 +91,7 @@ pub struct Code<'c, const W: usize> {
     pub takes: &'c [[u64; W]],
     /// Positions in `entries` by priority, then by position in the net.
     pub order: &'c [u16],
-    /// Transitions with an interval.
+    /// Transitions with an interval, by priority, then by position in the net.
     pub clocks: &'c [Clock<W>],
     /// Where each place lies.
     pub fields: &'c [Field],
@@ -353,14 +353,20 @@ pub const fn pack<const W: usize>(net: &Net<'_>, lists: &mut Lists<'_, W>) -> Wo
             (lists.order[place], lists.order[place - 1]) = (lists.order[place - 1], lists.order[place]);
             place -= 1;
         }
+        at += 1;
+    }
+    at = 0;
+    while at < entry {
+        let timed = lists.order[at] as usize;
+        let transition = &net.transitions[lists.entries[timed].transition as usize];
         if let Some(within) = transition.within {
             let latest = match within.latest {
                 Some(latest) => latest,
                 None => u32::MAX,
             };
             let event = transition.on.is_some();
-            lists.clocks[clock] = Clock { entry: at as u16, event, earliest: within.earliest, latest };
-            lists.entries[at].clock = clock as u16;
+            lists.clocks[clock] = Clock { entry: timed as u16, event, earliest: within.earliest, latest };
+            lists.entries[timed].clock = clock as u16;
             clock += 1;
         }
         at += 1;
@@ -618,7 +624,7 @@ impl<'c, const W: usize> Code<'c, W> {
         // Most have up to sixteen states: half a word, for which small processors need half the instructions.
         let bit = if self.control == 0 {
             0
-        } else if self.control <= u64::from(u32::MAX) {
+        } else if u32::try_from(self.control).is_ok() {
             (marked as u32).trailing_zeros()
         } else {
             marked.trailing_zeros()

@@ -76,7 +76,7 @@ impl Moves {
                 .name(net.name)
                 .with(" has more than ")
                 .number(FIRINGS as u64)
-                .with(" transitions and places; make it at run time, with `net::owned`")
+                .with(" transitions and places, too many to explore while compiling: say `left_to_checker;` in its laws")
                 .stop();
         }
         let mut at = 0;

@@ -56,7 +56,8 @@ pub const fn check<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, left_to_ch
         } else {
             text.number(FIRINGS as u64).with(" firings between its markings")
         };
-        text.with(", too many to explore while compiling: say `left_to_checker;` in its laws, and check it with the model checker")
+        text.with(", too many to explore while compiling: say `left_to_checker;` in its laws, ")
+            .with("and check it with the model checker")
             .stop();
     }
     let settle = check.settles();

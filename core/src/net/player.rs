@@ -243,7 +243,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             && let Some(take) = code.takes.get(usize::from(entry.transition))
         {
             let between = minus(&self.marking, take);
-            restart(&mut self.clocks, &code, &between, |clock| clock == entry.clock);
+            restart(&mut self.clocks, &self.program, &between, |clock| clock == entry.clock);
         }
         self.marking = after;
         let id = entry.id();
@@ -275,19 +275,16 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     /// The transition without event that is due first, and how long it has to wait.
     fn due(&self) -> Option<(u32, Entry<W>)> {
         let code = self.program.code();
-        let mut first: Option<(u32, Entry<W>)> = None;
-        for &at in code.order {
-            let Some(entry) = code.entries.get(usize::from(at)) else { continue };
-            let number = usize::from(entry.clock);
-            let (Some(clock), Some(&elapsed)) = (code.clocks.get(number), self.clocks.get(number)) else {
-                continue;
-            };
+        let mut first: Option<(u32, &Entry<W>)> = None;
+        // In their order, so that of several due at one instant the first one goes first.
+        for (clock, &elapsed) in code.clocks.iter().zip(&self.clocks) {
+            let Some(entry) = code.entries.get(usize::from(clock.entry)) else { continue };
             let waits = clock.earliest.saturating_sub(elapsed);
             if !clock.event && first.is_none_or(|(least, _)| waits < least) && self.can(&code, entry) {
-                first = Some((waits, *entry));
+                first = Some((waits, entry));
             }
         }
-        first
+        first.map(|(waits, entry)| (waits, *entry))
     }
 
     /// Whether the tokens that a transition needs are there, and there is room for those that it gives.
@@ -306,7 +303,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let code = self.program.code();
         let time = u32::try_from(time).unwrap_or(u32::MAX);
         for (elapsed, clock) in self.clocks.iter_mut().zip(code.clocks) {
-            if enables(&code, clock, &self.marking) {
+            if enables(&self.program, clock, &self.marking) {
                 *elapsed = elapsed.saturating_add(time).min(clock.cap());
             }
         }
@@ -365,21 +362,26 @@ impl<P: Program<W> + StateMachine, const W: usize, const C: usize> Player<P, W, 
 }
 
 /// Whether the tokens that a transition with an interval needs are there.
-pub(super) fn enables<const W: usize>(code: &Code<'_, W>, clock: &Clock<W>, marking: &[u64; W]) -> bool {
+#[inline]
+pub(super) fn enables<P: Program<W>, const W: usize>(
+    program: &P,
+    clock: &Clock<W>,
+    marking: &[u64; W],
+) -> bool {
+    // Asked of the program again, since what is passed along is copied to the stack of small processors.
+    let code = program.code();
     code.entries.get(usize::from(clock.entry)).is_some_and(|entry| code.holds(marking, &entry.need))
 }
 
-/// Starts clocks anew after a firing: of transitions that are disabled, that fired themselves, or that what was taken
-/// had left disabled.
-pub(super) fn restart<const W: usize, const C: usize>(
+/// Starts clocks anew after a firing: of transitions that fired themselves, or that what was taken had left disabled.
+pub(super) fn restart<P: Program<W>, const W: usize, const C: usize>(
     clocks: &mut [u32; C],
-    code: &Code<'_, W>,
+    program: &P,
     between: &[u64; W],
     fired: impl Fn(u16) -> bool,
 ) {
-    for (number, (elapsed, clock)) in (0_u16..).zip(clocks.iter_mut().zip(code.clocks)) {
-        // What is enabled in between is enabled after, as firing only adds to it.
-        let kept = enables(code, clock, between) && !fired(number);
+    for (number, (elapsed, clock)) in (0_u16..).zip(clocks.iter_mut().zip(program.code().clocks)) {
+        let kept = enables(program, clock, between) && !fired(number);
         if !kept {
             *elapsed = 0;
         }

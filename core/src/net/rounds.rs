@@ -110,7 +110,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         }
         if C > 0 {
             let fired = |clock: u16| fired_clocks.get(usize::from(clock)).is_some_and(|&fired| fired);
-            restart(&mut self.clocks, &code, &between, fired);
+            restart(&mut self.clocks, &self.program, &between, fired);
         }
         self.marking = after;
         round

@@ -134,7 +134,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             return Err(RestoreError::Law(law));
         }
         for (clock, &elapsed) in code.clocks.iter().zip(&from.clocks) {
-            let most = if enables(&code, clock, &from.marking) { clock.cap() } else { 0 };
+            let most = if enables(&player.program, clock, &from.marking) { clock.cap() } else { 0 };
             if elapsed > most {
                 let entry = code.entries.get(usize::from(clock.entry));
                 return Err(RestoreError::Clock(

@@ -411,7 +411,8 @@ impl Variant {
                 Some(complement) => self.needs(source, line, complement, bound - high),
                 None => source.at_line(line).with("its guard asks that the place ").name(test.name)
                     .with(if high == 0 { " is empty" } else { " holds few tokens" })
-                    .with(", and a transition can only ask for tokens that are there: test a flag or a counter, or read a place that is marked instead")
+                    .with(", and a transition can only ask for tokens that are there: test a flag or a counter, ")
+                    .with("or read a place that is marked instead")
                     .stop(),
             }
         }

@@ -1,0 +1,9 @@
+//! More is added than it can hold.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        counters { misses: 0 of 3 }
+        events { Go }
+        transitions { go on Go: Idle => Driving do misses += 4; }
+    }
+}

@@ -1,0 +1,9 @@
+//! The counter is set to what it cannot hold.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        counters { misses: 0 of 3 }
+        events { Go }
+        transitions { go on Go: Idle => Driving do misses = 4; }
+    }
+}

@@ -1,0 +1,9 @@
+//! The counter never gets there.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        counters { misses: 0 of 3 }
+        events { Go }
+        transitions { go on Go [misses > 3]: Idle => Driving; }
+    }
+}

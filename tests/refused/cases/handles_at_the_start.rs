@@ -1,0 +1,13 @@
+//! `Stop` comes while the drive is idle.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        events { Go, Stop }
+        transitions {
+            go   on Go:   Idle => Driving;
+            stop on Stop: Driving => Idle;
+        }
+        ignore { Go in Driving; }
+        laws { handles(all); }
+    }
+}

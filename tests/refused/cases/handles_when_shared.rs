@@ -1,0 +1,13 @@
+//! It depends on another net whether `Look` is answered.
+cotama_core::net! {
+    pub mod look {
+        places { Idle: 1, Looking }
+        shared { camera: true }
+        events { Look }
+        transitions {
+            look on Look [camera]: Idle => Looking;
+            back on Look: Looking => Idle;
+        }
+        laws { handles(all); }
+    }
+}

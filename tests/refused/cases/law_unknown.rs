@@ -1,0 +1,9 @@
+//! A law that nobody knows.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        events { Go }
+        transitions { go on Go: Idle => Driving; }
+        laws { liveness(Idle); }
+    }
+}

@@ -1,0 +1,8 @@
+//! There is none.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        events { Go }
+        transitions { go on Go: Idle => Driving do misses += 1; }
+    }
+}

@@ -1,0 +1,9 @@
+//! `ignore` speaks of a place that is not there.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        events { Go }
+        transitions { go on Go: Idle => Driving; }
+        ignore { Go in Driven; }
+    }
+}

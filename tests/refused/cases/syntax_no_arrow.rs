@@ -1,0 +1,8 @@
+//! A `=>` is missing.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Driving }
+        events { Go }
+        transitions { go on Go: Idle Driving; }
+    }
+}

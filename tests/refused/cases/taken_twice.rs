@@ -1,0 +1,8 @@
+//! A place is named twice.
+cotama_core::net! {
+    pub mod rack {
+        places { Full: 3 of 3, Empty: 0 of 3 }
+        events { Take }
+        transitions { take on Take: Full & Full => Empty; }
+    }
+}

@@ -1,0 +1,8 @@
+//! More tokens than the place may hold.
+cotama_core::net! {
+    pub mod rack {
+        places { Full: 3 of 3, Empty: 0 of 3 }
+        events { Take }
+        transitions { take on Take: Full * 4 => Empty; }
+    }
+}

@@ -1,0 +1,9 @@
+//! The same in an invariant.
+cotama_core::net! {
+    pub mod rack {
+        places { Full: 3 of 3, Empty: 0 of 3 }
+        events { Take }
+        transitions { take on Take: Full => Empty; }
+        laws { invariant(Full & Empty * 70_000 = 3); }
+    }
+}

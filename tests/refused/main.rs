@@ -1,0 +1,158 @@
+//! What `net!` refuses while compiling, and in which words.
+//!
+//! Every file in `cases` is a library with one net. Those named `*_ok` compile without a warning; the others are refused,
+//! as `golden.txt` says. After a change of the words: `BLESS=1 cargo test -p cotama-tests --test refused`, and read the
+//! difference as a stranger would.
+
+use serde_json::Value;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+/// Nets that are refused when they are used, which only generating code finds out.
+const WHEN_USED: [&str; 2] = ["state_of_33_places", "state_of_two_tokens"];
+
+/// What the compiler says of one case.
+#[derive(Default)]
+struct Said {
+    /// What is wrong, in the words of `net!`.
+    refusals: Vec<String>,
+    /// What is wrong in the compiler's own words; where it stops reading.
+    stops: Vec<String>,
+    warnings: Vec<String>,
+}
+
+impl Said {
+    /// What is wrong. Beside the words of `net!` those of the compiler say the same once more, or follow from it.
+    fn errors(&self) -> &[String] {
+        if self.refusals.is_empty() { &self.stops } else { &self.refusals }
+    }
+}
+
+#[test]
+fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
+    let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("refused");
+    let names = case_names(&here);
+    let package = package(&here, &names);
+    let said = compile(&package);
+    assert!(
+        said.keys().all(|name| names.contains(name)),
+        "the library itself does not compile or is warned of"
+    );
+
+    let (mut refused, mut wrong) = (Vec::new(), Vec::new());
+    for name in &names {
+        let (errors, warnings) = said.get(name).map_or((&[][..], &[][..]), |it| (it.errors(), &it.warnings));
+        match (name.ends_with("_ok"), errors.is_empty()) {
+            (true, true) if warnings.is_empty() => {}
+            (true, _) => wrong.push(format!("{name} is refused or warned of: {errors:?} {warnings:?}")),
+            (false, true) => wrong.push(format!("{name} is not refused")),
+            (false, false) => refused.push(format!("== {name}\n{}\n\n", errors.join("\n"))),
+        }
+    }
+    let text = refused.concat();
+    let golden = here.join("golden.txt");
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&golden, &text).expect("the golden text can be written");
+    }
+    let agreed = fs::read_to_string(&golden).expect("there is a golden text");
+    for (is, agreed) in text.split("== ").zip(agreed.split("== ")) {
+        assert_eq!(is, agreed);
+    }
+    assert_eq!(text, agreed);
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+fn case_names(here: &Path) -> Vec<String> {
+    let cases = fs::read_dir(here.join("cases")).expect("there are cases");
+    let mut names: Vec<String> =
+        cases.filter_map(|case| Some(case.ok()?.path().file_stem()?.to_str()?.to_owned())).collect();
+    names.sort();
+    names
+}
+
+/// A package of its own in which every case is an example.
+fn package(here: &Path, names: &[String]) -> PathBuf {
+    let package = Path::new(env!("CARGO_TARGET_TMPDIR")).join("refused");
+    let core = here.join("../../core");
+    let core = core.display();
+    let mut manifest = vec![format!(
+        "[workspace]\n[package]\nname = \"refused\"\nversion = \"0.0.0\"\nedition = \"2024\"\nautoexamples = false\n\
+         [lib]\npath = \"lib.rs\"\n[dev-dependencies]\ncotama-core = {{ path = '{core}' }}\n"
+    )];
+    for name in names {
+        let path = here.join("cases").join(name).with_extension("rs");
+        let path = path.display();
+        manifest.push(format!("[[example]]\nname = '{name}'\npath = '{path}'\ncrate-type = ['lib']\n"));
+    }
+    fs::create_dir_all(&package).expect("the directory for tests can be written");
+    fs::write(package.join("Cargo.toml"), manifest.concat()).expect("the manifest can be written");
+    fs::write(package.join("lib.rs"), "").expect("the library can be written");
+    package
+}
+
+/// What the compiler says of each case.
+fn compile(package: &Path) -> BTreeMap<String, Said> {
+    let mut said = BTreeMap::new();
+    for task in [
+        &["clippy", "--examples", "--keep-going"][..],
+        &["build", "--keep-going", "--example", WHEN_USED[0], "--example", WHEN_USED[1]],
+    ] {
+        let output = Command::new(env!("CARGO"))
+            .args(task)
+            .args(["--offline", "--message-format=json"])
+            .current_dir(package)
+            .env("CARGO_TARGET_DIR", package.join("target"))
+            .env_remove("RUSTFLAGS")
+            .env_remove("CARGO_ENCODED_RUSTFLAGS")
+            .output()
+            .expect("cargo runs");
+        let lines = String::from_utf8(output.stdout).expect("cargo speaks UTF-8");
+        assert!(lines.contains("compiler-message"), "{}", String::from_utf8_lossy(&output.stderr));
+        for line in lines.lines() {
+            let line: Value = serde_json::from_str(line).expect("a line is JSON");
+            if line["reason"] == "compiler-message" {
+                let name = line["target"]["name"].as_str().expect("a target has a name").to_owned();
+                hear(said.entry(name).or_default(), &line["message"]);
+            }
+        }
+    }
+    said
+}
+
+/// Takes down a message of the compiler, without what depends on its version.
+fn hear(said: &mut Said, message: &Value) {
+    let text = message["message"].as_str().unwrap_or_default();
+    if message["level"] != "error" {
+        // "generated 1 warning" is none.
+        if message["level"] == "warning" && !message["spans"].as_array().is_none_or(Vec::is_empty) {
+            said.warnings.push(text.to_owned());
+        }
+        return;
+    }
+    let ours = text.strip_prefix("evaluation panicked: ");
+    // `compile_error!` has no code, as errors of syntax, but a net.
+    let ours = ours.or_else(|| (message["code"].is_null() && text.starts_with("net `")).then_some(text));
+    let (list, error) = match ours {
+        Some(ours) => (&mut said.refusals, ours.to_owned()),
+        None => (&mut said.stops, place(message)),
+    };
+    if !error.is_empty() && !list.contains(&error) {
+        list.push(error);
+    }
+}
+
+/// Where the compiler stops reading: the words are its own.
+fn place(message: &Value) -> String {
+    let Some(span) =
+        message["spans"].as_array().and_then(|spans| spans.iter().find(|it| it["is_primary"] == true))
+    else {
+        return String::new();
+    };
+    let text = &span["text"][0];
+    let line = text["text"].as_str().unwrap_or_default();
+    let column = |name: &str| text[name].as_u64().map_or(0, |column| column as usize - 1);
+    let token: String = line.chars().take(column("highlight_end")).skip(column("highlight_start")).collect();
+    format!("(the compiler stops at `{token}` in `{}`)", line.trim())
+}
