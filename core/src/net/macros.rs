@@ -84,6 +84,8 @@
 ///
 /// Bounds of places are always checked.
 ///
+/// A payload type that is called like something the module makes (`Place`, `State`, `Event`, ...) is written with its path.
+///
 /// # What it makes
 ///
 /// A module with `NET` (the plain data), `KNOWN` (how it was checked), the enums `Place`, `State`, `Event`, `Output` and

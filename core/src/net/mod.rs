@@ -11,6 +11,8 @@
 
 pub mod code;
 mod data;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+mod declarations;
 mod defect;
 #[allow(
     clippy::large_stack_arrays,
@@ -23,6 +25,8 @@ mod heap;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod laws;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+mod lookup;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 pub mod lower;
 mod macros;
 #[cfg(feature = "alloc")]
@@ -30,6 +34,8 @@ pub mod owned;
 mod player;
 mod program;
 mod rounds;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+mod settling;
 mod snapshot;
 pub mod source;
 pub(crate) mod text;

@@ -349,7 +349,7 @@ impl<P: Program<W> + StateMachine, const W: usize, const C: usize> Player<P, W, 
         const {
             assert!(
                 P::IS_ONE,
-                "this net is no state machine: ask for `tokens` of its places instead of its `state`"
+                "this net is no state machine of at most 32 states: ask for `tokens` of its places instead of its `state`"
             );
         }
         let state = self.program.code().state(&self.marking);

@@ -1,0 +1,126 @@
+//! Names of a definition, looked up.
+
+use super::data::PlaceId;
+use super::source::{Declared, Line, Source};
+use super::text::{Text, same};
+
+/// Where a name was found.
+#[derive(Clone, Copy)]
+pub(super) enum Found {
+    /// A place.
+    Place(usize),
+    /// A flag, counter or shared place: its position, and that among those with a complement.
+    Data(usize, usize),
+    /// A group.
+    Group(usize),
+    /// Nowhere.
+    Nothing,
+}
+
+/// What a name should be.
+#[derive(Clone, Copy)]
+pub(super) enum Meant {
+    /// A place.
+    Place,
+    /// A place or a group.
+    PlaceOrGroup,
+    /// A flag, counter or shared place.
+    Data,
+    /// Any of these but a group.
+    Any,
+    /// Any of these.
+    AnyOrGroup,
+}
+
+/// The most names among which a misspelt one is looked for.
+const SEARCHED: usize = 256;
+
+impl Source<'_> {
+    /// Places without complements: places, flags, counters and shared ones, in this order.
+    pub(super) const fn own_places(&self) -> usize {
+        self.places.len() + self.data()
+    }
+
+    /// Flags, counters and shared places: those with a complement.
+    pub(super) const fn data(&self) -> usize {
+        self.flags.len() + self.counters.len() + self.shared.len()
+    }
+
+    /// The declaration of a place by its position.
+    pub(super) const fn declared(&self, at: usize) -> Declared<'_> {
+        let (places, flags, counters) = (self.places.len(), self.flags.len(), self.counters.len());
+        if at < places {
+            self.places[at]
+        } else if at < places + flags {
+            self.flags[at - places]
+        } else if at < places + flags + counters {
+            self.counters[at - places - flags]
+        } else {
+            self.shared[at - places - flags - counters]
+        }
+    }
+
+    pub(super) const fn find(&self, name: &str) -> Found {
+        let places = self.places.len();
+        let mut before = 0;
+        let lists = [self.places, self.flags, self.counters, self.shared];
+        let mut list = 0;
+        while list < lists.len() {
+            let length = lists[list].len();
+            let mut at = 0;
+            while at < length {
+                if same(lists[list][at].name, name) {
+                    let place = before + at;
+                    return if list == 0 { Found::Place(place) } else { Found::Data(place, place - places) };
+                }
+                at += 1;
+            }
+            before += length;
+            list += 1;
+        }
+        let mut at = 0;
+        while at < self.groups.len() {
+            if same(self.groups[at].name, name) {
+                return Found::Group(at);
+            }
+            at += 1;
+        }
+        Found::Nothing
+    }
+
+    /// The complement of the data place at this position among them.
+    pub(super) const fn complement(&self, data: usize) -> PlaceId {
+        PlaceId((self.own_places() + data) as u32)
+    }
+
+    /// Begins the text of an error in a line.
+    pub(super) const fn at_line(&self, line: &Line<'_>) -> Text {
+        Text::new().with("net ").name(self.name).with(", transition ").name(line.name).with(": ")
+    }
+
+    /// Ends the compilation: this name is not there.
+    pub(super) const fn nothing(&self, text: Text, name: &str, meant: Meant) -> ! {
+        let (places, own) = (self.places.len(), self.own_places());
+        let (what, mut from, to, groups) = match meant {
+            Meant::Place => ("place", 0, places, false),
+            Meant::PlaceOrGroup => ("place or group", 0, places, true),
+            Meant::Data => ("flag, counter or shared place", places, own, false),
+            Meant::Any => ("place, flag or counter", 0, own, false),
+            Meant::AnyOrGroup => ("place, flag, counter or group", 0, own, true),
+        };
+        let mut known = [""; SEARCHED];
+        let mut count = 0;
+        while from < to && count < SEARCHED {
+            known[count] = self.declared(from).name;
+            count += 1;
+            from += 1;
+        }
+        let mut at = 0;
+        while groups && at < self.groups.len() && count < SEARCHED {
+            known[count] = self.groups[at].name;
+            count += 1;
+            at += 1;
+        }
+        text.unknown(what, name, known.split_at(count).0)
+    }
+}
