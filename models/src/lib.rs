@@ -27,8 +27,8 @@
 // Printed tables name this crate, wherever they are compiled; one of them is compiled here.
 extern crate self as cotama_models;
 
-pub mod nets;
 pub mod cotama;
+pub mod nets;
 pub mod patrol_tables;
 pub mod tables;
 

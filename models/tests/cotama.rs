@@ -50,7 +50,10 @@ fn the_rounds_reach_4166_states() {
         .zip(0_u16..)
         .flat_map(|(it, component)| {
             let names = it.net.transitions.iter().zip(0_u32..);
-            names.filter(|(_, id)| !fired.contains(&(component, *id))).map(|(it, _)| it.name).collect::<Vec<_>>()
+            names
+                .filter(|(_, id)| !fired.contains(&(component, *id)))
+                .map(|(it, _)| it.name)
+                .collect::<Vec<_>>()
         })
         .collect();
     println!("{never:?}");

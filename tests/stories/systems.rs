@@ -110,7 +110,13 @@ fn what_is_mailed_waits_for_the_turn_and_carries_its_payload() {
     assert_eq!(line.round(Millis(10), &mut log), Turned { fired: 1, ..Turned::default() });
     assert_eq!(line.wake_at(), Some(Millis(60)));
     assert_eq!(line.advance(Millis(100), &mut log).fired, 1);
-    let told = ["make at 5 with 7", "worker.part mailed with 7", "begin at 10 with 7", "end at 60 with 0", "count.parts_0 at 60 with 0"];
+    let told = [
+        "make at 5 with 7",
+        "worker.part mailed with 7",
+        "begin at 10 with 7",
+        "end at 60 with 0",
+        "count.parts_0 at 60 with 0",
+    ];
     // `count` is one line: the counter only adds, so it has one transition.
     let told = told.map(|it| it.replace(".parts_0", ""));
     assert_eq!(log.0, told);
@@ -146,7 +152,12 @@ fn an_event_empties_a_mailbox_even_when_its_net_ignores_it() {
         let _ = line.offer(Millis(0), make(), part, &mut ());
     }
     let _ = line.offer(Millis(0), line::on::maker(&maker::Event::flush), 9, &mut log);
-    let told = ["flush at 0 with 9", "worker.part cleared of 1", "worker.part cleared of 2", "worker.flush ignored with 9"];
+    let told = [
+        "flush at 0 with 9",
+        "worker.part cleared of 1",
+        "worker.part cleared of 2",
+        "worker.flush ignored with 9",
+    ];
     assert_eq!(log.0, told);
     assert_eq!(line.waiting(line::on::worker(&worker::Event::part)), 0);
 }

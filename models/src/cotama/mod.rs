@@ -4,15 +4,14 @@
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
 
-
 mod decision_table;
 
-mod world;
 mod supervisors;
+mod world;
 
 pub use decision_table::contextual;
-pub use world::environment;
 pub use supervisors::{global, local, path_following, teleoperation};
+pub use world::environment;
 
 use cotama_core::system;
 
