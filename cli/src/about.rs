@@ -1,5 +1,6 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
+use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
 use crate::exit::{Exit, Failure};
@@ -25,6 +26,8 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Run => schemas.into_root_schema_for::<RunAnswer>(),
         SchemaName::Allocate => schemas.into_root_schema_for::<AllocateAnswer>(),
         SchemaName::Replay => schemas.into_root_schema_for::<ReplayAnswer>(),
+        SchemaName::Models => schemas.into_root_schema_for::<ModelsAnswer>(),
+        SchemaName::Simulate => schemas.into_root_schema_for::<SimulateAnswer>(),
     };
     Screen::json(&schema)?;
     Ok(Exit::Success)

@@ -1,5 +1,7 @@
 //! The answers in JSON: types that are written, and from which the schemas in `schemas/` are made.
 
+pub(crate) mod model;
+
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -21,9 +23,10 @@ pub(crate) struct ListAnswer {
 /// Something that comes with the program.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Listed {
-    pub(crate) name: &'static str,
+    /// Of a family of nets with `:N` in place of the number.
+    pub(crate) name: String,
     /// What it is, in one line.
-    pub(crate) description: &'static str,
+    pub(crate) description: String,
 }
 
 /// What is known of a plan.

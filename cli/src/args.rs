@@ -1,5 +1,9 @@
 //! The command line.
 
+mod model;
+
+pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
+
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
@@ -24,7 +28,8 @@ limit was reached. With --json every answer is one object on standard output.
 Examples:
   $ cotama list
   $ cotama plan patrol
-  $ cotama run patrol";
+  $ cotama run patrol
+  $ cotama simulate door Call EndOpen +5000";
 
 /// Whether to use colours.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -95,6 +100,23 @@ Examples:
   $ cotama replay patrol.jsonl
   $ cotama replay patrol.jsonl --json")]
     Replay(ReplayArgs),
+    /// Shows the models: nets and systems, and what is known of one
+    ///
+    /// A model is a net, a family of nets (`philosophers:5` is one of it) or a system of nets. Nets of this program
+    /// have laws, which were checked in all reachable markings while it was compiled; what a file claims is only said.
+    /// PNML files are read up to 256 MiB, JSON files up to 64 MiB.
+    #[command(after_long_help = model::MODELS_EXAMPLES)]
+    Models(ModelsArgs),
+    /// Writes a model as a file of another tool, or as a drawing
+    #[command(after_long_help = model::EXPORT_EXAMPLES)]
+    Export(ExportArgs),
+    /// Plays a net, with a list of events or by hand
+    ///
+    /// Each event is offered in its turn: a transition that is enabled fires, then those that fire by themselves; or
+    /// the event is ignored, and it is said why. Between events, time passes only as you say. A net with neither events
+    /// nor time does nothing by itself: there, each transition is fired by its name.
+    #[command(after_long_help = model::SIMULATE_EXAMPLES)]
+    Simulate(SimulateArgs),
     /// Prints the tables of a mission as Rust source, for firmware
     #[command(after_long_help = "\
 Examples:
@@ -281,6 +303,8 @@ pub(crate) enum SchemaName {
     Run,
     Allocate,
     Replay,
+    Models,
+    Simulate,
 }
 
 /// Who plans.

@@ -1,6 +1,8 @@
 //! How a command ends, and what is said when it cannot do its work.
 
+use crate::file_errors::FileErrors;
 use cotama_models::diagnostic::MissionErrors;
+use cotama_verification::pnml::PnmlErrors;
 use std::process::ExitCode;
 
 /// How a command ends. The codes are the same for every command.
@@ -33,7 +35,7 @@ pub(crate) enum Failure {
         help: Option<String>,
     },
     /// A file has errors at places.
-    Text(Box<MissionErrors>),
+    Text(Box<FileErrors>),
 }
 
 impl Failure {
@@ -51,8 +53,20 @@ impl Failure {
     }
 }
 
+impl From<FileErrors> for Failure {
+    fn from(errors: FileErrors) -> Self {
+        Self::Text(Box::new(errors))
+    }
+}
+
 impl From<MissionErrors> for Failure {
     fn from(errors: MissionErrors) -> Self {
-        Self::Text(Box::new(errors))
+        FileErrors::from(errors).into()
+    }
+}
+
+impl From<PnmlErrors> for Failure {
+    fn from(errors: PnmlErrors) -> Self {
+        FileErrors::from(errors).into()
     }
 }

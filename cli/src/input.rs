@@ -10,9 +10,18 @@ pub(crate) const MISSION_BYTES: u64 = 4 << 20;
 pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
 /// The most bytes of a trace.
 pub(crate) const TRACE_BYTES: u64 = 256 << 20;
+/// The most bytes of a model.
+pub(crate) const MODEL_BYTES: u64 = 256 << 20;
+/// The most bytes of a list of events.
+pub(crate) const SCRIPT_BYTES: u64 = 1 << 20;
 
 /// The text of a file, or of standard input for `-`; `what` says what it should be, as `a mission file`.
 pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure> {
+    utf8(path, what, bytes(path, what, limit)?)
+}
+
+/// What a file, or standard input for `-`, holds.
+pub(crate) fn bytes(path: &str, what: &str, limit: u64) -> Result<Vec<u8>, Failure> {
     let mut bytes = Vec::new();
     let read = if path == "-" {
         std::io::stdin().lock().take(limit + 1).read_to_end(&mut bytes)
@@ -24,12 +33,23 @@ pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure
             file.take(limit + 1).read_to_end(&mut bytes)
         })
     };
-    let name = if path == "-" { "standard input" } else { path };
+    let name = name(path);
     read.map_err(|error| unreadable(name, what, &error))?;
     if bytes.len() as u64 > limit {
         let message = format!("{name}: too large: at most {} MiB are read of {what}", limit >> 20);
         return Err(Failure::new(message).help(format!("is this really {what}?")));
     }
+    Ok(bytes)
+}
+
+/// What a path is called in messages.
+pub(crate) fn name(path: &str) -> &str {
+    if path == "-" { "standard input" } else { path }
+}
+
+/// The bytes of a file as text.
+pub(crate) fn utf8(path: &str, what: &str, bytes: Vec<u8>) -> Result<String, Failure> {
+    let name = name(path);
     String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
         let byte = error.as_bytes().get(offset).copied().unwrap_or(0);

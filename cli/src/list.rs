@@ -2,8 +2,10 @@
 
 use crate::answers::{ListAnswer, Listed};
 use crate::args::ListArgs;
+use crate::catalogue;
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
+use crate::render::described;
 use crate::render::style::{HEADING, NAME};
 use cotama_models::embedded;
 use std::fmt::Write;
@@ -11,9 +13,14 @@ use std::fmt::Write;
 /// Lists what comes with the program.
 pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
     let missions = embedded::embedded().iter();
-    let missions = missions.map(|it| Listed { name: it.name, description: it.description }).collect();
-    let answer =
-        ListAnswer { schema: "cotama/list/1", missions, models: vec![], scenarios: vec![], maps: vec![] };
+    let missions = missions
+        .map(|it| Listed { name: it.name.to_owned(), description: it.description.to_owned() })
+        .collect();
+    let models = catalogue::entries();
+    let models =
+        models.iter().map(|it| Listed { name: it.shown_name(), description: it.sentence().to_owned() });
+    let models = models.collect();
+    let answer = ListAnswer { schema: "cotama/list/1", missions, models, scenarios: vec![], maps: vec![] };
     if args.json.json {
         Screen::json(&answer)?;
         return Ok(Exit::Success);
@@ -29,11 +36,12 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
         let _ = writeln!(text, "{HEADING}{title}{HEADING:#}");
         let longest = entries.iter().map(|entry| entry.name.len()).max().unwrap_or(0);
         for entry in entries {
-            let _ = writeln!(text, "  {NAME}{:longest$}{NAME:#}  {}", entry.name, entry.description);
+            text += &described(&entry.name, longest, NAME, &entry.description, screen.width());
         }
     }
     if let Some(first) = answer.missions.first() {
-        let _ = writeln!(text, "\nnext: {NAME}cotama plan {}{NAME:#}", first.name);
+        let _ =
+            writeln!(text, "\nnext: {NAME}cotama plan {}{NAME:#}, {NAME}cotama models{NAME:#}", first.name);
     }
     screen.print(&text)?;
     Ok(Exit::Success)

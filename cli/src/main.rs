@@ -7,16 +7,22 @@ mod about;
 mod allocate;
 mod answers;
 mod args;
+mod catalogue;
 mod exit;
+mod export;
+mod file_errors;
 mod infeasible;
 mod input;
 mod list;
 mod mission;
+mod model;
+mod models;
 mod output;
 mod plan;
 mod render;
 mod replay;
 mod run;
+mod simulate;
 mod solve;
 
 use args::{Cli, Command};
@@ -33,6 +39,9 @@ fn main() -> ExitCode {
         Command::Run(args) => run::run(&args, &screen),
         Command::Allocate(args) => allocate::allocate(&args, &screen),
         Command::Replay(args) => replay::replay(&args, &screen),
+        Command::Models(args) => models::models(&args, &screen),
+        Command::Export(args) => export::export(&args, &screen),
+        Command::Simulate(args) => simulate::simulate(&args, &screen),
         Command::Table(args) => about::table(&args),
         Command::Schema(args) => about::schema(&args),
         Command::Completions(args) => about::completions(&args),

@@ -46,7 +46,7 @@ pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Loaded, Failur
 }
 
 /// Whether this looks like a name and not like a path.
-fn is_name(text: &str) -> bool {
+pub(crate) fn is_name(text: &str) -> bool {
     !text.contains(['/', '\\', '.'])
 }
 

@@ -141,3 +141,79 @@ fn outputs_that_cannot_be_written() {
         golden("bad_stdout_full.txt", &ended.stderr);
     }
 }
+
+const PLACE: &str = "<place id=\"p\"><initialMarking><text>1</text></initialMarking></place>";
+
+fn pnml(inside: &str) -> String {
+    let kind = "http://www.pnml.org/version-2009/grammar/ptnet";
+    format!(
+        "<pnml>\n <net id=\"n\" type=\"{kind}\">\n  <page id=\"g\">\n{inside}\n  </page>\n </net>\n</pnml>\n"
+    )
+}
+
+#[test]
+fn models_that_cannot_be_read() {
+    let folder = Folder::new("bad_models");
+    refused(&folder, "model_unknown", &["models", "dor"]);
+    refused(&folder, "model_family", &["export", "philosophers", "--format", "dot"]);
+    refused(&folder, "model_number", &["export", "philosophers:1", "--format", "dot"]);
+    refused(&folder, "model_no_family", &["simulate", "door:5"]);
+    refused(&folder, "model_system", &["simulate", "decision"]);
+    refused(&folder, "model_missing", &["simulate", "nets/door.pnml"]);
+    let cases = [
+        ("empty", String::new()),
+        ("closed", pnml("   <place id=\"p\">\n   </plaice>")),
+        ("twice", pnml(&format!("   {PLACE}\n   <transition id=\"t\"/>\n   {PLACE}"))),
+        ("arc", pnml(&format!("   {PLACE}\n   <arc id=\"a\" source=\"p\" target=\"q\"/>"))),
+        (
+            "inhibitor",
+            pnml(&format!(
+                "   {PLACE}<transition id=\"t\"/>\n   <arc id=\"a\" source=\"p\" target=\"t\"><type value=\"inhibitor\"/></arc>"
+            )),
+        ),
+        ("tokens", pnml(&PLACE.replace(">1<", ">many<"))),
+        ("far", pnml(&format!("   {PLACE}\n{}\n   {PLACE}", " \n".repeat(20_000)))),
+        ("one_line", format!("{}<net id=\"x\">", pnml(PLACE).replace('\n', &" ".repeat(9_000)))),
+    ];
+    for (name, text) in cases {
+        folder.write("net.pnml", text);
+        refused(&folder, &format!("pnml_{name}"), &["models", "net.pnml"]);
+    }
+    let net = folder.cotama(&["export", "door", "--format", "json"]).stdout;
+    let cases = [
+        ("syntax", net.replacen("\"initial\": 1,", "\"initial\": 1,,", 1)),
+        ("kind", net.replacen("\"initial\": 1,", "\"initial\": \"one\",", 1)),
+        ("name", net.replacen("\"place\": \"Closed\"", "\"place\": \"Closd\"", 1)),
+    ];
+    for (name, text) in cases {
+        folder.write("net.json", text);
+        refused(&folder, &format!("json_{name}"), &["export", "net.json", "--format", "dot"]);
+    }
+}
+
+#[test]
+fn models_that_cannot_be_written_so() {
+    let folder = Folder::new("bad_exports");
+    refused(&folder, "export_chart", &["export", "crossing", "--format", "scxml"]);
+    refused(&folder, "export_no_format", &["export", "door"]);
+    refused(&folder, "export_end", &["export", "door", "--output", "door.txt"]);
+    refused(&folder, "export_style", &["export", "door", "--format", "pnml", "--style", "net"]);
+    refused(&folder, "export_matrix", &["export", "philosophers:10000", "--format", "matrix"]);
+    refused(&folder, "export_folder", &["export", "door", "--format", "svg", "--output", "."]);
+    assert_eq!(folder.files(""), [""; 0]);
+}
+
+#[test]
+fn words_that_a_net_does_not_know() {
+    let folder = Folder::new("bad_words");
+    refused(&folder, "event_unknown", &["simulate", "door", "Call", "EndOpn"]);
+    refused(&folder, "event_by_name", &["simulate", "philosophers:2", "end"]);
+    refused(&folder, "event_no_round", &["simulate", "door", "Call,Clear"]);
+    refused(&folder, "event_back_in_time", &["simulate", "door", "Call@500", "EndOpen@499"]);
+    refused(&folder, "event_no_time", &["simulate", "door", "+1.5"]);
+    refused(&folder, "simulate_large", &["simulate", "philosophers:5000"]);
+    folder.write("net.pnml", pnml(&PLACE.replace(">1<", ">65536<")));
+    refused(&folder, "simulate_tokens", &["simulate", "net.pnml"]);
+    let ended = folder.shell("cotama export door --format pnml | cotama simulate - --interactive");
+    assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
+}

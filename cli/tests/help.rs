@@ -2,8 +2,20 @@
 
 use crate::common::Folder;
 
-const COMMANDS: [&str; 9] =
-    ["list", "plan", "run", "allocate", "replay", "table", "schema", "completions", "man"];
+const COMMANDS: [&str; 12] = [
+    "list",
+    "plan",
+    "run",
+    "allocate",
+    "replay",
+    "models",
+    "export",
+    "simulate",
+    "table",
+    "schema",
+    "completions",
+    "man",
+];
 
 fn examples(help: &str) -> Vec<&str> {
     help.lines().filter_map(|line| line.strip_prefix("  $ ")).collect()
@@ -12,8 +24,7 @@ fn examples(help: &str) -> Vec<&str> {
 #[test]
 fn every_example_runs_and_ends_as_it_says() {
     let mut ran = 0;
-    for command in ["", "list", "plan", "run", "allocate", "replay", "table", "schema", "completions", "man"]
-    {
+    for command in [""].into_iter().chain(COMMANDS) {
         let folder = Folder::new(&format!("help_{command}"));
         let arguments: Vec<_> = [command, "--help"].into_iter().filter(|it| !it.is_empty()).collect();
         let help = folder.cotama(&arguments);

@@ -5,10 +5,14 @@
 
 mod allocate;
 mod bad_input;
+mod broken_pnml;
 mod common;
+mod export;
 mod help;
+mod models;
 mod plan;
 mod replay;
 mod run;
 mod schemas;
 mod screens;
+mod simulate;

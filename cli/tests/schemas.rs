@@ -4,7 +4,7 @@ use crate::common::{Folder, compare};
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 5] = ["list", "plan", "run", "allocate", "replay"];
+const COMMANDS: [&str; 7] = ["list", "plan", "run", "allocate", "replay", "models", "simulate"];
 
 fn stored(command: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{command}.json"))
@@ -43,9 +43,10 @@ fn a_schema_refuses_an_answer_of_another_command_or_with_a_field_missing() {
 }
 
 #[test]
-fn the_list_names_the_patrol() {
+fn the_list_names_the_patrol_and_the_door() {
     let answer = Folder::new("list").cotama(&["list", "--json"]).json(0);
     assert_eq!(answer["missions"][0]["name"], "patrol");
+    assert_eq!(answer["models"][0]["name"], "door");
     for kind in ["models", "scenarios", "maps"] {
         assert!(answer[kind].is_array());
     }

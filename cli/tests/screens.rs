@@ -38,9 +38,18 @@ fn no_line_is_wider_than_the_window_where_tables_can_be_wrapped() {
 #[test]
 fn a_reader_who_goes_away_is_no_error() {
     let folder = Folder::new("screens_pipe");
-    for command in
-        ["plan patrol --json", "plan patrol", "run patrol", "table patrol", "man", "--help", "schema run"]
-    {
+    for command in [
+        "plan patrol --json",
+        "plan patrol",
+        "run patrol",
+        "table patrol",
+        "man",
+        "--help",
+        "schema run",
+        "models",
+        "export door --format svg",
+        "simulate door Call",
+    ] {
         let ended = folder.shell(&format!("( cotama {command}; echo $? >&2 ) | head -c 1 > one"));
         assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), "0\n"), "{command}");
         let ended = folder.shell(&format!("( sleep 0.1; cotama {command}; echo $? >&2 ) | true"));

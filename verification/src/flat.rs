@@ -275,7 +275,7 @@ impl<'s> Flat<'s> {
                     self.add(steps, transition, on)?;
                 }
                 if on.is_none() {
-                    let ignored = self.ignored(starts, component, id)?;
+                    let ignored = self.ignored(&starts, component, id)?;
                     self.add(ignored, &NOTHING, None)?;
                 }
             }
@@ -323,26 +323,30 @@ impl<'s> Flat<'s> {
         }
         for step in &mut steps {
             step.name.push(format!("{name}.{}", transition.name));
-            changes.iter().for_each(|(&place, &(need, change))| step.then(place, need, change));
+            for (&place, &(need, change)) in &changes {
+                step.then(place, need, change);
+            }
         }
         for &output in transition.emits {
             let from = Of { component, id: output };
             let links: Vec<_> = self.system.links.iter().filter(|link| link.from == from).copied().collect();
             if links.is_empty() {
                 let said = self.output(component, output);
-                steps.iter_mut().for_each(|step| step.outputs.push(said));
+                for step in &mut steps {
+                    step.outputs.push(said);
+                }
             }
             for link in links {
                 if let Some(&(waiting, room, _)) = self.mailboxes.get(&(link.to.component, link.to.id.0)) {
-                    steps.iter_mut().for_each(|step| {
+                    for step in &mut steps {
                         step.then(room, 1, -1);
                         step.then(waiting, 0, 1);
-                    });
+                    }
                     continue;
                 }
                 let (_, net) = self.component(link.to.component);
                 let starts = self.cleared(steps, link.to.component, link.to.id);
-                let mut all = self.ignored(starts.clone(), link.to.component, link.to.id)?;
+                let mut all = self.ignored(&starts, link.to.component, link.to.id)?;
                 for transition in net.transitions.iter().filter(|it| it.on == Some(link.to.id)) {
                     all.extend(self.fired(starts.clone(), link.to.component, transition)?);
                 }
@@ -363,7 +367,7 @@ impl<'s> Flat<'s> {
 
     /// No transition on an event is enabled: for each of them some need is not met. A condition that implies another one is
     /// left out.
-    fn ignored(&mut self, starts: Vec<Step>, component: u16, event: EventId) -> Result<Vec<Step>, FlatError> {
+    fn ignored(&mut self, starts: &[Step], component: u16, event: EventId) -> Result<Vec<Step>, FlatError> {
         let (name, net) = self.component(component);
         let mut unmet: Vec<BTreeMap<PlaceId, i64>> = vec![BTreeMap::new()];
         for transition in net.transitions.iter().filter(|it| it.on == Some(event)) {
@@ -394,7 +398,9 @@ impl<'s> Flat<'s> {
         let label = format!("{name}.{} ignored", net.events[event.0 as usize].name);
         let under = |step: &Step, needs: &BTreeMap<PlaceId, i64>| {
             let mut step = step.clone();
-            needs.iter().for_each(|(&place, &need)| step.then(place, need, 0));
+            for (&place, &need) in needs {
+                step.then(place, need, 0);
+            }
             step.name.push(label.clone());
             step
         };

@@ -1,0 +1,198 @@
+//! The answers of the commands about models.
+
+use schemars::JsonSchema;
+use serde::{Serialize, Serializer};
+use std::collections::BTreeMap;
+
+/// The answer of `cotama models`.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct ModelsAnswer {
+    #[schemars(extend("const" = "cotama/models/1"))]
+    pub(crate) schema: &'static str,
+    pub(crate) models: Vec<ModelRow>,
+}
+
+/// What is known of a model.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct ModelRow {
+    /// What other commands know it by; of a family without its number.
+    pub(crate) name: String,
+    pub(crate) kind: ModelKind,
+    /// What it is for.
+    pub(crate) description: String,
+    /// None of a family, before a number is chosen. In a system, shared places are counted once.
+    pub(crate) places: Option<u64>,
+    /// None of a family.
+    pub(crate) transitions: Option<u64>,
+    /// Transitions with a time interval; none of a family.
+    pub(crate) timed: Option<u64>,
+    /// Its reachable markings, if they were explored while compiling.
+    pub(crate) states: Option<u64>,
+    /// The firings between these markings.
+    pub(crate) firings: Option<u64>,
+    /// The most transitions that fire at once by themselves one after another, if it is proven.
+    pub(crate) settle: Option<u32>,
+    pub(crate) laws: Vec<LawRow>,
+    pub(crate) events: Vec<SignalRow>,
+    pub(crate) outputs: Vec<SignalRow>,
+    /// The numbers of a family.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) numbers: Option<NumbersRow>,
+    /// The nets of a system, in the order of their turns.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) components: Vec<ComponentRow>,
+}
+
+/// What a model is.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum ModelKind {
+    /// One net.
+    Net,
+    /// A net for each number.
+    Family,
+    /// Several nets that work together.
+    System,
+}
+
+/// What is claimed of a net.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct LawRow {
+    /// As `never_both(Closing, obstacle)`.
+    pub(crate) law: String,
+    pub(crate) shown: Shown,
+}
+
+/// How a law is shown.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Shown {
+    /// In all reachable markings, while this program was compiled.
+    WhileCompiling,
+    /// Not yet: the net is too large to explore while compiling.
+    LeftToChecker,
+    /// Not: it is only said.
+    Claimed,
+}
+
+/// An event or an output.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct SignalRow {
+    pub(crate) name: String,
+    /// What it tells.
+    pub(crate) doc: String,
+}
+
+/// The numbers of a family.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct NumbersRow {
+    pub(crate) least: u32,
+    pub(crate) most: u32,
+}
+
+/// A net of a system.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct ComponentRow {
+    /// What the system calls it.
+    pub(crate) name: String,
+    /// The name of the net.
+    pub(crate) net: String,
+}
+
+/// The answer of `cotama simulate`.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct SimulateAnswer {
+    #[schemars(extend("const" = "cotama/simulate/1"))]
+    pub(crate) schema: &'static str,
+    /// The name of the net.
+    pub(crate) model: String,
+    /// Whether it was played in synchronous rounds.
+    pub(crate) rounds: bool,
+    /// Whether transitions are fired by name, as the net has neither events nor time.
+    pub(crate) by_name: bool,
+    /// Whether all events were offered; not if the net did not come to rest.
+    pub(crate) complete: bool,
+    /// How many events no transition used.
+    pub(crate) ignored: u64,
+    /// The time at the end.
+    pub(crate) time_ms: u64,
+    /// The transitions that fired, in this order.
+    pub(crate) fired: Vec<String>,
+    pub(crate) steps: Vec<StepRow>,
+    /// The tokens of each place at the end, in the order of the net.
+    #[serde(serialize_with = "as_object")]
+    #[schemars(with = "BTreeMap<String, u32>")]
+    pub(crate) marking: Vec<(String, u32)>,
+    /// The events that a transition would use at the end.
+    pub(crate) enabled: Vec<EnabledRow>,
+    /// The events that no transition would use at the end.
+    pub(crate) unused: Vec<RefusalRow>,
+    /// What happens next by itself.
+    pub(crate) deadline: Option<DeadlineRow>,
+}
+
+/// Something that happened: an event with what settled after it, what fired by itself, or a round.
+#[derive(Clone, Debug, Default, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct StepRow {
+    pub(crate) time_ms: u64,
+    /// The events that were offered; none for what fired by itself.
+    pub(crate) events: Vec<String>,
+    /// The transitions that fired, in this order.
+    pub(crate) fired: Vec<String>,
+    /// The events that no transition used.
+    pub(crate) ignored: Vec<RefusalRow>,
+    /// The outputs that were emitted, in this order.
+    pub(crate) emitted: Vec<String>,
+    /// The places that hold another number of tokens afterwards.
+    pub(crate) changed: Vec<TokensRow>,
+}
+
+/// An event that no transition uses.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct RefusalRow {
+    pub(crate) event: String,
+    pub(crate) reason: RefusalReason,
+    /// The same in words.
+    pub(crate) text: String,
+}
+
+/// Why no transition uses an event.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum RefusalReason {
+    /// A marked place ignores it on purpose.
+    OnPurpose,
+    /// No transition on it has the tokens that it needs.
+    NotEnabled,
+    /// One has, but its interval has not begun.
+    TooEarly,
+    /// One has, but its interval is over.
+    TooLate,
+    /// One has, but a place would hold more than its bound.
+    Full,
+}
+
+/// The tokens of a place.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct TokensRow {
+    pub(crate) place: String,
+    pub(crate) tokens: u32,
+}
+
+/// An event that a transition would use.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct EnabledRow {
+    pub(crate) event: String,
+    pub(crate) transition: String,
+}
+
+/// What happens next by itself.
+#[derive(Clone, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct DeadlineRow {
+    pub(crate) time_ms: u64,
+    pub(crate) transition: String,
+}
+
+fn as_object<S: Serializer>(marking: &[(String, u32)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(marking.iter().map(|(place, tokens)| (place, tokens)))
+}

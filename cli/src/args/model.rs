@@ -1,0 +1,121 @@
+//! The command line of the commands about models.
+
+use super::Json;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+pub(crate) const MODELS_EXAMPLES: &str = "\
+Examples:
+  $ cotama models
+  $ cotama models door
+  $ cotama models philosophers:5 --json
+  $ cotama export door --format pnml --output door.pnml && cotama models door.pnml";
+
+pub(crate) const EXPORT_EXAMPLES: &str = "\
+Examples:
+  $ cotama export door --format mermaid
+  $ cotama export door --output door.svg                 # the format by the name of the file
+  $ cotama export door --style net --output door.dot
+  $ cotama export philosophers:5 --format pnml | cotama export - --format matrix
+  $ cotama export watchdog --output watchdog.scxml";
+
+pub(crate) const SIMULATE_EXAMPLES: &str = "\
+Words:
+  EVENT     offers the event now
+  EVENT@MS  offers it at this time
+  +MS       lets so much time pass
+  A,B       with --rounds: offers both in one round; there, +MS is a round without events
+
+In a file or on standard input: one of these a line; lines that begin with # are left out.
+On a terminal, and with --interactive, a line can also be the number of an event, the beginning of
+its name, `back`, `marking`, `help` or `quit`.
+
+Examples:
+  $ cotama simulate door Call EndOpen +5000
+  $ cotama simulate watchdog Release Done@50 Release@200 +100 --json
+  $ cotama simulate philosophers:3 left_first_1 then_right_1 end_1
+  $ printf 'Call\\nEndOpen@2000\\n+5000\\n' | cotama simulate door
+  $ printf '1\\nback\\nquit\\n' | cotama simulate door --interactive
+  $ cotama simulate door EndOpen --strict   # nothing opens: exit code 1";
+
+/// A model.
+#[derive(Args, Debug)]
+pub(crate) struct ModelArg {
+    /// The name of a model that comes with the program, the path of a PNML or JSON file, or `-`
+    pub(crate) model: String,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ModelsArgs {
+    /// The name of a model, or the path of a PNML or JSON file: all that is known of it
+    pub(crate) name: Option<String>,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ExportArgs {
+    #[command(flatten)]
+    pub(crate) model: ModelArg,
+    /// The format [default: by the end of the name of the output]
+    #[arg(long, value_enum)]
+    pub(crate) format: Option<Format>,
+    /// How dot, svg and mermaid draw it [default: auto]
+    #[arg(long, value_enum)]
+    pub(crate) style: Option<DrawnAs>,
+    /// The file to write, in place of standard output
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct SimulateArgs {
+    #[command(flatten)]
+    pub(crate) model: ModelArg,
+    /// What is offered, in this order; without any, it is read from standard input
+    #[arg(value_name = "EVENT")]
+    pub(crate) events: Vec<String>,
+    /// Plays synchronous rounds: each word is one round
+    #[arg(long)]
+    pub(crate) rounds: bool,
+    /// Ends with exit code 1 when an event is ignored
+    #[arg(long)]
+    pub(crate) strict: bool,
+    /// Asks what to do and shows it, step by step, even if no terminal is there
+    #[arg(long, short, conflicts_with_all = ["events", "json", "strict"])]
+    pub(crate) interactive: bool,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+/// What a model is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Format {
+    /// A graph for Graphviz (.dot, .gv)
+    Dot,
+    /// A drawing (.svg)
+    Svg,
+    /// The exchange format of Petri nets; nothing is lost (.pnml)
+    Pnml,
+    /// A diagram for Mermaid (.mmd)
+    Mermaid,
+    /// A state chart, of state machines (.scxml)
+    Scxml,
+    /// A model for probabilistic and other checkers (.jani)
+    Jani,
+    /// Incidence matrices as a table (.tsv)
+    Matrix,
+    /// All of it as JSON; nothing is lost (.json)
+    Json,
+}
+
+/// How a net is drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum DrawnAs {
+    /// Places as states and transitions as arrows, where the net is a state machine
+    States,
+    /// Places as circles and transitions as bars
+    Net,
+    /// As states where it can be
+    Auto,
+}
