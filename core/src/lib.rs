@@ -14,8 +14,8 @@
 //! | [`exact`] | the best plan, proven; anytime, with a bound |
 //! | [`front`] | all plans that no other plan beats |
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
-//! | [`net`] | supervisors as typed Petri nets, checked while compiling, and their player |
-//! | [`system`] | several nets that work together |
+//! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling, and their player |
+//! | [`mod@system`] | several nets that work together |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs are 32 bits and

@@ -74,7 +74,7 @@ impl<const W: usize> Packed<W> {
             takes: vec![[0; W]; size.entries],
             order: vec![0; size.entries],
             rows: vec![0; size.rows],
-            clocks: vec![Clock { entry: 0, event: false, earliest: 0, latest: 0 }; size.clocks],
+            clocks: vec![Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 }; size.clocks],
             fields: vec![Field { word: 0, shift: 0, width: 1 }; size.fields],
             ignored: vec![[0; W]; size.events],
             words,

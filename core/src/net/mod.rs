@@ -2,7 +2,7 @@
 //!
 //! A net is plain data ([`Net`]). A state machine is a net with one token. `net!` makes it and checks its laws; a
 //! [`Player`] executes it, one event after the other or in synchronous [rounds](Round). With the feature `alloc`, nets
-//! are also [made at run time](owned).
+//! are also made at run time (`owned`).
 //!
 //! ```text
 //! net! { .. } -> Source -> Net -> Code (packed) -> Known (its laws hold)

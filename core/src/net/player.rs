@@ -17,7 +17,7 @@
 //! passed, it is not enabled any more until its clock starts anew. A player that is told the time late catches up: what
 //! was due fires at the time when it was due, in order.
 
-use super::code::{Clock, Code, Entry, NO_CLOCK};
+use super::code::{Code, Entry, NO_CLOCK};
 use super::data::{PlaceId, TransitionId};
 use super::program::{Firing, Kind, Observer, Program, StateMachine};
 use crate::units::Millis;
@@ -150,7 +150,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         now: Millis,
         observer: &mut impl Observer<P::Event, P::Transition, P::Output>,
     ) -> Advanced {
-        let mut advanced = Advanced { fired: self.settle(observer), behind: !self.settled() };
+        let fired = self.settle(observer);
+        let mut advanced = Advanced { fired, behind: self.is_cut_short(fired) };
         while !advanced.behind {
             let left = now.0.saturating_sub(self.now.0);
             match self.due() {
@@ -161,8 +162,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
                     }
                     self.pass(u64::from(wait));
                     self.fire(&entry, None, observer);
-                    advanced.fired += 1 + self.settle(observer);
-                    advanced.behind = !self.settled();
+                    let settled = self.settle(observer);
+                    advanced.fired += 1 + settled;
+                    advanced.behind = self.is_cut_short(settled);
                 }
                 _ => {
                     self.pass(left);
@@ -216,6 +218,11 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         code.urgent(&self.marking, |it| self.can(&code, it)).is_none()
     }
 
+    /// Whether settling stopped before its end, having let so many transitions fire.
+    fn is_cut_short(&self, fired: u32) -> bool {
+        fired >= self.program.code().settle && !self.settled()
+    }
+
     /// Lets transitions without event and interval fire until none is enabled; how many did.
     #[inline]
     fn settle(&mut self, observer: &mut impl Observer<P::Event, P::Transition, P::Output>) -> u32 {
@@ -242,8 +249,10 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         if C > 0
             && let Some(take) = code.takes.get(usize::from(entry.transition))
         {
-            let between = minus(&self.marking, take);
-            restart(&mut self.clocks, &self.program, &between, |clock| clock == entry.clock);
+            self.restart(&minus(&self.marking, take));
+            if let Some(elapsed) = self.clocks.get_mut(usize::from(entry.clock)) {
+                *elapsed = 0;
+            }
         }
         self.marking = after;
         let id = entry.id();
@@ -273,14 +282,18 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     }
 
     /// The transition without event that is due first, and how long it has to wait.
+    #[inline]
     fn due(&self) -> Option<(u32, Entry<W>)> {
         let code = self.program.code();
         let mut first: Option<(u32, &Entry<W>)> = None;
         // In their order, so that of several due at one instant the first one goes first.
-        for (clock, &elapsed) in code.clocks.iter().zip(&self.clocks) {
-            let Some(entry) = code.entries.get(usize::from(clock.entry)) else { continue };
-            let waits = clock.earliest.saturating_sub(elapsed);
-            if !clock.event && first.is_none_or(|(least, _)| waits < least) && self.can(&code, entry) {
+        for entry in code.row(usize::from(code.events) + 1, &self.marking)? {
+            let number = usize::from(entry.clock);
+            let (Some(clock), Some(elapsed)) = (code.clocks.get(number), self.clocks.get(number)) else {
+                continue;
+            };
+            let waits = clock.earliest.saturating_sub(*elapsed);
+            if first.is_none_or(|(least, _)| waits < least) && self.can(&code, entry) {
                 first = Some((waits, entry));
             }
         }
@@ -294,6 +307,16 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             && (code.bounded || code.holds(&code.bounds, &code.after(&self.marking, &entry.delta)))
     }
 
+    /// Starts clocks anew of transitions that what was taken has left disabled; given what is left.
+    pub(super) fn restart(&mut self, left: &[u64; W]) {
+        let code = self.program.code();
+        for (elapsed, clock) in self.clocks.iter_mut().zip(code.clocks) {
+            if !code.holds(left, &clock.need) {
+                *elapsed = 0;
+            }
+        }
+    }
+
     /// Lets time pass for the clocks alone.
     pub(super) fn pass(&mut self, time: u64) {
         self.now.0 = self.now.0.saturating_add(time);
@@ -303,7 +326,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let code = self.program.code();
         let time = u32::try_from(time).unwrap_or(u32::MAX);
         for (elapsed, clock) in self.clocks.iter_mut().zip(code.clocks) {
-            if enables(&self.program, clock, &self.marking) {
+            if code.holds(&self.marking, &clock.need) {
                 *elapsed = elapsed.saturating_add(time).min(clock.cap());
             }
         }
@@ -357,33 +380,6 @@ impl<P: Program<W> + StateMachine, const W: usize, const C: usize> Player<P, W, 
             Some(state) => *state,
             // A state machine has one token, so this is never needed.
             None => P::STATES[0],
-        }
-    }
-}
-
-/// Whether the tokens that a transition with an interval needs are there.
-#[inline]
-pub(super) fn enables<P: Program<W>, const W: usize>(
-    program: &P,
-    clock: &Clock<W>,
-    marking: &[u64; W],
-) -> bool {
-    // Asked of the program again, since what is passed along is copied to the stack of small processors.
-    let code = program.code();
-    code.entries.get(usize::from(clock.entry)).is_some_and(|entry| code.holds(marking, &entry.need))
-}
-
-/// Starts clocks anew after a firing: of transitions that fired themselves, or that what was taken had left disabled.
-pub(super) fn restart<P: Program<W>, const W: usize, const C: usize>(
-    clocks: &mut [u32; C],
-    program: &P,
-    between: &[u64; W],
-    fired: impl Fn(u16) -> bool,
-) {
-    for (number, (elapsed, clock)) in (0_u16..).zip(clocks.iter_mut().zip(program.code().clocks)) {
-        let kept = enables(program, clock, between) && !fired(number);
-        if !kept {
-            *elapsed = 0;
         }
     }
 }

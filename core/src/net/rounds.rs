@@ -33,7 +33,7 @@
 //! ```
 
 use super::code::Entry;
-use super::player::{Player, minus, restart};
+use super::player::{Player, minus};
 use super::program::{Firing, Kind, Observer, Program};
 use crate::units::Millis;
 
@@ -83,15 +83,15 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         if !code.holds(&code.bounds, &after) {
             return Round { full: true, ..round };
         }
-        let (between, mut again, mut fired_clocks) = (left, (self.marking, [0; W]), [false; C]);
+        let mut again = (self.marking, [0; W]);
         for &at in code.order {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
             if !self.takes_part(entry, &again.0, events) {
                 continue;
             }
             again = self.applied(entry, &again.0, &again.1);
-            if let Some(fired) = fired_clocks.get_mut(usize::from(entry.clock)) {
-                *fired = true;
+            if let Some(elapsed) = self.clocks.get_mut(usize::from(entry.clock)) {
+                *elapsed = 0;
             }
             round.fired = round.fired.saturating_add(1);
             let id = entry.id();
@@ -108,10 +108,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
                 at: self.now,
             });
         }
-        if C > 0 {
-            let fired = |clock: u16| fired_clocks.get(usize::from(clock)).is_some_and(|&fired| fired);
-            restart(&mut self.clocks, &self.program, &between, fired);
-        }
+        self.restart(&left);
         self.marking = after;
         round
     }

@@ -1,7 +1,7 @@
 //! A marking that is stored and comes back, if it belongs to this net and breaks none of its laws.
 
 use super::data::{Law, PlaceId, Role, TransitionId};
-use super::player::{Player, enables};
+use super::player::Player;
 use super::program::Program;
 use crate::units::Millis;
 
@@ -134,7 +134,7 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             return Err(RestoreError::Law(law));
         }
         for (clock, &elapsed) in code.clocks.iter().zip(&from.clocks) {
-            let most = if enables(&player.program, clock, &from.marking) { clock.cap() } else { 0 };
+            let most = if code.holds(&from.marking, &clock.need) { clock.cap() } else { 0 };
             if elapsed > most {
                 let entry = code.entries.get(usize::from(clock.entry));
                 return Err(RestoreError::Clock(

@@ -102,15 +102,16 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
             for _ in 0..waiting {
                 let before = (self.marking, self.clocks, self.slots);
                 let Some((event, carries)) = self.read(at) else { break };
-                match self.deliver(event, carries, witness) {
-                    Offered::Fired(_) => turned.fired += 1,
-                    Offered::Ignored | Offered::NotNow => turned.ignored += 1,
+                let count = match self.deliver(event, carries, witness) {
+                    Offered::Fired(_) => &mut turned.fired,
+                    Offered::Ignored | Offered::NotNow => &mut turned.ignored,
                     Offered::Refused { .. } => {
                         (self.marking, self.clocks, self.slots) = before;
-                        turned.waiting += 1;
+                        turned.waiting = turned.waiting.saturating_add(1);
                         break;
                     }
-                }
+                };
+                *count = count.saturating_add(1);
             }
         }
     }
@@ -238,7 +239,7 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
 
     /// The row of what fires at once by itself in a component.
     fn urgent(&self, component: u16) -> u16 {
-        self.program.code().events.last().copied().unwrap_or(0) + component
+        self.program.code().events.last().copied().unwrap_or(0).saturating_add(component)
     }
 
     /// The first transition of a row that can fire now.
@@ -358,7 +359,7 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         if waiting >= u32::from(it.capacity) {
             return Err(Full(mailbox));
         }
-        if let Some(slot) = self.slots.get_mut(usize::from(it.slot) + waiting as usize) {
+        if let Some(slot) = self.slots.iter_mut().skip(usize::from(it.slot)).nth(waiting as usize) {
             *slot = carries;
         }
         self.count(&it, true);
@@ -371,9 +372,11 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         let it = self.program.code().mailboxes.get(mailbox).copied()?;
         let waiting = it.waiting.of(&self.marking) as usize;
         let slot = usize::from(it.slot);
-        let slots = self.slots.get_mut(slot..slot + waiting)?;
+        let slots = self.slots.get_mut(slot..slot.checked_add(waiting)?)?;
         let oldest = *slots.first()?;
-        slots.rotate_left(1);
+        // One place to the front each; `rotate_left` divides, and the compiler does not see that never by zero.
+        let mut behind = oldest;
+        slots.iter_mut().rev().for_each(|slot| core::mem::swap(slot, &mut behind));
         self.count(&it, false);
         Some((it.event, oldest))
     }

@@ -1,0 +1,48 @@
+//! Where the tokens of a place lie in a marking.
+
+/// The largest bound of a field; a place without a bound gets it.
+pub const LARGEST: u32 = 65_535;
+
+/// Where a place lies in a marking.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// The word.
+    pub word: u16,
+    /// The lowest bit.
+    pub shift: u8,
+    /// Bits for tokens; the guard bit is above them.
+    pub width: u8,
+}
+
+impl Field {
+    /// This many tokens in the word of the field.
+    pub const fn tokens(self, tokens: u32) -> u64 {
+        // Wraps, though a shift is below 64: of a field that is looked up the compiler does not know it.
+        (tokens as u64).wrapping_shl(self.shift as u32)
+    }
+
+    /// Its tokens in a marking.
+    #[inline]
+    pub const fn of<const W: usize>(self, marking: &[u64; W]) -> u32 {
+        if (self.word as usize) < W {
+            (marking[self.word as usize].wrapping_shr(self.shift as u32) & self.mask()) as u32
+        } else {
+            0
+        }
+    }
+
+    /// All tokens that it can hold, at the lowest bits.
+    pub(crate) const fn mask(self) -> u64 {
+        1_u64.wrapping_shl(self.width as u32).wrapping_sub(1)
+    }
+}
+
+/// How many bits hold this many tokens.
+pub(crate) const fn width_of(bound: u32) -> u8 {
+    let bound = if bound > LARGEST { LARGEST } else { bound };
+    if bound == 0 { 1 } else { width(bound) }
+}
+
+pub(super) const fn width(bound: u32) -> u8 {
+    (u32::BITS - bound.leading_zeros()) as u8
+}
