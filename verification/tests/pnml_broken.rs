@@ -223,6 +223,7 @@ fn broken_files_say_what_is_wrong_where_and_what_to_do() {
         ("open_interval", interval("open", "<cn>3</cn><cn>5</cn>")),
         ("half_open_interval", interval("closed-open", "<cn>3</cn><cn>5</cn>")),
         ("reversed_interval", interval("closed", "<cn>5</cn><cn>3</cn>")),
+        ("endless_interval", interval("closed", "<cn>0</cn><cn>4294967295</cn>")),
         ("interval_without_end", interval("closed", "<cn>5</cn>")),
         ("float_interval", interval("closed", "<cn>0.5</cn><cn>1</cn>")),
         // Parts of this project.

@@ -175,8 +175,10 @@ fn arcs(places: usize) -> impl Strategy<Value = Vec<Arc>> {
 }
 
 fn within() -> impl Strategy<Value = Option<Within>> {
-    let interval = (number(), number(), any::<bool>())
-        .prop_map(|(a, b, limited)| Within { earliest: a.min(b), latest: limited.then_some(a.max(b)) });
+    let interval = (number(), number(), any::<bool>()).prop_map(|(a, b, limited)| match limited {
+        true => Within { earliest: a.min(b).min(Within::LATEST), latest: Some(a.max(b).min(Within::LATEST)) },
+        false => Within { earliest: a, latest: None },
+    });
     proptest::option::of(interval)
 }
 

@@ -135,6 +135,19 @@ pub struct Within {
     pub latest: Option<u32>,
 }
 
+impl Within {
+    /// The latest end that an interval can have, in milliseconds; one that ends later has none.
+    pub const LATEST: u32 = u32::MAX - 1;
+
+    /// Whether it ends, if at all, neither before it begins nor after [`LATEST`](Self::LATEST).
+    pub const fn is_sound(self) -> bool {
+        match self.latest {
+            Some(latest) => self.earliest <= latest && latest <= Self::LATEST,
+            None => true,
+        }
+    }
+}
+
 /// `event` is left unanswered where `place` is marked, on purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Ignored {

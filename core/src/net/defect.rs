@@ -1,6 +1,6 @@
 //! Whether the lists of a net fit together.
 
-use super::data::{Arc, Law, Net, PlaceId, Role};
+use super::data::{Arc, Law, Net, PlaceId, Role, Within};
 
 /// What is wrong with the lists of a [`Net`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,9 +65,7 @@ impl Net<'_> {
                 && it.on.is_none_or(|event| (event.0 as usize) < self.events.len())
                 && it.emits.iter().all(|output| (output.0 as usize) < self.outputs.len());
             let sound = once([it.take, it.read]) && once([it.give, &[]]);
-            let timed = it.within.is_none_or(|within| {
-                within.latest.is_none_or(|latest| (within.earliest..u32::MAX).contains(&latest))
-            });
+            let timed = it.within.is_none_or(Within::is_sound);
             match (known, sound, timed) {
                 (false, ..) => Some(Defect::UnknownId { transition }),
                 (_, false, _) => Some(Defect::Arcs { transition }),

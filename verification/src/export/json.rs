@@ -163,7 +163,7 @@ fn fault(defect: Defect) -> &'static str {
         Defect::Arcs { .. } => {
             "has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` together"
         }
-        Defect::Interval { .. } => "has an interval that ends before it begins",
+        Defect::Interval { .. } => "has an interval that ends before it begins, or after 4294967294 ms",
         Defect::Place { .. } => {
             "has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
         }

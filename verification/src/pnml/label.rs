@@ -120,10 +120,17 @@ impl<'a> Parser<'a> {
         }
         let within =
             Within { earliest: bound(earliest)?, latest: if infinite { None } else { Some(bound(latest)?) } };
-        if within.latest.is_some_and(|latest| latest < within.earliest) {
-            return Err(Finding::new(span, "an interval that ends before it begins").help("swap its bounds"));
+        match within.latest {
+            Some(end) if end < within.earliest => {
+                Err(Finding::new(span, "an interval that ends before it begins").help("swap its bounds"))
+            }
+            Some(end) if !within.is_sound() => Err(Finding::new(
+                span,
+                format!("an interval that ends after {end} ms"),
+            )
+            .help(format!("the largest end is {}; no limit is written `<ci>infty</ci>`", Within::LATEST))),
+            _ => Ok(within),
         }
-        Ok(within)
     }
 }
 

@@ -202,13 +202,16 @@ fn transition<'a>(tag: &Tag<'a>) -> Result<OwnTransition<'a>, Finding> {
     let fields = Fields::of(tag, &known)?;
     let (earliest, latest) = (fields.number("earliest")?, fields.number("latest")?);
     let within = match (earliest, latest) {
-        (Some(earliest), latest) if latest.is_none_or(|latest| earliest <= latest) => {
+        (Some(earliest), latest) if (Within { earliest, latest }).is_sound() => {
             Some(Within { earliest, latest })
         }
         (None, None) => None,
         _ => {
             return Err(Finding::new(tag.span, "the interval of a transition does not begin before it ends")
-                .help("give `earliest`, and no smaller `latest`"));
+                .help(format!(
+                    "give `earliest`, and no smaller `latest` up to {}, or none",
+                    Within::LATEST
+                )));
         }
     };
     Ok(OwnTransition {

@@ -203,7 +203,7 @@ fn json_that_is_no_net_is_refused_with_the_reason() {
     );
     assert_eq!(
         json_refusal("\"within\": null", "\"within\": { \"earliest\": 2, \"latest\": 1 }"),
-        "transition `start` has an interval that ends before it begins"
+        "transition `start` has an interval that ends before it begins, or after 4294967294 ms"
     );
     assert_eq!(json::read("").unwrap_err().to_string(), "line 1, column 0: EOF while parsing a value");
     assert_eq!(
