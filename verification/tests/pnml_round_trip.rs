@@ -175,9 +175,13 @@ fn arcs(places: usize) -> impl Strategy<Value = Vec<Arc>> {
 }
 
 fn within() -> impl Strategy<Value = Option<Within>> {
-    let interval = (number(), number(), any::<bool>()).prop_map(|(a, b, limited)| match limited {
-        true => Within { earliest: a.min(b).min(Within::LATEST), latest: Some(a.max(b).min(Within::LATEST)) },
-        false => Within { earliest: a, latest: None },
+    let interval = (number(), number(), any::<bool>()).prop_map(|(a, b, limited)| {
+        if limited {
+            let [a, b] = [a, b].map(|it| it.min(Within::LATEST));
+            Within { earliest: a.min(b), latest: Some(a.max(b)) }
+        } else {
+            Within { earliest: a, latest: None }
+        }
     });
     proptest::option::of(interval)
 }
