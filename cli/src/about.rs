@@ -1,5 +1,6 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
+use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
@@ -28,6 +29,9 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Replay => schemas.into_root_schema_for::<ReplayAnswer>(),
         SchemaName::Models => schemas.into_root_schema_for::<ModelsAnswer>(),
         SchemaName::Simulate => schemas.into_root_schema_for::<SimulateAnswer>(),
+        SchemaName::Check => schemas.into_root_schema_for::<CheckAnswer>(),
+        SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
+        SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
     };
     Screen::json(&schema)?;
     Ok(Exit::Success)

@@ -1,7 +1,9 @@
 //! The command line.
 
+mod check;
 mod model;
 
+pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, StatespaceArgs, VerifyArgs};
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -110,6 +112,21 @@ Examples:
     /// Writes a model as a file of another tool, or as a drawing
     #[command(after_long_help = model::EXPORT_EXAMPLES)]
     Export(ExportArgs),
+    /// Checks whether properties of a model hold, and shows why
+    ///
+    /// Every verdict is a proof: where a limit is reached before, the answer is that it is not known, and how much was
+    /// looked at. Transitions with intervals of time fire within them; events can come at any time. A system is
+    /// checked as one net, in every interleaving. A property that is false comes with a run that shows it.
+    #[command(after_long_help = check::CHECK_EXAMPLES)]
+    Check(CheckArgs),
+    /// Counts what is reachable in a model: markings, firings, deadlocks, tokens
+    ///
+    /// Of a time net, state classes are counted: markings with the times at which transitions can fire.
+    #[command(after_long_help = check::STATESPACE_EXAMPLES)]
+    Statespace(StatespaceArgs),
+    /// Checks a certificate again, without the engine that found it
+    #[command(after_long_help = check::VERIFY_EXAMPLES)]
+    Verify(VerifyArgs),
     /// Plays a net, with a list of events or by hand
     ///
     /// Each event is offered in its turn: a transition that is enabled fires, then those that fire by themselves; or
@@ -305,6 +322,9 @@ pub(crate) enum SchemaName {
     Replay,
     Models,
     Simulate,
+    Check,
+    Statespace,
+    Verify,
 }
 
 /// Who plans.

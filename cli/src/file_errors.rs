@@ -54,6 +54,21 @@ impl FileErrors {
         let errors = vec![FileError { message, at, label: None, help: None, related: None }];
         Self { source: source.to_owned(), text, errors, omitted: 0 }
     }
+
+    /// One error at a line and a column in characters, both from 1.
+    pub(crate) fn at_character(
+        source: &str,
+        text: String,
+        (line, column): (usize, usize),
+        message: String,
+        help: Option<String>,
+    ) -> Self {
+        let whole = text.split('\n').nth(line.saturating_sub(1)).unwrap_or_default();
+        let bytes = whole.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum::<usize>();
+        let mut errors = Self::at(source, text, line, bytes + 1, message);
+        errors.errors[0].help = help;
+        errors
+    }
 }
 
 impl From<MissionErrors> for FileErrors {

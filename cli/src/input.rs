@@ -12,6 +12,10 @@ pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
 pub(crate) const TRACE_BYTES: u64 = 256 << 20;
 /// The most bytes of a model.
 pub(crate) const MODEL_BYTES: u64 = 256 << 20;
+/// The most bytes of a file of properties.
+pub(crate) const PROPERTIES_BYTES: u64 = 64 << 20;
+/// The most bytes of a certificate.
+pub(crate) const CERTIFICATE_BYTES: u64 = 64 << 20;
 /// The most bytes of a list of events.
 pub(crate) const SCRIPT_BYTES: u64 = 1 << 20;
 

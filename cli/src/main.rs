@@ -7,7 +7,9 @@ mod about;
 mod allocate;
 mod answers;
 mod args;
+mod budget;
 mod catalogue;
+mod check;
 mod exit;
 mod export;
 mod file_errors;
@@ -19,11 +21,15 @@ mod model;
 mod models;
 mod output;
 mod plan;
+mod progress;
 mod render;
 mod replay;
 mod run;
 mod simulate;
 mod solve;
+mod statespace;
+mod subject;
+mod verify;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -41,6 +47,9 @@ fn main() -> ExitCode {
         Command::Replay(args) => replay::replay(&args, &screen),
         Command::Models(args) => models::models(&args, &screen),
         Command::Export(args) => export::export(&args, &screen),
+        Command::Check(args) => check::check(&args, &screen),
+        Command::Statespace(args) => statespace::statespace(&args, &screen),
+        Command::Verify(args) => verify::verify(&args, &screen),
         Command::Simulate(args) => simulate::simulate(&args, &screen),
         Command::Table(args) => about::table(&args),
         Command::Schema(args) => about::schema(&args),

@@ -9,7 +9,7 @@ use cotama_core::net::Known;
 use cotama_core::net::owned::OwnedNet;
 use cotama_models::nets;
 use cotama_verification::export::json::{self, JsonNetError};
-use cotama_verification::pnml;
+use cotama_verification::pnml::{self, Imported, Limits};
 use std::path::Path;
 
 /// A net and what is known of it.
@@ -20,6 +20,15 @@ pub(crate) struct Loaded {
     pub(crate) net: OwnedNet,
     /// How it was checked while this program was compiled, if it was.
     pub(crate) known: Option<Known>,
+    /// What its PNML file calls places and transitions; nothing of other models.
+    pub(crate) place_ids: Vec<String>,
+    pub(crate) transition_ids: Vec<String>,
+}
+
+impl Loaded {
+    fn new(name: &str, net: OwnedNet, known: Option<Known>) -> Self {
+        Self { name: name.to_owned(), net, known, place_ids: Vec::new(), transition_ids: Vec::new() }
+    }
 }
 
 /// The net of this name, or of the file at this path.
@@ -27,11 +36,11 @@ pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
     let (family, number) = name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
     match catalogue::entry(family) {
         Some(Entry { kind: Kind::Net(net, known), .. }) if number.is_none() => {
-            Ok(Loaded { name: name.to_owned(), net: OwnedNet::from(net), known: Some(known) })
+            Ok(Loaded::new(name, OwnedNet::from(net), Some(known)))
         }
         Some(Entry { kind: Kind::Family(_), .. }) => {
             let net = nets::find(name).map_err(|error| Failure::new(error.to_string()))?;
-            Ok(Loaded { name: name.to_owned(), net, known: None })
+            Ok(Loaded::new(name, net, None))
         }
         Some(Entry { kind: Kind::System(system), .. }) if number.is_none() => {
             let nets: Vec<_> = system.components.iter().map(|it| it.net.name).collect();
@@ -72,13 +81,14 @@ fn file(path: &str) -> Result<Loaded, Failure> {
         Some("pnml" | "xml") => false,
         _ => bytes.trim_ascii_start().first() == Some(&b'{'),
     };
-    let net = if is_json {
+    if is_json {
         let text = input::utf8(path, WHAT, bytes)?;
-        json::read(&text).map_err(|error| refused(input::name(path), text, error))?
-    } else {
-        pnml::read(input::name(path), &bytes)?
-    };
-    Ok(Loaded { name: path.to_owned(), net, known: None })
+        let net = json::read(&text).map_err(|error| refused(input::name(path), text, error))?;
+        return Ok(Loaded::new(path, net, None));
+    }
+    let Imported { net, place_ids, transition_ids } =
+        pnml::read_within(input::name(path), &bytes, Limits::default())?;
+    Ok(Loaded { place_ids, transition_ids, ..Loaded::new(path, net, None) })
 }
 
 fn refused(source: &str, text: String, error: JsonNetError) -> Failure {

@@ -1,6 +1,6 @@
 //! `cotama models`: what models there are, and what is known of one.
 
-mod law;
+pub(crate) mod law;
 
 use crate::answers::model::{
     ComponentRow, LawRow, ModelKind, ModelRow, ModelsAnswer, NumbersRow, Shown, SignalRow,

@@ -77,9 +77,13 @@ fn every_command_refuses_every_broken_file_at_its_place() {
     for (name, bytes, place) in broken() {
         let file = format!("{name}.pnml");
         folder.write(&file, bytes);
-        for command in
-            [format!("models {file} --json"), format!("simulate {file}"), format!("export {file} -o it.svg")]
-        {
+        for command in [
+            format!("models {file} --json"),
+            format!("simulate {file}"),
+            format!("export {file} -o it.svg"),
+            format!("check {file} --json"),
+            format!("statespace {file} --mcc"),
+        ] {
             let ended = folder.shell(&format!("ulimit -v 500000; cotama {command}"));
             assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{command}: {ended:?}");
             let first = ended.stderr.split(&format!("{file}:")).nth(1).unwrap_or_default();

@@ -2,7 +2,7 @@
 
 use crate::common::Folder;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 15] = [
     "list",
     "plan",
     "run",
@@ -11,6 +11,9 @@ const COMMANDS: [&str; 12] = [
     "models",
     "export",
     "simulate",
+    "check",
+    "statespace",
+    "verify",
     "table",
     "schema",
     "completions",

@@ -6,6 +6,7 @@
 mod allocate;
 mod bad_input;
 mod broken_pnml;
+mod check;
 mod common;
 mod export;
 mod help;
@@ -16,3 +17,4 @@ mod run;
 mod schemas;
 mod screens;
 mod simulate;
+mod statespace;

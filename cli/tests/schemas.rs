@@ -4,7 +4,8 @@ use crate::common::{Folder, compare};
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 7] = ["list", "plan", "run", "allocate", "replay", "models", "simulate"];
+const COMMANDS: [&str; 10] =
+    ["list", "plan", "run", "allocate", "replay", "models", "simulate", "check", "statespace", "verify"];
 
 fn stored(command: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{command}.json"))

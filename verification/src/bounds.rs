@@ -6,6 +6,7 @@
 
 use crate::pt::Pt;
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 
 /// The most sums that are kept at a time, and that one transition may add.
 const SUMS: usize = 2_000;
@@ -31,10 +32,12 @@ const WORK: usize = 50_000_000;
 pub fn bounds(pt: &Pt) -> Vec<Option<u32>> {
     let mut bounds = vec![None; pt.places.len()];
     for sum in sums(pt).iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0)) {
-        let at_start = |&(place, weight): &(u32, i64)| weight as u128 * pt.initial[place as usize] as u128;
+        let at_start = |&(place, weight): &(u32, i64)| {
+            u128::from(weight.unsigned_abs()) * u128::from(pt.initial[place as usize])
+        };
         let total: u128 = sum.weights.iter().map(at_start).sum();
         for &(place, weight) in &sum.weights {
-            let bound = u32::try_from(total / weight as u128).ok();
+            let bound = u32::try_from(total / u128::from(weight.unsigned_abs())).ok();
             let known = &mut bounds[place as usize];
             *known = match (*known, bound) {
                 (Some(known), Some(bound)) => Some(bound.min(known)),
@@ -54,59 +57,165 @@ struct Sum {
     places: u64,
 }
 
+/// The sums that are kept, and what is known of them to find the next step fast.
+struct Sums<'p> {
+    /// For each place the tokens at the start.
+    initial: &'p [u32],
+    /// In the order in which they were made; `None` for those that were given up.
+    all: Vec<Option<Sum>>,
+    kept: usize,
+    /// For each transition the sums that it changes, and maybe some that were given up.
+    changed: Vec<Vec<u32>>,
+    /// For each place the sums whose first place it is, and maybe some that were given up.
+    first: Vec<Vec<u32>>,
+    costs: Vec<Cost>,
+    /// The transitions that increase some sum, the cheapest first.
+    open: BTreeSet<(Cost, u32)>,
+    /// Transitions that increase no sum any more.
+    settled: Vec<bool>,
+    /// Numbers that were looked at.
+    work: usize,
+}
+
+/// What it costs that a transition increases no sum: how many pairs there are, and how long all their sums are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct Cost {
+    pairs: usize,
+    length: usize,
+    up: usize,
+    down: usize,
+}
+
+/// A combination of two sums.
+struct Combined {
+    sum: Sum,
+    /// The one of them that shrinks, if the combination says all that it says.
+    replaces: Option<usize>,
+}
+
 fn sums(pt: &Pt) -> Vec<Sum> {
-    let mut sums: Vec<Sum> = (0..pt.places.len() as u32)
-        .map(|place| Sum {
-            weights: vec![(place, 1)],
-            grows: pt.changers.of(place).to_vec(),
-            places: 1 << (place % 64),
-        })
-        .collect();
-    let mut settled = vec![false; pt.transitions.len()];
-    let mut work = 0;
-    while work < WORK {
-        let Some(transition) = cheapest(&sums, settled.len(), &mut work) else { break };
-        settled[transition as usize] = true;
-        let (mut grown, mut kept): (Vec<_>, Vec<_>) =
-            sums.into_iter().partition(|it| change(it, transition) > 0);
-        let mut shrunk: Vec<usize> = (0..kept.len()).filter(|&at| change(&kept[at], transition) < 0).collect();
+    let (places, transitions) = (pt.places.len(), pt.transitions.len());
+    let mut sums = Sums {
+        initial: &pt.initial,
+        all: Vec::new(),
+        kept: 0,
+        changed: vec![Vec::new(); transitions],
+        first: vec![Vec::new(); places],
+        costs: vec![Cost::default(); transitions],
+        open: BTreeSet::new(),
+        settled: vec![false; transitions],
+        work: 0,
+    };
+    for place in 0..places as u32 {
+        let grows = pt.changers.of(place).to_vec();
+        sums.keep(Sum { weights: vec![(place, 1)], grows, places: 1 << (place % 64) });
+    }
+    while let Some((_, transition)) = sums.open.first().copied().filter(|_| sums.work < WORK) {
+        for Combined { sum, replaces } in sums.settle(transition) {
+            if sums.kept < places + SUMS && !sums.has_within(&sum) {
+                sums.keep(sum);
+                sums.give_up(replaces);
+            }
+        }
+    }
+    sums.all.into_iter().flatten().collect()
+}
+
+impl Sums<'_> {
+    fn keep(&mut self, sum: Sum) {
+        let number = self.all.len() as u32;
+        self.first[sum.weights[0].0 as usize].push(number);
+        for &(transition, _) in &sum.grows {
+            self.changed[transition as usize].push(number);
+        }
+        self.count(&sum, usize::wrapping_add);
+        self.kept += 1;
+        self.all.push(Some(sum));
+    }
+
+    /// Counts a sum in, or out, of the costs of the transitions that change it.
+    fn count(&mut self, sum: &Sum, change: fn(usize, usize) -> usize) {
+        self.work += sum.grows.len();
+        for &(transition, by) in &sum.grows {
+            let cost = &mut self.costs[transition as usize];
+            self.open.remove(&(*cost, transition));
+            let side = if by > 0 { &mut cost.up } else { &mut cost.down };
+            *side = change(*side, 1);
+            cost.length = change(cost.length, sum.weights.len());
+            cost.pairs = cost.up * cost.down;
+            if cost.up > 0 {
+                self.open.insert((*cost, transition));
+            }
+        }
+    }
+
+    fn give_up(&mut self, number: Option<usize>) {
+        if let Some(sum) = number.and_then(|it| self.all[it].take()) {
+            self.kept -= 1;
+            self.count(&sum, usize::wrapping_sub);
+        }
+    }
+
+    /// Whether a sum that grows by one transition adds nothing to another one that it is added to: no tokens at the start, and
+    /// no growth by other transitions. So a long chain of places is not added up from each of them.
+    fn adds_nothing(&self, up: &Sum) -> bool {
+        up.weights.iter().all(|it| self.initial[it.0 as usize] == 0)
+            && up.grows.iter().filter(|it| it.1 > 0).count() == 1
+    }
+
+    /// Gives up the sums that a transition increases; returns, short ones first, what takes their place.
+    fn settle(&mut self, transition: u32) -> Vec<Combined> {
+        self.settled[transition as usize] = true;
+        let (mut grown, mut shrunk) = (Vec::new(), Vec::new());
+        for number in std::mem::take(&mut self.changed[transition as usize]) {
+            let slot = &mut self.all[number as usize];
+            match slot.as_ref().map(|it| change(it, transition) > 0) {
+                Some(true) => grown.extend(slot.take()),
+                Some(false) => shrunk.push(number as usize),
+                None => {}
+            }
+        }
+        self.kept -= grown.len();
+        for sum in &grown {
+            self.count(sum, usize::wrapping_sub);
+        }
+        let length = |it: usize| self.all[it].as_ref().map(|it| it.weights.len());
         while grown.len() * shrunk.len() > SUMS {
             // The shortest ones say most.
             if grown.len() > shrunk.len() {
                 grown.sort_by_key(|it| it.weights.len());
                 grown.truncate(grown.len() / 2);
             } else {
-                shrunk.sort_by_key(|&it| kept[it].weights.len());
+                shrunk.sort_by_key(|&it| length(it));
                 shrunk.truncate(shrunk.len() / 2);
             }
         }
-        let mut new: Vec<Sum> = grown
-            .iter()
-            .flat_map(|up| shrunk.iter().map(move |&down| (up, down)))
-            .filter_map(|(up, down)| balanced(up, &kept[down], transition))
-            .collect();
-        new.sort_by_key(|it| it.weights.len());
-        for sum in new {
-            work += sum.weights.len() + sum.grows.len() + kept.len();
-            if kept.len() < pt.places.len() + SUMS && !kept.iter().any(|it| it.is_within(&sum, &settled)) {
-                kept.push(sum);
+        let mut new = Vec::new();
+        for up in &grown {
+            let adds_nothing = self.adds_nothing(up);
+            for &number in &shrunk {
+                let sum = self.all[number].as_ref().and_then(|down| balanced(up, down, transition));
+                let replaces = adds_nothing.then_some(number);
+                new.extend(sum.map(|sum| Combined { sum, replaces }));
             }
         }
-        sums = kept;
+        new.sort_by_key(|it| it.sum.weights.len());
+        self.work += new.iter().map(|it| it.sum.weights.len() + it.sum.grows.len()).sum::<usize>();
+        new
     }
-    sums
-}
 
-/// The transition that increases some sum and needs the fewest combinations.
-fn cheapest(sums: &[Sum], transitions: usize, work: &mut usize) -> Option<u32> {
-    let mut counts = vec![(0_usize, 0_usize); transitions];
-    for &(transition, by) in sums.iter().flat_map(|it| &it.grows) {
-        let (up, down) = &mut counts[transition as usize];
-        *if by > 0 { up } else { down } += 1;
-        *work += 1;
+    /// Whether some sum that is kept says all that this one says.
+    fn has_within(&mut self, sum: &Sum) -> bool {
+        sum.weights.iter().any(|&(place, _)| {
+            let numbers = &mut self.first[place as usize];
+            numbers.retain(|&it| self.all[it as usize].is_some());
+            self.work += numbers.len();
+            numbers
+                .iter()
+                .filter_map(|&it| self.all[it as usize].as_ref())
+                .any(|it| it.is_within(sum, &self.settled))
+        })
     }
-    let growing = (0..transitions).filter(|&it| counts[it].0 > 0);
-    growing.min_by_key(|&it| counts[it].0 * counts[it].1).map(|it| it as u32)
 }
 
 fn change(sum: &Sum, transition: u32) -> i64 {
@@ -117,11 +226,11 @@ fn change(sum: &Sum, transition: u32) -> i64 {
 /// large.
 fn balanced(up: &Sum, down: &Sum, transition: u32) -> Option<Sum> {
     let (a, b) = (change(down, transition).checked_neg()?, change(up, transition));
-    let divisor = gcd(a as u64, b as u64) as i64;
+    let divisor = gcd(a.unsigned_abs(), b.unsigned_abs()).cast_signed();
     let (a, b) = (a / divisor, b / divisor);
     let mut weights = combined(&up.weights, a, &down.weights, b)?;
     let mut grows = combined(&up.grows, a, &down.grows, b)?;
-    let all = weights.iter().chain(&grows).fold(0, |all, &(_, it)| gcd(all, it.unsigned_abs())) as i64;
+    let all = weights.iter().chain(&grows).fold(0, |all, &(_, it)| gcd(all, it.unsigned_abs())).cast_signed();
     if all > 1 {
         weights.iter_mut().chain(&mut grows).for_each(|it| it.1 /= all);
     }

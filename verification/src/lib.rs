@@ -1,15 +1,73 @@
-//! Nets in and out.
+//! The model checker, and nets in and out.
 //!
 //! | module | what it is |
 //! | --- | --- |
+//! | [`bounds`] | bounds of places that the structure of a net proves |
+//! | [`certificate`] | evidence for a verdict, and a small checker of it |
+//! | [`check`] | a question, its answer, and the choice among engines |
+//! | [`coverability`] | nets with infinitely many markings: boundedness and what more tokens keep true |
+//! | [`diagnosis`] | what a person sees of a verdict |
+//! | [`explicit`] | the engine that passes through reachable markings one by one |
 //! | [`export`] | a net as a file of another tool, or as a drawing |
 //! | [`flat`] | a system of nets as one net |
+//! | [`guide`] | how to check a net of one's own, and ten counterexamples |
 //! | [`pnml`] | the exchange format of Petri nets, read and written |
 //! | [`pt`] | a net without time and priorities, as engines read it |
 //! | [`property`] | what is asked of a net |
+//! | [`reductions`] | smaller nets with the same answer |
+//! | [`structural`] | the engine that looks at the structure of a net and visits no marking |
+//! | [`stubborn`] | the engine that fires only some transitions in each marking |
+//! | [`temporal`] | formulas of CTL and LTL |
+//! | [`tina`] | the exchange format of time Petri nets, read and written |
+//! | [`tpn`] | time Petri nets and their state classes |
 
+pub mod bounds;
+pub mod certificate;
+pub mod check;
+pub mod coverability;
+pub mod diagnosis;
+pub mod explicit;
 pub mod export;
 pub mod flat;
 pub mod pnml;
 pub mod property;
 pub mod pt;
+pub mod reductions;
+pub mod structural;
+pub mod stubborn;
+pub mod temporal;
+pub mod tina;
+pub mod tpn;
+
+#[doc = include_str!("guide.md")]
+#[doc = "## Two trains\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/trains.txt")]
+#[doc = "```\n"]
+#[doc = "## A crossing whose lights do not wait for each other\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/crossing.txt")]
+#[doc = "```\n"]
+#[doc = "## A charger that gets hot\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/charger.txt")]
+#[doc = "```\n"]
+#[doc = "## Philosophers\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/philosophers.txt")]
+#[doc = "```\n"]
+#[doc = "## A mailbox that is too small\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/mailbox.txt")]
+#[doc = "```\n"]
+#[doc = "## Two belts on one fuse\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/belts.txt")]
+#[doc = "```\n"]
+#[doc = "## A server that is unfair\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/server.txt")]
+#[doc = "```\n"]
+#[doc = "## A watchdog whose clock is started anew\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/watchdog.txt")]
+#[doc = "```\n"]
+#[doc = "## Nothing to be afraid of: true for no reason\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/alarm.txt")]
+#[doc = "```\n"]
+#[doc = "## What never happens\n\n```text"]
+#[doc = include_str!("../tests/golden/diagnosis/unused.txt")]
+#[doc = "```\n"]
+pub mod guide {}

@@ -3,7 +3,7 @@
 use cotama_core::net::{Law, Net, PlaceId};
 
 /// A law as the net language writes it; sums have weights where they are not one.
-pub(super) fn text(net: &Net<'_>, law: &Law<'_>) -> String {
+pub(crate) fn text(net: &Net<'_>, law: &Law<'_>) -> String {
     let name = |PlaceId(id): PlaceId| net.places.get(id as usize).map_or("?", |place| place.name);
     match *law {
         Law::Invariant { sum, equals } => {

@@ -1,6 +1,7 @@
 //! What people see.
 
 pub(crate) mod allocate;
+pub(crate) mod check;
 pub(crate) mod models;
 pub(crate) mod numbers;
 pub(crate) mod plan;
@@ -9,8 +10,10 @@ pub(crate) mod run;
 pub(crate) mod simulate;
 pub(crate) mod snippet;
 pub(crate) mod sparkline;
+pub(crate) mod statespace;
 pub(crate) mod style;
 pub(crate) mod table;
+pub(crate) mod verify;
 
 /// A text of a file as a screen shows it: what a terminal would obey is written as its code.
 pub(crate) fn visible(text: &str) -> String {

@@ -6,50 +6,13 @@
 //! instead the transitions that may be enabled, each in a single chunk, and the rest of what they need is looked up.
 
 use super::layout::{Field, Layout};
+use super::view::View;
 use crate::pt::Pt;
 
 /// Bits of a chunk.
 const CHUNK: u32 = 8;
 /// Words of the bits of all rows: beyond it rows list transitions.
 const MOST: usize = 1 << 19;
-
-/// What a marking says, and room to compute it in.
-#[derive(Clone, Debug, Default)]
-pub(super) struct View {
-    /// A bit for each transition: those that are enabled.
-    pub(super) enabled: Vec<u64>,
-    /// Words of implied places.
-    pub(super) computed: Vec<u64>,
-    /// Tokens of all places.
-    pub(super) sum: u64,
-}
-
-impl View {
-    /// Whether no transition is enabled.
-    pub(super) fn is_dead(&self) -> bool {
-        self.enabled.iter().all(|&it| it == 0)
-    }
-
-    /// Enabled transitions in their order.
-    pub(super) fn transitions(&self) -> impl Iterator<Item = u32> + '_ {
-        self.enabled.iter().enumerate().flat_map(|(at, &bits)| Bits(bits).map(move |bit| 64 * at as u32 + bit))
-    }
-}
-
-/// The positions of the set bits of a word.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Bits(pub(super) u64);
-
-impl Iterator for Bits {
-    type Item = u32;
-
-    #[inline]
-    fn next(&mut self) -> Option<u32> {
-        let bit = self.0.trailing_zeros();
-        self.0 &= self.0.wrapping_sub(1);
-        (bit < u64::BITS).then_some(bit)
-    }
-}
 
 /// Which values chunks, and which most tokens wide fields had.
 #[derive(Clone, Debug)]
@@ -117,7 +80,8 @@ impl Enabling {
         for (place, field) in layout.fields.iter().enumerate() {
             by_word[field.word].push((place as u32, *field));
         }
-        for (word, fields) in by_word.into_iter().enumerate() {
+        for (word, mut fields) in by_word.into_iter().enumerate() {
+            fields.sort_by_key(|it| it.1.shift);
             if word == layout.stored {
                 in_stored = (chunks.len(), wide.len());
             }
@@ -136,8 +100,8 @@ impl Enabling {
         for it in &layout.implied {
             let field = layout.fields[it.place as usize];
             let word = &mut start.computed[field.word - layout.stored];
-            *word = word.wrapping_add((it.constant as u64) << field.shift);
-            start.sum = start.sum.wrapping_add(it.constant as u64);
+            *word = word.wrapping_add(it.constant.cast_unsigned() << field.shift);
+            start.sum = start.sum.wrapping_add(it.constant.cast_unsigned());
         }
         let mut it = Self {
             stored: layout.stored,
@@ -167,9 +131,9 @@ impl Enabling {
             let field = layout.fields[it.place as usize];
             for &(place, weight) in &it.terms {
                 let adds = &mut adds[place as usize];
-                adds[0] = adds[0].wrapping_add(weight as u64);
+                adds[0] = adds[0].wrapping_add(weight.cast_unsigned());
                 let word = &mut adds[1 + field.word - layout.stored];
-                *word = word.wrapping_add((weight as u64) << field.shift);
+                *word = word.wrapping_add(weight.cast_unsigned() << field.shift);
             }
         }
         let stride = self.bits + 1 + layout.computed;
@@ -200,7 +164,7 @@ impl Enabling {
                 .into_iter()
                 .map(|tokens| {
                     let mut allowed = self.start.enabled.clone();
-                    forbid(pt, wide.place, tokens - 1, &mut allowed);
+                    forbid(pt, wide.place, tokens.saturating_sub(1), &mut allowed);
                     (tokens, allowed)
                 })
                 .collect();
@@ -233,12 +197,6 @@ impl Enabling {
             }
         }
         self.listed = Some(listed);
-    }
-
-    /// Bytes of the tables.
-    pub(super) fn bytes(&self) -> usize {
-        let listed = self.listed.as_ref().map_or(0, |it| it.rows.iter().map(|row| 24 + 4 * row.len()).sum());
-        8 * self.rows.len() + listed
     }
 
     /// Room for a view.
@@ -321,9 +279,10 @@ impl Enabling {
     fn enable(&self, listed: &Listed, marking: &[u64], view: &mut View) {
         let View { enabled, computed, .. } = view;
         let word = |at: usize| if at < self.stored { marking[at] } else { computed[at - self.stored] };
-        let rows = self.chunks.iter().map(|it| {
-            &listed.rows[it.row + ((word(it.word) >> it.shift) & it.mask) as usize]
-        });
+        let rows = self
+            .chunks
+            .iter()
+            .map(|it| &listed.rows[it.row + ((word(it.word) >> it.shift) & it.mask) as usize]);
         for &transition in rows.chain(self.wide.iter().map(|it| &it.listed)).flatten() {
             if listed.rest[transition as usize].iter().all(|(it, need)| it.tokens(word(it.word)) >= *need) {
                 enabled[transition as usize / 64] |= 1 << (transition % 64);

@@ -87,11 +87,11 @@ fn invariants(pt: &Pt) -> Vec<Row> {
 
 fn eliminated(row: &(Row, Row), pivot: &(Row, Row), transition: u32) -> Option<(Row, Row)> {
     let (a, b) = (weight(&pivot.0, transition), weight(&row.0, transition));
-    let divisor = gcd(a.unsigned_abs(), b.unsigned_abs()) as i64;
+    let divisor = gcd(a.unsigned_abs(), b.unsigned_abs()).cast_signed();
     let (a, b) = (a / divisor, b.checked_neg()? / divisor);
     let mut changes = combined(&row.0, a, &pivot.0, b)?;
     let mut weights = combined(&row.1, a, &pivot.1, b)?;
-    let all = changes.iter().chain(&weights).fold(0, |all, it| gcd(all, it.1.unsigned_abs())) as i64;
+    let all = changes.iter().chain(&weights).fold(0, |all, it| gcd(all, it.1.unsigned_abs())).cast_signed();
     if all > 1 {
         changes.iter_mut().chain(&mut weights).for_each(|it| it.1 /= all);
     }

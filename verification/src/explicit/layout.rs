@@ -25,16 +25,16 @@ pub(super) struct Width {
 }
 
 impl Width {
-    /// For each place what is proved, or a first guess.
-    pub(super) fn of(pt: &Pt) -> Vec<Self> {
+    /// For each place what is proved, or a first guess; `None` when a firing can add more tokens than there may be.
+    pub(super) fn of(pt: &Pt) -> Option<Vec<Self>> {
         let width = |tokens: u32| (u32::BITS - tokens.leading_zeros()).max(1);
-        let first = |(place, bound): (usize, Option<u32>)| match bound {
-            Some(bound) => Self { bits: width(bound), proved: true },
-            None => {
-                // One firing beyond the guess must not pass the additional bit.
-                let given = pt.changers.of(place as u32).iter().map(|it| it.1).max().unwrap_or(0).max(0);
-                Self { bits: width(pt.initial[place].max(given as u32)), proved: false }
+        let first = |(place, bound): (usize, Option<u32>)| {
+            if let Some(bound) = bound {
+                return Some(Self { bits: width(bound), proved: true });
             }
+            // One firing beyond the guess must not pass the additional bit.
+            let given = pt.changers.of(place as u32).iter().map(|it| it.1).max().unwrap_or(0).max(0);
+            Some(Self { bits: width(pt.initial[place].max(u32::try_from(given).ok()?)), proved: false })
         };
         bounds(pt).into_iter().enumerate().map(first).collect()
     }
@@ -116,7 +116,7 @@ impl Layout {
         for &(place, by) in pt.effects.of(transition) {
             let field = self.fields[place as usize];
             if field.word < self.stored {
-                words[field.word] = words[field.word].wrapping_add((by as u64) << field.shift);
+                words[field.word] = words[field.word].wrapping_add(by.cast_unsigned() << field.shift);
             }
         }
         words
@@ -137,8 +137,7 @@ impl Words {
 
     fn add(&mut self, width: u32) -> Field {
         let first = self.first;
-        let room =
-            |&(word, used): &(usize, &u32)| used + width <= if word == 0 { first } else { u64::BITS };
+        let room = |&(word, used): &(usize, &u32)| used + width <= if word == 0 { first } else { u64::BITS };
         let word = self.used.iter().enumerate().find(room).map_or(self.used.len(), |it| it.0);
         if word == self.used.len() {
             self.used.push(0);
@@ -153,7 +152,9 @@ impl Words {
 fn left_out(pt: &Pt, widths: &[Width]) -> Vec<Implied> {
     let words = |without: &[Implied]| {
         let mut kept = vec![true; widths.len()];
-        without.iter().for_each(|it| kept[it.place as usize] = false);
+        for it in without {
+            kept[it.place as usize] = false;
+        }
         let mut words = Words::new(63);
         for (width, _) in widths.iter().zip(kept).filter(|it| it.1) {
             words.add(width.field());

@@ -1,4 +1,80 @@
-//! What is asked of a net.
+//! What is asked of a net: the questions, a language to write them in, and the forms in which engines read them.
+//!
+//! ```
+//! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+//! use cotama_verification::property::{self, Kind, Question};
+//! use cotama_verification::pt::Pt;
+//!
+//! let mut lamp = OwnedNet::new("lamp", "");
+//! let off = lamp.place(OwnedPlace::new("off", 1)).unwrap();
+//! let on = lamp.place(OwnedPlace::new("on", 0)).unwrap();
+//! lamp.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
+//! let lamp = Pt::from(&lamp.view().net());
+//!
+//! let property = property::parse("AG !(on & off)", &lamp).unwrap();
+//! let Question::Formula(formula) = &property.question else { panic!("not a formula") };
+//! assert_eq!(formula.kind(), Kind::Reachability);
+//! assert_eq!(formula.display(&lamp).to_string(), "AG !(on & off)");
+//!
+//! let error = property::parse("EF onn", &lamp).unwrap_err();
+//! assert_eq!(error.to_string(), "property:1:4: there is no place `onn`\n  help: did you mean `on`?");
+//! ```
+//!
+//! # The language
+//!
+//! | question | asks |
+//! | --- | --- |
+//! | a formula | [`Question::Formula`] |
+//! | `bounds(p1 + p2)` | [`Question::Bound`] |
+//! | `bound(t -> p)` | [`Question::Response`] |
+//! | `live`, `quasi_live`, `stable`, `one_safe` | [`Question::Liveness`], [`Question::QuasiLiveness`], [`Question::StableMarking`], [`Question::OneSafe`] |
+//!
+//! Operators from the one that binds loosest to the one that binds tightest:
+//!
+//! | operators | meaning |
+//! | --- | --- |
+//! | `<->` | equivalence, from left to right |
+//! | `->` | implication, from right to left |
+//! | `\|`, `\|\|`, `or` | disjunction |
+//! | `&`, `&&`, `and` | conjunction |
+//! | `U` | until, from right to left; beside one of the above it stands in parentheses |
+//! | `!`, `not`, `A`, `E`, `X`, `F`, `G`, `AX`, `EX`, `AF`, `EF`, `AG`, `EG` | negation; quantifiers and temporal operators, alone or as a pair |
+//! | `<=`, `<`, `>=`, `>`, `=`, `==`, `!=` | comparison of numbers of tokens |
+//! | `+`, `-` | sum, difference |
+//! | `*` | product, of which one factor is a number |
+//!
+//! What takes one operand takes a comparison, a negation or the like: `AG p <= 3` is `AG (p <= 3)`, and `AG p & q` is
+//! `(AG p) & q`. A quantifier may have brackets: `E[a U b]`. A temporal operator stands inside of a quantifier; one `A`
+//! in front of a formula makes it one of LTL: `A (G F a -> G F b)`. After `F`, `AF` and `EF` may stand a limit of time:
+//! `AF<=200ms p`, in `ms` or `s`. Atoms are `true`, `false`, `deadlock`, `fireable(t1, t2)` (one of them is enabled),
+//! comparisons, and names of places: `p` says that it is marked.
+//!
+//! A name is written as it is when it is made of letters, digits, `_`, `'`, and dots inside of it, does not start with
+//! a digit, and is no word of the language. Other names stand in quotes, `"a b"` with `\"`, `\\` and `\u{1b}`, or in
+//! braces as in TINA, `{a b}` with `\{`, `\}` and `\\`.
+
+mod ctl;
+mod display;
+mod error;
+mod evaluate;
+mod lexer;
+mod linear;
+mod ltl;
+pub mod mcc;
+mod names;
+mod operand;
+mod parser;
+mod reachability;
+mod simplify;
+mod xml;
+
+pub use ctl::{Ctl, CtlNode};
+pub use error::PropertyError;
+pub use evaluate::{Condition, Marking};
+pub use ltl::{Ltl, LtlNode};
+pub use names::Ids;
+pub use parser::{MAX_DEPTH, MAX_TEXT, parse};
+pub use reachability::Reachability;
 
 use cotama_core::net::{PlaceId, TransitionId};
 
@@ -37,7 +113,7 @@ pub enum Question {
 
 /// A formula of CTL, of LTL (one `All` in front), or bounded response. `Exists` and `All` quantify over maximal runs: those that
 /// go on for ever, and those that end in a deadlock, in which the last marking lasts.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Formula {
     /// Something about the marking.
     Atom(Atom),
@@ -51,7 +127,8 @@ pub enum Formula {
     Exists(Box<Formula>),
     /// On all runs from here.
     All(Box<Formula>),
-    /// In the next marking. There is none after a deadlock.
+    /// In the next marking. Right after a quantifier, of something that needs no run: in some or in every successor; after a
+    /// deadlock there is none, so that `EX` is false and `AX` true there. Elsewhere: after a deadlock in the marking that lasts.
     Next(Box<Formula>),
     /// At some time.
     Finally(Box<Formula>),
@@ -64,7 +141,7 @@ pub enum Formula {
 }
 
 /// Something that is true or false of a marking.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Atom {
     /// A linear inequality.
     AtMost(Linear),
@@ -75,7 +152,7 @@ pub enum Atom {
 }
 
 /// `constant + sum of weight * tokens <= 0`, weights not zero, by place.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Linear {
     /// What is added.
     pub constant: i64,
@@ -129,7 +206,17 @@ impl Formula {
         !self.any(&|it| !matches!(it, Self::Atom(_) | Self::Not(_) | Self::And(_) | Self::Or(_)))
     }
 
-    fn is_ctl(&self) -> bool {
+    /// Whether it speaks of a run: whether some temporal operator stands outside of quantifiers.
+    pub fn needs_run(&self) -> bool {
+        match self {
+            Self::Atom(_) | Self::Exists(_) | Self::All(_) => false,
+            Self::Not(inner) => inner.needs_run(),
+            Self::And(all) | Self::Or(all) => all.iter().any(Self::needs_run),
+            Self::Next(_) | Self::Finally(_) | Self::Globally(_) | Self::Until(..) | Self::Within(..) => true,
+        }
+    }
+
+    pub(in crate::property) fn is_ctl(&self) -> bool {
         match self {
             Self::Atom(_) => true,
             Self::Not(inner) => inner.is_ctl(),
@@ -141,6 +228,24 @@ impl Formula {
             },
             _ => false,
         }
+    }
+
+    /// The same formula with other formulas in place of its atoms; `None` when there is none for one of them.
+    pub fn with_atoms(&self, other: &mut impl FnMut(&Atom) -> Option<Self>) -> Option<Self> {
+        let mut boxed = |it: &Self| it.with_atoms(other).map(Box::new);
+        Some(match self {
+            Self::Not(a) => Self::Not(boxed(a)?),
+            Self::Exists(a) => Self::Exists(boxed(a)?),
+            Self::All(a) => Self::All(boxed(a)?),
+            Self::Next(a) => Self::Next(boxed(a)?),
+            Self::Finally(a) => Self::Finally(boxed(a)?),
+            Self::Globally(a) => Self::Globally(boxed(a)?),
+            Self::Until(a, b) => Self::Until(boxed(a)?, boxed(b)?),
+            Self::Within(time, a) => Self::Within(*time, boxed(a)?),
+            Self::Atom(atom) => other(atom)?,
+            Self::And(all) => Self::And(all.iter().map(|it| it.with_atoms(other)).collect::<Option<_>>()?),
+            Self::Or(all) => Self::Or(all.iter().map(|it| it.with_atoms(other)).collect::<Option<_>>()?),
+        })
     }
 
     /// Whether this holds of some part of it.

@@ -65,9 +65,10 @@ pub(super) fn quoted(text: &str) -> String {
         c.is_control()
             || matches!(c, '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
     };
-    let shown = text.chars().take(SHOWN).map(|c| {
-        if obeyed(c) { c.escape_default().to_string() } else { c.to_string() }
-    });
+    let shown = text
+        .chars()
+        .take(SHOWN)
+        .map(|c| if obeyed(c) { c.escape_default().to_string() } else { c.to_string() });
     let more = if text.chars().nth(SHOWN).is_some() { "…" } else { "" };
     format!("`{}{more}`", shown.collect::<String>())
 }

@@ -3,8 +3,8 @@
 use super::Limits;
 use super::error::{Finding, quoted};
 use super::token::{Token, Tokens};
-use crate::tpn::{Interval, TimeNet, TimePlace, TimeTransition};
-use cotama_core::net::{Arc, PlaceId};
+use crate::tpn::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
+use cotama_core::net::{Arc, PlaceId, TransitionId};
 use std::collections::HashMap;
 
 const KEYWORDS: [&str; 6] = ["net", "pl", "tr", "nt", "lb", "pr"];
@@ -27,13 +27,20 @@ pub(super) fn parse(text: &str, limits: Limits) -> Result<TimeNet, Finding> {
         places: Vec::new(),
         place_ids: HashMap::new(),
         transitions: Vec::new(),
+        transitions_at: Vec::new(),
         transition_ids: HashMap::new(),
     };
     while parser.token != Token::End {
         parser.declaration()?;
     }
-    let Parser { name, places, transitions, .. } = parser;
-    TimeNet::new(name, places, transitions).map_err(|defect| Finding::new(text.len(), defect.to_string()))
+    let Parser { name, places, transitions, transitions_at, .. } = parser;
+    TimeNet::new(name, places, transitions).map_err(|defect| match defect {
+        TimeNetDefect::Weight(TransitionId(id)) => {
+            let message = format!("weights of one place at this transition sum to more than {}", u32::MAX);
+            Finding::new(transitions_at[id as usize], message)
+        }
+        other => Finding::new(text.len(), other.to_string()),
+    })
 }
 
 struct Parser<'t> {
@@ -48,6 +55,8 @@ struct Parser<'t> {
     places: Vec<TimePlace>,
     place_ids: HashMap<String, u32>,
     transitions: Vec<TimeTransition>,
+    /// Where each is named first.
+    transitions_at: Vec<usize>,
     transition_ids: HashMap<String, u32>,
 }
 
@@ -83,7 +92,8 @@ impl<'t> Parser<'t> {
                     .help("leave them out, if the net may do more than it does with them"));
             }
             (at, Token::Bare("lb")) => {
-                return Err(Finding::new(at, "`lb` is not read").help("write the label after the name: `pl a : label`"));
+                return Err(Finding::new(at, "`lb` is not read")
+                    .help("write the label after the name: `pl a : label`"));
             }
             (at, token) => {
                 return Err(Finding::new(at, format!("{} begins no declaration", token.shown()))
@@ -116,7 +126,8 @@ impl<'t> Parser<'t> {
         }
         let finding = self.expected(what);
         Err(match &self.token {
-            Token::Bare(word) => finding.help(format!("`{word}` begins a declaration; as a name it needs braces: `{{{word}}}`")),
+            Token::Bare(word) => finding
+                .help(format!("`{word}` begins a declaration; as a name it needs braces: `{{{word}}}`")),
             _ => finding,
         })
     }
@@ -161,6 +172,7 @@ impl<'t> Parser<'t> {
         self.count(at)?;
         let id = self.transitions.len() as u32;
         self.transitions.push(TimeTransition::new(&name));
+        self.transitions_at.push(at);
         self.transition_ids.insert(name, id);
         Ok(id)
     }
@@ -218,10 +230,16 @@ impl<'t> Parser<'t> {
             self.take()?;
             self.arcs(id, false)?;
         } else if self.at != start {
-            return Err(self.expected("`->`").help("also a transition without outputs has an arrow after its inputs"));
+            return Err(self.expected("`->`").help(if self.token == Token::Sign('-') {
+                "a name with a hyphen needs braces: `{a-b}`"
+            } else {
+                "also a transition without outputs has an arrow after its inputs"
+            }));
         }
         match self.token {
-            Token::Sign('[' | ']' | ':') => Err(Finding::new(self.at, "labels and intervals stand before the arcs")),
+            Token::Sign('[' | ']' | ':') => {
+                Err(Finding::new(self.at, "labels and intervals stand before the arcs"))
+            }
             Token::Arrow => Err(Finding::new(self.at, "a transition has one arrow")),
             _ => Ok(()),
         }
@@ -286,7 +304,8 @@ impl<'t> Parser<'t> {
             "E" => Some(1_000_000_000_000_000_000),
             _ => None,
         };
-        let Some(times) = times.filter(|_| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
+        let Some(times) =
+            times.filter(|_| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
         else {
             return Err(Finding::new(self.at, format!("{} is not a number", quoted(word))));
         };
@@ -309,7 +328,9 @@ impl<'t> Parser<'t> {
                 Token::Sign('*') => false,
                 Token::Sign('?') if inputs => true,
                 Token::Sign('?') => {
-                    return Err(Finding::new(sign, "a read arc is an input").help("write it before the arrow"));
+                    return Err(
+                        Finding::new(sign, "a read arc is an input").help("write it before the arrow")
+                    );
                 }
                 Token::Sign('!') => return Err(Finding::new(sign, "stopwatch arcs are not read")),
                 _ => {
@@ -327,7 +348,14 @@ impl<'t> Parser<'t> {
         }
     }
 
-    fn arc(&mut self, transition: usize, at: usize, inputs: bool, read: bool, arc: Arc) -> Result<(), Finding> {
+    fn arc(
+        &mut self,
+        transition: usize,
+        at: usize,
+        inputs: bool,
+        read: bool,
+        arc: Arc,
+    ) -> Result<(), Finding> {
         self.count(at)?;
         let it = &mut self.transitions[transition];
         match (inputs, read) {

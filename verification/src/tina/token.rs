@@ -61,11 +61,16 @@ impl<'t> Tokens<'t> {
                 _ if in_name(first) => rest.find(|c| !in_name(c)).unwrap_or(rest.len()),
                 '-' if rest.starts_with("->") => 2,
                 '{' => {
-                    let (name, length) = braced(rest).map_err(|(at, message)| Finding::new(start + at, message))?;
+                    let (name, length) =
+                        braced(rest).map_err(|(at, message)| Finding::new(start + at, message))?;
                     self.at += length;
                     return Ok((start, Token::Braced(name)));
                 }
                 ':' | '(' | ')' | '[' | ']' | ',' | '*' | '?' | '!' | '-' | '<' | '>' => 1,
+                '.' => {
+                    return Err(Finding::new(start, "a dot cannot stand here")
+                        .help("a name with a dot needs braces: `{a.b}`; numbers are integers"));
+                }
                 _ => {
                     let shown = quoted(first.encode_utf8(&mut [0; 4]));
                     return Err(Finding::new(start, format!("the character {shown} cannot stand here"))
@@ -96,7 +101,9 @@ fn braced(text: &str) -> Result<(Cow<'_, str>, usize), (usize, &'static str)> {
     for (at, c) in text.char_indices().skip(1) {
         match c {
             '{' | '}' | '\\' if escaped => escaped = false,
-            _ if escaped => return Err((at - 1, "a backslash in a name stands before `{`, `}` or `\\` only")),
+            _ if escaped => {
+                return Err((at - 1, "a backslash in a name stands before `{`, `}` or `\\` only"));
+            }
             '\\' => {
                 name += &text[start..at];
                 (start, escaped) = (at + 1, true);

@@ -56,11 +56,8 @@ pub fn from_net(net: &Net<'_>) -> Result<Converted, TimeNetDefect> {
         (!events.is_empty()).then_some(Difference::Events(events)),
         (!latest.is_empty()).then_some(Difference::Latest(latest)),
     ];
-    let places = net.places.iter().map(|it| TimePlace {
-        name: it.name.to_owned(),
-        label: None,
-        initial: it.initial,
-    });
+    let places =
+        net.places.iter().map(|it| TimePlace { name: it.name.to_owned(), label: None, initial: it.initial });
     let transitions = net.transitions.iter().map(|it| TimeTransition {
         interval: interval(it),
         take: it.take.to_vec(),
@@ -111,9 +108,10 @@ impl std::error::Error for NotANet {}
 /// # Errors
 /// What a net cannot say.
 pub fn to_net(net: &TimeNet) -> Result<OwnedNet, NotANet> {
-    let places = net.places().iter().map(|it| {
-        OwnedPlace::new(&it.name, it.initial).doc(it.label.as_deref().unwrap_or_default())
-    });
+    let places = net
+        .places()
+        .iter()
+        .map(|it| OwnedPlace::new(&it.name, it.initial).doc(it.label.as_deref().unwrap_or_default()));
     let mut transitions = Vec::with_capacity(net.transitions().len());
     for (id, it) in (0..).map(TransitionId).zip(net.transitions()) {
         let Interval { lower, lower_strict, upper, upper_strict } = it.interval;

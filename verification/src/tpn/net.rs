@@ -46,8 +46,7 @@ impl Interval {
     /// The times that lie in both.
     #[must_use]
     pub fn intersection(self, other: Self) -> Self {
-        let (lower, lower_strict) =
-            (self.lower, self.lower_strict).max((other.lower, other.lower_strict));
+        let (lower, lower_strict) = (self.lower, self.lower_strict).max((other.lower, other.lower_strict));
         // Of equal upper bounds the strict one is the smaller.
         let end = |it: Self| it.upper.map_or((u64::MAX, true), |upper| (upper, !it.upper_strict));
         let upper = if end(self) <= end(other) { self } else { other };
@@ -132,7 +131,9 @@ impl fmt::Display for TimeNetDefect {
             Self::TooLong => f.write_str("there are more places or transitions than ids can count"),
             Self::PlaceTwice(name) => write!(f, "two places are named `{name}`"),
             Self::TransitionTwice(name) => write!(f, "two transitions are named `{name}`"),
-            Self::UnknownPlace(id) => write!(f, "an arc of transition {} names a place that is not there", id.0),
+            Self::UnknownPlace(id) => {
+                write!(f, "an arc of transition {} names a place that is not there", id.0)
+            }
             Self::Weight(id) => write!(f, "weights of transition {} sum to more than {}", id.0, u32::MAX),
             Self::Empty(id) => write!(f, "the interval of transition {} is empty", id.0),
             Self::Bound(id) => {
@@ -228,9 +229,11 @@ impl TimeNet {
     /// The same net without intervals. Time only takes runs away, so what holds of all its markings holds here too.
     pub fn untimed(&self) -> Pt {
         let weights = |arcs: &[Arc]| arcs.iter().map(|arc| (arc.place.0, arc.weight)).collect::<Vec<_>>();
-        let needs = Lists::new(self.transitions.iter().map(|it| {
-            merged(weights(&it.take).into_iter().chain(weights(&it.read)), u32::max)
-        }));
+        let needs = Lists::new(
+            self.transitions
+                .iter()
+                .map(|it| merged(weights(&it.take).into_iter().chain(weights(&it.read)), u32::max)),
+        );
         let effects = Lists::new(self.transitions.iter().map(|it| {
             let taken = it.take.iter().map(|arc| (arc.place.0, -i64::from(arc.weight)));
             let given = it.give.iter().map(|arc| (arc.place.0, i64::from(arc.weight)));

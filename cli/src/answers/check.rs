@@ -1,0 +1,232 @@
+//! The answers of the commands that check.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+
+/// The answer of `cotama check`.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct CheckAnswer {
+    #[schemars(extend("const" = "cotama/check/1"))]
+    pub(crate) schema: &'static str,
+    pub(crate) model: String,
+    /// Whether transitions fire within their intervals; otherwise in any order, at any time.
+    pub(crate) timed: bool,
+    /// What to know about the model as it was checked.
+    pub(crate) notes: Vec<String>,
+    /// Laws of the model that are checked only while a program is compiled.
+    pub(crate) left_out: Vec<String>,
+    /// An answer to each property, in their order.
+    pub(crate) results: Vec<ResultRow>,
+}
+
+/// The answer to a property.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct ResultRow {
+    pub(crate) name: String,
+    /// The question, written out.
+    pub(crate) property: String,
+    /// `true` also of a bound that is known.
+    pub(crate) verdict: VerdictName,
+    /// Why it is unknown, in words.
+    pub(crate) reason: Option<String>,
+    /// The most tokens, of `bounds(...)`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) bound: Option<Amount>,
+    #[serde(flatten)]
+    pub(crate) response: Option<ResponseRow>,
+    /// The engine that decided.
+    pub(crate) engine: String,
+    /// What led to the answer, in order.
+    pub(crate) techniques: Vec<String>,
+    /// How many markings, or classes of a time net, were met by the engine that met most.
+    pub(crate) states: u64,
+    /// What `cotama verify` could check again.
+    pub(crate) evidence: EvidenceName,
+    /// The file that holds it.
+    pub(crate) certificate: Option<String>,
+    pub(crate) seconds: f64,
+    /// That it holds for a reason that is none, in words, if that was found.
+    pub(crate) vacuous: Option<String>,
+    /// How it came about, in a line.
+    pub(crate) cause: Option<String>,
+    /// The run that shows the verdict, from the start.
+    pub(crate) trace: Option<Vec<FiringRow>>,
+    /// How the run goes on.
+    pub(crate) rest: Option<RestRow>,
+}
+
+/// The time from a firing to a marking, of `bound(t -> p)`; null if the transition never fires.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) struct ResponseRow {
+    /// The least.
+    pub(crate) min: Option<Amount>,
+    /// The most.
+    pub(crate) max: Option<Amount>,
+}
+
+/// What is known of a property.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum VerdictName {
+    True,
+    False,
+    /// A limit was reached before.
+    Unknown,
+}
+
+/// A number, or that there is none so large.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(untagged)]
+pub(crate) enum Amount {
+    Finite(u64),
+    Infinite(Infinite),
+}
+
+/// More than any number.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+pub(crate) enum Infinite {
+    #[serde(rename = "inf")]
+    Inf,
+}
+
+/// What the evidence for a verdict is.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum EvidenceName {
+    /// The verdict is as good as the engine.
+    None,
+    /// The marking at the start.
+    State,
+    /// A run to a marking.
+    Trace,
+    /// A run that goes on for ever.
+    Lasso,
+    /// Facts that hold in all reachable markings, and exclude what is looked for.
+    Refutation,
+    /// How many markings there are: all of them are passed through again.
+    Graph,
+    /// Firings that add tokens again and again.
+    Growth,
+    /// Evidence for parts.
+    Parts,
+}
+
+/// A firing.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct FiringRow {
+    pub(crate) transition: String,
+    /// The event that it answers.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) event: Option<String>,
+    /// What it emits.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) outputs: Vec<String>,
+    /// When, in the unit of the net, as an exact decimal; of time nets.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) time: Option<String>,
+    /// The places that hold another number of tokens afterwards.
+    pub(crate) changed: Vec<ChangeRow>,
+}
+
+/// The tokens of a place before and after a firing.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct ChangeRow {
+    pub(crate) place: String,
+    pub(crate) before: u32,
+    pub(crate) after: u32,
+}
+
+/// How a run goes on after its trace.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum RestRow {
+    /// In any way.
+    Any,
+    /// Nothing can fire.
+    Deadlock,
+    /// The firings from this position on, counted from 0, again and again.
+    LoopFrom(u64),
+}
+
+/// The answer of `cotama statespace`. Counts are strings, as they can pass 64 bits.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct StatespaceAnswer {
+    #[schemars(extend("const" = "cotama/statespace/1"))]
+    pub(crate) schema: &'static str,
+    pub(crate) model: String,
+    /// Whether transitions fire within their intervals; otherwise in any order, at any time.
+    pub(crate) timed: bool,
+    /// What to know about the model as it was explored.
+    pub(crate) notes: Vec<String>,
+    /// Reachable markings, of a time net state classes. This and what follows is null where it is not known or has no end.
+    pub(crate) states: Option<String>,
+    /// Firings between them.
+    pub(crate) arcs: Option<String>,
+    /// The most tokens of a place.
+    pub(crate) max_place: Option<String>,
+    /// The most tokens of all places together.
+    pub(crate) max_sum: Option<String>,
+    /// Markings in which nothing can fire.
+    pub(crate) deadlocks: Option<String>,
+    /// Whether no place ever holds more than one token.
+    pub(crate) safe: Option<bool>,
+    /// Whether there is a most number of tokens for every place.
+    pub(crate) bounded: Option<bool>,
+    /// Transitions that never fire.
+    pub(crate) dead_transitions: Option<Vec<String>>,
+    /// Places that are never marked.
+    pub(crate) dead_places: Option<Vec<String>>,
+    /// Reachable markings.
+    pub(crate) markings: Option<String>,
+    /// State classes, of a time net.
+    pub(crate) classes: Option<String>,
+    /// Firings between them, of a time net.
+    pub(crate) edges: Option<String>,
+    /// How tokens grow without end.
+    pub(crate) growth: Option<GrowthRow>,
+    /// What was met.
+    pub(crate) explored: ExploredRow,
+    /// Why that is not all, in words.
+    pub(crate) limit: Option<String>,
+    /// `explicit`, or `classes` of a time net.
+    pub(crate) engine: &'static str,
+    pub(crate) seconds: f64,
+    /// Memory at the end for each state, if it was measured.
+    pub(crate) bytes_per_state: Option<f64>,
+}
+
+/// What a search met.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct ExploredRow {
+    pub(crate) states: String,
+    pub(crate) arcs: String,
+}
+
+/// How tokens grow without end.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct GrowthRow {
+    /// Transitions fired at first.
+    pub(crate) first: Vec<String>,
+    /// Transitions that can fire again and again after them, and add tokens each time.
+    pub(crate) repeated: Vec<String>,
+}
+
+/// The answer of `cotama verify`.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct VerifyAnswer {
+    #[schemars(extend("const" = "cotama/verify/1"))]
+    pub(crate) schema: &'static str,
+    /// Whether the certificate shows its verdict.
+    pub(crate) verified: bool,
+    /// The net and its size.
+    pub(crate) net: Option<String>,
+    pub(crate) question: Option<String>,
+    /// The verdict that is shown.
+    pub(crate) verdict: Option<bool>,
+    /// What shows it, in words.
+    pub(crate) evidence: Option<String>,
+    /// Where in the certificate something is wrong.
+    pub(crate) at: Option<String>,
+    /// What is wrong there.
+    pub(crate) message: Option<String>,
+}

@@ -1,0 +1,158 @@
+//! The command line of the commands that check.
+
+use super::Json;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+use std::time::Duration;
+
+pub(crate) const CHECK_EXAMPLES: &str = "\
+Properties:
+  AG !(a & b)              never both; a place is true when it is marked
+  EF deadlock              some run comes to an end
+  AG (fault -> AF safe)    every fault is followed by safety, on all runs
+  A (G F a -> G F b)       linear time: one A in front, no quantifier inside
+  bounds(a + b)            the most tokens that both ever hold together
+  bound(t -> p)            time nets: the least and the most time from t to p
+  AG (f -> AF<=200ms o)    time nets: at the latest after 200 ms
+  a <= 2, 2*a - b = 1, fireable(t1, t2), deadlock, true, false: about one marking
+By name: deadlock, live, quasi_live, one_safe, stable.
+
+A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with #
+are left out. A property file of the Model Checking Contest (XML) is read as well. Without
+properties, the laws of the model are checked; where it has none, the usual three questions:
+is there no deadlock, is it 1-safe or else how many tokens are there, can each transition fire.
+
+Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
+pass through markings.
+
+Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each
+has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
+
+Exit codes: 0 all are true, or their bounds are known; 1 one is false; 3 none is false and one is
+not known; 2 bad input.
+
+Examples:
+  $ cotama check door
+  $ cotama check door --property 'AG !(Closing & obstacle)'
+  $ cotama check philosophers:5 --property 'EF deadlock' --trace feast.html
+  $ cotama check philosophers:3 --property 'AG !deadlock' --json   # it is not so: exit code 1
+  $ cotama check kanban:2000 --property 'AG !deadlock' --certificate it.json; cotama verify it.json
+  $ printf 'ends: EF deadlock\\nlive\\n' > two.txt
+  $ cotama check kanban:2 --properties two.txt --mcc   # it has no deadlock: exit code 1
+  $ cotama check watchdog --property 'bound(w1 -> Fault)'";
+
+pub(crate) const STATESPACE_EXAMPLES: &str = "\
+What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an unbounded
+net, it is shown which firings can be repeated to add tokens for ever.
+
+Examples:
+  $ cotama statespace door
+  $ cotama statespace kanban:3 --json
+  $ cotama statespace door --untimed --mcc
+  $ cotama export philosophers:4 --output four.pnml && cotama statespace four.pnml --jobs 2";
+
+pub(crate) const VERIFY_EXAMPLES: &str = "\
+A certificate that is refused does not show that its verdict is wrong; one that is accepted shows that
+it is right, whatever engine found it.
+
+Exit codes: 0 it shows its verdict, 1 it does not, 2 it is no certificate.
+
+Examples:
+  $ cotama check philosophers:3 --property 'EF deadlock' --certificate deadlock.json
+  $ cotama verify deadlock.json
+  $ cotama verify - --json < deadlock.json
+  $ sed s/left_first_1/then_right_1/ deadlock.json | cotama verify -   # another run: exit code 1";
+
+/// What a search may use.
+#[derive(Args, Clone, Copy, Debug)]
+pub(crate) struct BudgetArgs {
+    /// On how many threads
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    pub(crate) jobs: u64,
+    /// The most markings, or state classes of a time net [default: no limit]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) max_states: Option<u64>,
+    /// The most memory of a search, in MiB
+    #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    pub(crate) max_memory: u64,
+    /// The most time of all work together, in seconds [default: no limit]
+    #[arg(long, value_name = "S", value_parser = seconds)]
+    pub(crate) max_seconds: Option<Duration>,
+}
+
+fn seconds(text: &str) -> Result<Duration, String> {
+    let wanted = text.parse().ok().and_then(|it| Duration::try_from_secs_f64(it).ok());
+    wanted.ok_or_else(|| "a number of seconds is expected, as 60 or 0.5".to_owned())
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct CheckArgs {
+    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net) file, or `-`
+    pub(crate) model: String,
+    /// A property, or the name of a usual question; any number of them
+    #[arg(long, value_name = "TEXT")]
+    pub(crate) property: Vec<String>,
+    /// A file of properties: one a line, or of the Model Checking Contest
+    #[arg(long, value_name = "FILE")]
+    pub(crate) properties: Option<String>,
+    /// Which engine looks for the answer
+    #[arg(long, value_enum, value_name = "ENGINE", default_value_t = EngineName::Auto)]
+    pub(crate) engine: EngineName,
+    /// Leaves the intervals of transitions out: they fire in any order, at any time
+    #[arg(long)]
+    pub(crate) untimed: bool,
+    #[command(flatten)]
+    pub(crate) budget: BudgetArgs,
+    /// Writes evidence for the verdict that `cotama verify` checks again
+    #[arg(long, value_name = "FILE")]
+    pub(crate) certificate: Option<PathBuf>,
+    /// Writes the run that shows the verdict: as a page (.html) or as JSON (.json)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) trace: Option<PathBuf>,
+    /// Prints the lines of the Model Checking Contest
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) mcc: bool,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct StatespaceArgs {
+    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net) file, or `-`
+    pub(crate) model: String,
+    /// Leaves the intervals of transitions out: they fire in any order, at any time
+    #[arg(long)]
+    pub(crate) untimed: bool,
+    #[command(flatten)]
+    pub(crate) budget: BudgetArgs,
+    /// Prints the lines of the Model Checking Contest
+    #[arg(long, conflicts_with = "json")]
+    pub(crate) mcc: bool,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct VerifyArgs {
+    /// The certificate, a JSON file, or `-`
+    pub(crate) certificate: String,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+/// Which engine looks for the answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum EngineName {
+    /// Those that suit the question, the cheapest first
+    Auto,
+    /// All markings, one by one
+    Explicit,
+    /// Markings one by one, only some transitions in each
+    Stubborn,
+    /// The structure of the net, without its markings
+    Structural,
+    /// Not in this version
+    Symbolic,
+    /// Not in this version
+    Sat,
+}

@@ -1,0 +1,210 @@
+//! `cotama check`: whether properties of a model hold, and why.
+
+pub(crate) mod contest;
+mod explained;
+mod files;
+mod questions;
+
+use crate::answers::check::{
+    Amount, CheckAnswer, EvidenceName, Infinite, ResponseRow, ResultRow, VerdictName,
+};
+use crate::args::{CheckArgs, EngineName};
+use crate::budget::Budget;
+use crate::exit::{Exit, Failure};
+use crate::output::Screen;
+use crate::progress::Progress;
+use crate::render::{self, visible};
+use crate::subject::Subject;
+use cotama_verification::certificate::Evidence;
+use cotama_verification::check::{Answer, Checker, Choice, Extent, Options, Reason, Verdict};
+use cotama_verification::diagnosis::Diagnosis;
+use cotama_verification::explicit::Limit;
+use cotama_verification::property::{Property, Question, mcc};
+use cotama_verification::tpn::Time;
+use files::Files;
+use std::time::Instant;
+
+/// Answers all questions to a model.
+pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let engine = engine(args.engine)?;
+    let mut files = Files::new(args)?;
+    let subject = Subject::load(&args.model, args.untimed)?;
+    let asked = questions::asked(args, &subject)?;
+    if let Some(it) =
+        asked.properties.iter().find(|it| args.mcc && matches!(it.question, Question::Response { .. }))
+    {
+        return Err(Failure::new(format!(
+            "the contest has no form for the time that `{}` asks for",
+            it.name
+        ))
+        .help("leave --mcc out"));
+    }
+    let subject = if asked.are_laws { subject.without_time() } else { subject };
+    files.of = asked.properties.len();
+    let (budget, progress) = (Budget::start(args.budget), Progress::new());
+    let (mut results, mut texts) = (Vec::new(), Vec::new());
+    let checker = Checker::new(&subject.model);
+    for (position, property) in asked.properties.iter().enumerate() {
+        let budget = budget.share(asked.properties.len() - position);
+        let show = |it| progress.show(it);
+        let options = Options {
+            engine,
+            limits: budget.limits,
+            jobs: budget.jobs,
+            evidence: args.certificate.is_some(),
+            progress: &show,
+        };
+        let begun = Instant::now();
+        let answer = checker.answer(property, &options);
+        let seconds = begun.elapsed().as_secs_f64();
+        progress.clear();
+        if args.mcc {
+            screen.print(&(line(property, &answer, budget.jobs) + "\n"))?;
+        }
+        let mut row = row(&subject, property, &answer, seconds);
+        row.certificate = files.certificate(position, &subject, property, &answer, screen)?;
+        let mut text = None;
+        match explained::diagnosis(&subject, property, &answer) {
+            Some(Ok(diagnosis)) => {
+                files.trace(position, &diagnosis, screen)?;
+                row.explained_by(&diagnosis);
+                text = Some(diagnosis.to_string());
+            }
+            Some(Err(error)) => {
+                screen.note(&format!("the run for {} cannot be shown: {error}", visible(&property.name)));
+            }
+            None => files.no_trace(property, screen),
+        }
+        if !args.mcc {
+            row.vacuous = explained::vacuity(&checker, &subject, property, &answer, &options);
+            progress.clear();
+        }
+        texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
+        results.push(row);
+    }
+    let answer = CheckAnswer {
+        schema: "cotama/check/1",
+        model: subject.name.clone(),
+        timed: subject.is_timed(),
+        notes: subject.notes,
+        left_out: asked.left_out,
+        results,
+    };
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else if !args.mcc {
+        screen.print(&render::check::screen(&answer, &texts, asked.is_usual, screen.width()))?;
+    }
+    Ok(ended(&answer.results))
+}
+
+fn engine(name: EngineName) -> Result<Choice, Failure> {
+    Ok(match name {
+        EngineName::Auto => Choice::Auto,
+        EngineName::Explicit => Choice::Explicit,
+        EngineName::Stubborn => Choice::Stubborn,
+        EngineName::Structural => Choice::Structural,
+        EngineName::Symbolic | EngineName::Sat => {
+            let name = if name == EngineName::Sat { "sat" } else { "symbolic" };
+            return Err(Failure::new(format!("the engine `{name}` is not in this version"))
+                .help("engines: auto, explicit, stubborn, structural"));
+        }
+    })
+}
+
+fn ended(results: &[ResultRow]) -> Exit {
+    let any = |verdict| results.iter().any(|it| it.verdict == verdict);
+    match (any(VerdictName::False), any(VerdictName::Unknown)) {
+        (true, _) => Exit::Violated,
+        (false, true) => Exit::Unknown,
+        (false, false) => Exit::Success,
+    }
+}
+
+fn row(subject: &Subject, property: &Property, answer: &Answer, seconds: f64) -> ResultRow {
+    let pt = subject.model.pt();
+    let (mut bound, mut response) = (None, None);
+    let (verdict, reason) = match answer.verdict {
+        Verdict::Holds(true) => (VerdictName::True, None),
+        Verdict::Holds(false) => (VerdictName::False, None),
+        Verdict::Bound(most) => {
+            bound = Some(match most {
+                Extent::Finite(most) => Amount::Finite(most),
+                Extent::Infinite => Amount::Infinite(Infinite::Inf),
+            });
+            (VerdictName::True, None)
+        }
+        Verdict::Response(times) => {
+            let [min, max] = [times.map(|it| amount(it.0)), times.map(|it| amount(it.1))];
+            response = Some(ResponseRow { min, max });
+            (VerdictName::True, None)
+        }
+        Verdict::Unknown(reason) => (VerdictName::Unknown, Some(reason.to_string())),
+    };
+    ResultRow {
+        name: property.name.clone(),
+        property: property.question.display(pt).to_string(),
+        verdict,
+        reason,
+        bound,
+        response,
+        engine: answer.engine().to_owned(),
+        techniques: answer.techniques.iter().map(|&it| it.to_owned()).collect(),
+        states: answer.states,
+        evidence: evidence(&answer.evidence),
+        certificate: None,
+        seconds,
+        vacuous: None,
+        cause: None,
+        trace: None,
+        rest: None,
+    }
+}
+
+impl ResultRow {
+    fn explained_by(&mut self, diagnosis: &Diagnosis) {
+        self.cause = Some(diagnosis.cause.clone()).filter(|it| !it.is_empty());
+        self.trace = Some(explained::firings(diagnosis));
+        self.rest = Some(explained::rest(diagnosis));
+    }
+}
+
+fn amount(time: Time) -> Amount {
+    match time {
+        Time::Finite(time) => Amount::Finite(time),
+        Time::Infinite => Amount::Infinite(Infinite::Inf),
+    }
+}
+
+fn evidence(evidence: &Evidence) -> EvidenceName {
+    match evidence {
+        Evidence::None => EvidenceName::None,
+        Evidence::State => EvidenceName::State,
+        Evidence::Each(_) => EvidenceName::Parts,
+        Evidence::One(one) => self::evidence(&one.by),
+        Evidence::Trace(_) => EvidenceName::Trace,
+        Evidence::Lasso(_) => EvidenceName::Lasso,
+        Evidence::Refutation(_) => EvidenceName::Refutation,
+        Evidence::Graph(_) => EvidenceName::Graph,
+        Evidence::Growth(_) => EvidenceName::Growth,
+    }
+}
+
+/// The contest's line for an answer.
+fn line(property: &Property, answer: &Answer, jobs: usize) -> String {
+    let techniques = contest::techniques(&answer.techniques, jobs);
+    let said = match answer.verdict {
+        Verdict::Holds(holds) => mcc::Answer::Verdict(holds),
+        Verdict::Bound(Extent::Finite(most)) => mcc::Answer::Bound(most),
+        Verdict::Bound(Extent::Infinite) => {
+            return format!("FORMULA {} +inf TECHNIQUES {}", property.name, techniques.join(" "));
+        }
+        Verdict::Response(_) | Verdict::Unknown(_) => mcc::Answer::Unknown,
+    };
+    mcc::answer(&property.name, said, &techniques)
+}
+
+/// Why a search met fewer markings than there are, in words.
+pub(crate) fn limit_in_words(limit: Limit) -> String {
+    Reason::Limit(limit).to_string()
+}

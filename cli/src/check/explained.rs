@@ -1,0 +1,84 @@
+//! Why a verdict is as it is: by a run, or that it holds for a reason that is none.
+
+use crate::answers::check::{ChangeRow, FiringRow, RestRow};
+use crate::subject::Subject;
+use cotama_verification::check::{Answer, Checker, Options, Verdict};
+use cotama_verification::diagnosis::{Case, Diagnosis, NotARun, Run, Step, vacuous};
+use cotama_verification::explicit::Limits;
+use cotama_verification::property::{Property, Question};
+use cotama_verification::temporal::Rest;
+
+/// What may be asked to find out whether a property holds vacuously: so many questions, each among so many markings.
+const QUESTIONS: usize = 8;
+const MARKINGS: u64 = 100_000;
+
+/// The run of an answer, explained, if there is one.
+pub(super) fn diagnosis(
+    subject: &Subject,
+    property: &Property,
+    answer: &Answer,
+) -> Option<Result<Diagnosis, NotARun>> {
+    let run = answer.run.as_ref()?;
+    let cycle = match &run.rest {
+        Rest::Any => None,
+        Rest::Stays => Some(Vec::new()),
+        Rest::Cycle(cycle) => Some(cycle.clone()),
+    };
+    let run = Run { stem: run.stem.clone(), cycle };
+    let case = Case {
+        schedule: answer.schedule.as_ref(),
+        ..Case::new(subject.model.pt(), property, answer.verdict != Verdict::Holds(false), &run)
+    };
+    let view = subject.net.as_ref().map(|it| it.view());
+    let net = view.as_ref().map(|it| it.net());
+    let explained = Diagnosis::new(&Case { net: net.as_ref(), ..case });
+    // The net of a file may have been changed before it was checked; then it explains nothing.
+    Some(if explained == Err(NotARun::Net) { Diagnosis::new(&case) } else { explained })
+}
+
+/// The firings of a run, a loop once.
+pub(super) fn firings(diagnosis: &Diagnosis) -> Vec<FiringRow> {
+    let row = |step: &Step| FiringRow {
+        transition: step.transition.clone(),
+        event: step.event.clone(),
+        outputs: step.outputs.clone(),
+        time: step.at.map(|it| it.to_string()),
+        changed: step
+            .changes
+            .iter()
+            .map(|it| ChangeRow { place: it.place.clone(), before: it.before, after: it.after })
+            .collect(),
+    };
+    diagnosis.trace.iter().map(row).collect()
+}
+
+/// How a run goes on.
+pub(super) fn rest(diagnosis: &Diagnosis) -> RestRow {
+    match diagnosis.cycle_starts_at {
+        Some(at) => RestRow::LoopFrom(at as u64),
+        None if diagnosis.deadlock => RestRow::Deadlock,
+        None => RestRow::Any,
+    }
+}
+
+/// That a true property holds for a reason that is none, if that is found with little effort.
+pub(super) fn vacuity(
+    checker: &Checker<'_>,
+    subject: &Subject,
+    property: &Property,
+    answer: &Answer,
+    options: &Options<'_>,
+) -> Option<String> {
+    let (Question::Formula(formula), Verdict::Holds(true)) = (&property.question, &answer.verdict) else {
+        return None;
+    };
+    let limits = Limits { states: options.limits.states.min(MARKINGS), ..options.limits };
+    let options = Options { limits, evidence: false, ..*options };
+    let found = vacuous(formula).into_iter().take(QUESTIONS).find(|stronger| {
+        let question = Question::Formula(stronger.formula.clone());
+        let asked = Property { name: String::new(), question };
+        checker.answer(&asked, &options).verdict == Verdict::Holds(true)
+    })?;
+    let pt = subject.model.pt();
+    Some(found.words(&property.question.display(pt).to_string(), pt))
+}

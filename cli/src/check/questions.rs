@@ -1,0 +1,199 @@
+//! What is asked: properties from the command line, from a file, or the laws of the model.
+
+use crate::args::CheckArgs;
+use crate::exit::Failure;
+use crate::file_errors::{FileError, FileErrors, Mark};
+use crate::input;
+use crate::models::law;
+use crate::subject::Subject;
+use cotama_core::net::PlaceId;
+use cotama_core::net::owned::OwnedNet;
+use cotama_verification::property::{self, Atom, Formula, Property, PropertyError, Question, mcc};
+use cotama_verification::pt::Pt;
+
+/// What is asked of a model.
+#[derive(Debug, Default)]
+pub(super) struct Asked {
+    pub(super) properties: Vec<Property>,
+    /// Laws that are checked only while a program is compiled.
+    pub(super) left_out: Vec<String>,
+    /// Whether these are laws, which speak of the net without time.
+    pub(super) are_laws: bool,
+    /// Whether nobody asked: these are the laws or the usual questions.
+    pub(super) is_usual: bool,
+}
+
+/// What is asked on the command line or in a file; without either, the laws of the model, or the usual questions.
+pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failure> {
+    let pt = subject.model.pt();
+    let mut properties = Vec::new();
+    for text in &args.property {
+        properties.push(one(text, pt)?);
+    }
+    if let Some(path) = &args.properties {
+        properties.extend(file(path, subject)?);
+    }
+    if !properties.is_empty() {
+        return Ok(Asked { properties, ..Asked::default() });
+    }
+    let laws = subject.net.as_ref().map(laws).unwrap_or_default();
+    if laws.are_laws {
+        return Ok(laws);
+    }
+    Ok(Asked { properties: usual(pt), is_usual: true, ..laws })
+}
+
+/// A property that was typed, or a question by its name.
+fn one(text: &str, pt: &Pt) -> Result<Property, Failure> {
+    let name = text.trim();
+    if name == "deadlock" {
+        return Ok(Property { name: name.to_owned(), ..deadlock() });
+    }
+    if let Some(known) = mcc::examination(name).filter(|_| pt.place(name).is_none()) {
+        return Ok(known);
+    }
+    parsed(text, pt).map_err(|error| {
+        let source = error.source_name.clone();
+        let mark = mark(&error, text, 0);
+        errors(&source, text.to_owned(), vec![(error, mark)])
+    })
+}
+
+fn deadlock() -> Property {
+    let deadlock = Formula::Atom(Atom::Deadlock);
+    let question = Question::Formula(Formula::Exists(Formula::Finally(deadlock.into()).into()));
+    Property { name: "deadlock".to_owned(), question }
+}
+
+fn file(path: &str, subject: &Subject) -> Result<Vec<Property>, Failure> {
+    const WHAT: &str = "a file of properties";
+    let bytes = input::bytes(path, WHAT, input::PROPERTIES_BYTES)?;
+    let name = input::name(path);
+    let is_xml = path.to_ascii_lowercase().ends_with(".xml") || is_markup(&bytes);
+    let properties = if is_xml {
+        mcc::read(name, &bytes, subject.model.pt(), subject.ids()).map_err(|error| {
+            let text = String::from_utf8_lossy(&bytes);
+            let text = text.trim_start_matches('\u{feff}').to_owned();
+            let mark = mark(&error, &text, 0);
+            errors(name, text, vec![(error, mark)])
+        })?
+    } else {
+        lines(name, input::utf8(path, WHAT, bytes)?, subject.model.pt())?
+    };
+    if properties.is_empty() {
+        return Err(Failure::new(format!("{name}: there is no property in it"))
+            .help("one a line, as `name: AG !(a & b)`; or a property file of the Model Checking Contest"));
+    }
+    Ok(properties)
+}
+
+fn is_markup(bytes: &[u8]) -> bool {
+    let start = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes).trim_ascii_start();
+    start.starts_with(b"<") || bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff")
+}
+
+/// One property a line, with a name before a colon or without.
+fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> {
+    let (mut properties, mut wrong, mut at) = (Vec::new(), Vec::new(), 0);
+    for line in text.split_inclusive('\n') {
+        let start = at;
+        at += line.len();
+        let line = line.trim_end();
+        if line.trim_start().is_empty() || line.trim_start().starts_with('#') {
+            continue;
+        }
+        let (name, formula) = named(line);
+        match one_of_file(formula, pt) {
+            Ok(property) => {
+                let name = name.map_or(property.name, str::to_owned);
+                properties.push(Property { name, question: property.question });
+            }
+            Err(error) => {
+                let mark = mark(&error, &text, start + line.len() - formula.len());
+                wrong.push((error, mark));
+            }
+        }
+    }
+    if wrong.is_empty() { Ok(properties) } else { Err(errors(source, text, wrong)) }
+}
+
+fn one_of_file(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
+    match text.trim() {
+        "deadlock" => Ok(deadlock()),
+        _ => parsed(text, pt),
+    }
+}
+
+/// A property that was typed, named as it is written out.
+fn parsed(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
+    let property = property::parse(text, pt)?;
+    let name = property.question.display(pt).to_string();
+    Ok(Property { name, ..property })
+}
+
+/// A name before a colon, and what stands after it.
+fn named(line: &str) -> (Option<&str>, &str) {
+    let is_name = |name: &str| {
+        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'))
+    };
+    match line.split_once(':') {
+        Some((name, formula)) if is_name(name.trim()) => (Some(name.trim()), formula),
+        _ => (None, line),
+    }
+}
+
+/// Where an error is in a text of which the property begins at this byte.
+fn mark(error: &PropertyError, text: &str, start: usize) -> Option<Mark> {
+    let span = start + error.at.span.start..start + error.at.span.end;
+    let before = text.get(..span.start)?;
+    text.get(span.clone())?;
+    let line_start = before.rfind('\n').map_or(0, |newline| newline + 1);
+    let line = 1 + before.bytes().filter(|&byte| byte == b'\n').count();
+    Some(Mark { line, column: 1 + before[line_start..].chars().count(), span })
+}
+
+/// The errors at their places; as plain words where these are not in the text.
+fn errors(source: &str, text: String, wrong: Vec<(PropertyError, Option<Mark>)>) -> Failure {
+    const KEPT: usize = 100;
+    if let Some((error, _)) = wrong.iter().find(|it| it.1.is_none()) {
+        return Failure::new(error.to_string());
+    }
+    let omitted = wrong.len().saturating_sub(KEPT);
+    let errors = wrong.into_iter().take(KEPT).filter_map(|(error, at)| {
+        Some(FileError { message: error.message, at: at?, label: None, help: error.help, related: None })
+    });
+    FileErrors { source: source.to_owned(), text, errors: errors.collect(), omitted }.into()
+}
+
+/// The laws of a net.
+fn laws(net: &OwnedNet) -> Asked {
+    let view = net.view();
+    let net = view.net();
+    let (mut properties, mut left_out) = (Vec::new(), Vec::new());
+    for it in net.laws {
+        let name = law::text(&net, it);
+        match cotama_verification::check::question(it) {
+            Some(question) => properties.push(Property { name, question }),
+            None => left_out.push(name),
+        }
+    }
+    let are_laws = !properties.is_empty();
+    Asked { properties, left_out, are_laws, is_usual: are_laws }
+}
+
+/// What is usually asked of a net: is there no deadlock, is it 1-safe, or else how many tokens are there, can each
+/// transition fire.
+fn usual(pt: &Pt) -> Vec<Property> {
+    let property = |name: &str, question| Property { name: name.to_owned(), question };
+    let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());
+    let always = Question::Formula(Formula::All(Formula::Globally(alive.into()).into()));
+    let transitions = 0..pt.transitions.len() as u32;
+    let one_each = pt.initial.iter().all(|&tokens| tokens <= 1)
+        && transitions.flat_map(|it| pt.effects.of(it)).all(|&(_, change)| change.abs() <= 1);
+    let tokens = if one_each {
+        property("one_safe", Question::OneSafe)
+    } else {
+        property("bounds", Question::Bound((0..pt.places.len() as u32).map(PlaceId).collect()))
+    };
+    vec![property("deadlock_free", always), tokens, property("quasi_live", Question::QuasiLiveness)]
+}

@@ -1,0 +1,91 @@
+//! How far a search is, on a terminal.
+
+use crate::render::numbers::grouped;
+use cotama_verification::explicit;
+use std::cell::Cell;
+use std::io::{self, IsTerminal, Write};
+use std::time::{Duration, Instant};
+
+/// How often the line is written.
+const EVERY: Duration = Duration::from_millis(100);
+
+/// A line on standard error that says how far a search is; nothing where that is no terminal.
+#[derive(Debug)]
+pub(crate) struct Progress {
+    is_shown: bool,
+    begun: Cell<Instant>,
+    written: Cell<Option<Instant>>,
+    before: Cell<u64>,
+}
+
+impl Progress {
+    /// Nothing is shown yet.
+    pub(crate) fn new() -> Self {
+        Self {
+            is_shown: io::stderr().is_terminal(),
+            begun: Cell::new(Instant::now()),
+            written: Cell::new(None),
+            before: Cell::new(0),
+        }
+    }
+
+    /// Shows how far a search is, now and then.
+    pub(crate) fn show(&self, progress: explicit::Progress) {
+        if !self.is_shown {
+            return;
+        }
+        let now = Instant::now();
+        if progress.states < self.before.replace(progress.states) {
+            self.begun.set(now); // another search
+        }
+        let last = self.written.get().unwrap_or(self.begun.get());
+        if now.duration_since(last) < EVERY {
+            return;
+        }
+        self.written.set(Some(now));
+        let line = line(progress, now.duration_since(self.begun.get()), resident_mib());
+        let _ = write!(io::stderr(), "\r{line}\u{1b}[K");
+    }
+
+    /// Takes the line away.
+    pub(crate) fn clear(&self) {
+        if self.written.take().is_some() {
+            let _ = write!(io::stderr(), "\r\u{1b}[K");
+        }
+    }
+}
+
+fn line(progress: explicit::Progress, passed: Duration, resident: Option<u64>) -> String {
+    let number = |it: u64| grouped(&it.to_string());
+    let millis = passed.as_millis().max(1);
+    let rate = u128::from(progress.states) * 1000 / millis;
+    let memory = resident.map_or_else(String::new, |mib| format!(", {} MiB", number(mib)));
+    format!(
+        "{} states, {} a second, {} waiting, {} firings deep{memory}",
+        number(progress.states),
+        grouped(&rate.to_string()),
+        number(progress.waiting),
+        number(progress.depth)
+    )
+}
+
+/// The memory of this process, where the system tells it.
+fn resident_mib() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+    let kib: u64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(kib >> 10)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_line_says_how_much_how_fast_and_what_waits() {
+        let progress = explicit::Progress { states: 1_500_000, depth: 12, waiting: 40_000 };
+        let said = line(progress, Duration::from_millis(500), Some(2048));
+        assert_eq!(said, "1 500 000 states, 3 000 000 a second, 40 000 waiting, 12 firings deep, 2 048 MiB");
+        assert!(!line(progress, Duration::ZERO, None).contains("MiB"));
+    }
+}

@@ -1,0 +1,19 @@
+//! The screen of `cotama verify`.
+
+use super::style::{BAD, GOOD};
+use super::{visible, wrapped};
+use crate::answers::check::VerifyAnswer;
+
+/// What a certificate shows, or why it shows nothing.
+pub(crate) fn screen(answer: &VerifyAnswer, width: usize) -> String {
+    let said = |text: &Option<String>| visible(text.as_deref().unwrap_or_default());
+    if answer.verified {
+        let verdict = answer.verdict.unwrap_or_default();
+        let net = wrapped(&format!("net {}", said(&answer.net)), width, "  ");
+        let claim = wrapped(&format!("{} is {verdict}", said(&answer.question)), width, "  ");
+        let by = wrapped(&format!("by {}", said(&answer.evidence)), width, "  ");
+        return format!("{GOOD}verified{GOOD:#}\n{net}{claim}{by}");
+    }
+    let why = wrapped(&format!("{}: {}", said(&answer.at), said(&answer.message)), width, "  ");
+    format!("{BAD}refused{BAD:#}\n{why}")
+}

@@ -1,0 +1,97 @@
+//! What is checked: a net with or without time, from the command line.
+
+use crate::catalogue::{self, Entry, Kind};
+use crate::exit::Failure;
+use crate::file_errors::FileErrors;
+use crate::input;
+use crate::model;
+use cotama_core::net::owned::OwnedNet;
+use cotama_verification::check::Model;
+use cotama_verification::flat::flat;
+use cotama_verification::property::Ids;
+use cotama_verification::tina;
+use cotama_verification::tpn::TimeNet;
+use std::path::Path;
+
+/// A model as it is checked.
+#[derive(Debug)]
+pub(crate) struct Subject {
+    /// What the command line calls it.
+    pub(crate) name: String,
+    pub(crate) model: Model,
+    /// The net with its laws, unless it is from a file that has none.
+    pub(crate) net: Option<OwnedNet>,
+    /// What to know about the model as it is checked.
+    pub(crate) notes: Vec<String>,
+    place_ids: Vec<String>,
+    transition_ids: Vec<String>,
+}
+
+impl Subject {
+    /// The model of this name, or of the file at this path; without its intervals where that is wanted.
+    pub(crate) fn load(name: &str, untimed: bool) -> Result<Self, Failure> {
+        if let Some(Entry { kind: Kind::System(system), .. }) = catalogue::entry(name) {
+            let net = flat(system)
+                .map_err(|error| Failure::new(format!("`{name}` cannot be checked as one net: {error}")))?;
+            let note = "nets of a system are checked in every interleaving, rounds among them, at any time";
+            return Ok(Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note));
+        }
+        if Path::new(name).extension().is_some_and(|end| end.eq_ignore_ascii_case("net")) {
+            return Ok(Self::new(name, time_net(name, untimed)?, None));
+        }
+        let loaded = model::load(name)?;
+        let view = loaded.net.view();
+        let timed = view.net().transitions.iter().any(|it| it.within.is_some());
+        let model = if untimed {
+            Model::from(&view.net())
+        } else {
+            Model::timed(&view.net()).map_err(|defect| {
+                Failure::new(format!("{name}: its intervals of time cannot be kept: {defect}"))
+                    .help("--untimed leaves them out")
+            })?
+        };
+        let subject = Self {
+            place_ids: loaded.place_ids,
+            transition_ids: loaded.transition_ids,
+            ..Self::new(name, model, Some(loaded.net))
+        };
+        Ok(if timed && untimed { subject.noted("intervals of time are left out") } else { subject })
+    }
+
+    fn new(name: &str, model: Model, net: Option<OwnedNet>) -> Self {
+        let (place_ids, transition_ids) = (Vec::new(), Vec::new());
+        Self { name: name.to_owned(), model, net, notes: Vec::new(), place_ids, transition_ids }
+    }
+
+    fn noted(mut self, note: &str) -> Self {
+        self.notes.push(note.to_owned());
+        self
+    }
+
+    /// What its file called places and transitions.
+    pub(crate) fn ids(&self) -> Ids<'_> {
+        Ids { places: &self.place_ids, transitions: &self.transition_ids }
+    }
+
+    /// Whether transitions fire within their intervals.
+    pub(crate) fn is_timed(&self) -> bool {
+        matches!(self.model, Model::Timed { .. })
+    }
+
+    /// The same without intervals.
+    pub(crate) fn without_time(mut self) -> Self {
+        if let Model::Timed { untimed, .. } = self.model {
+            self.model = Model::Plain(untimed);
+        }
+        self
+    }
+}
+
+fn time_net(path: &str, untimed: bool) -> Result<Model, Failure> {
+    let bytes = input::bytes(path, "a model", input::MODEL_BYTES)?;
+    let net: TimeNet = tina::read(path, &bytes).map_err(|error| {
+        let text = String::from_utf8_lossy(&bytes).into_owned();
+        FileErrors::at_character(path, text, (error.line, error.column), error.message, error.help)
+    })?;
+    Ok(if untimed { Model::Plain(net.untimed()) } else { Model::from(net) })
+}

@@ -1,0 +1,49 @@
+//! `cotama verify`: whether a certificate shows its verdict.
+
+use crate::answers::check::VerifyAnswer;
+use crate::args::VerifyArgs;
+use crate::exit::{Exit, Failure};
+use crate::input;
+use crate::output::Screen;
+use crate::render;
+use cotama_verification::certificate::{VerifyError, verify as verify_text};
+
+/// Checks a certificate again.
+pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure> {
+    const WHAT: &str = "a certificate";
+    let bytes = input::bytes(&args.certificate, WHAT, input::CERTIFICATE_BYTES)?;
+    let text = input::utf8(&args.certificate, WHAT, bytes)?;
+    let nothing = VerifyAnswer {
+        schema: "cotama/verify/1",
+        verified: false,
+        net: None,
+        question: None,
+        verdict: None,
+        evidence: None,
+        at: None,
+        message: None,
+    };
+    let answer = match verify_text(&text) {
+        Ok(shown) => VerifyAnswer {
+            verified: true,
+            net: Some(shown.net),
+            question: Some(shown.question),
+            verdict: Some(shown.verdict),
+            evidence: Some(shown.evidence),
+            ..nothing
+        },
+        // What is no certificate at all is not refused, it is bad input.
+        Err(VerifyError { at, message }) if at == "certificate" || at == "schema" => {
+            let name = input::name(&args.certificate);
+            return Err(Failure::new(format!("{name}: {at}: {message}"))
+                .help("`cotama check MODEL --property TEXT --certificate FILE` writes certificates"));
+        }
+        Err(VerifyError { at, message }) => VerifyAnswer { at: Some(at), message: Some(message), ..nothing },
+    };
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else {
+        screen.print(&render::verify::screen(&answer, screen.width()))?;
+    }
+    Ok(if answer.verified { Exit::Success } else { Exit::Violated })
+}

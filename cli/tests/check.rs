@@ -1,0 +1,266 @@
+//! `cotama check`: verdicts, exit codes, files, and what is said of input that cannot be used.
+
+use crate::common::{Ended, Folder, golden};
+use serde_json::json;
+
+fn check(folder: &Folder, model: &str, properties: &[&str], more: &[&str]) -> Ended {
+    let asked = properties.iter().flat_map(|it| ["--property", it]);
+    let arguments: Vec<_> = ["check", model].into_iter().chain(asked).chain(more.iter().copied()).collect();
+    folder.cotama(&arguments)
+}
+
+const CONTEST: &str = "<?xml version=\"1.0\"?>\n<property-set>\n<property><id>never-two</id><formula>\
+    <all-paths><globally><integer-le><tokens-count><place>p0</place></tokens-count>\
+    <integer-constant>1</integer-constant></integer-le></globally></all-paths></formula></property>\n\
+    <property><id>most</id><formula><place-bound><place>p0</place></place-bound></formula></property>\n\
+    </property-set>\n";
+
+#[test]
+fn the_screens_of_a_check() {
+    let folder = Folder::new("check_screens");
+    golden("check_door.txt", &folder.cotama(&["check", "door"]).stdout);
+    golden("check_feast.txt", &check(&folder, "philosophers:3", &["AG !deadlock"], &[]).stdout);
+    let asked = ["EF (Closing & obstacle)", "AG EF Open", "bounds(Open + Closed)"];
+    golden("check_door_asked.txt", &check(&folder, "door", &asked, &["--untimed"]).stdout);
+    golden("check_watchdog.txt", &check(&folder, "watchdog", &["bound(w1 -> Fault)"], &[]).stdout);
+}
+
+#[test]
+fn the_worst_verdict_decides_how_it_ends() {
+    let folder = Folder::new("check_exits");
+    let more = ["--untimed", "--engine", "explicit", "--max-states", "4"];
+    let code = |properties: &[&str], more: &[&str]| check(&folder, "door", properties, more).code;
+    assert_eq!(code(&["AG !(Closing & obstacle)", "EF Open"], &[]), Some(0));
+    assert_eq!(code(&["bounds(Open)"], &["--untimed"]), Some(0));
+    assert_eq!(code(&["EF Open", "EF (Closing & obstacle)"], &[]), Some(1));
+    assert_eq!(code(&["AG !(Closing & obstacle)"], &more), Some(3));
+    assert_eq!(code(&["AG !(Closing & obstacle)", "EF !Closed"], &more), Some(3));
+    assert_eq!(code(&["AG !(Closing & obstacle)", "AG Closed"], &more), Some(1));
+    assert_eq!(code(&["AG !(Closing & obstacle"], &more), Some(2));
+}
+
+#[test]
+fn what_is_not_known_says_why_and_how_far_it_came() {
+    let folder = Folder::new("check_unknown");
+    let more = ["--engine", "explicit", "--max-states", "100", "--json"];
+    let answer = check(&folder, "kanban:3", &["EF (P1 = 0 & P4 = 0 & Pout4 = 3)"], &more).json(3);
+    let row = &answer["results"][0];
+    assert_eq!((&row["verdict"], &row["trace"]), (&json!("unknown"), &json!(null)));
+    assert_eq!(row["reason"], "the limit of markings was reached");
+    assert!((1..=100).contains(&row["states"].as_u64().unwrap()), "{row}");
+}
+
+#[test]
+fn an_answer_names_the_run_and_the_bound() {
+    let folder = Folder::new("check_json");
+    let answer = check(&folder, "philosophers:2", &["EF deadlock"], &["--json"]).json(0);
+    assert_eq!((&answer["model"], &answer["timed"]), (&json!("philosophers:2"), &json!(false)));
+    let row = &answer["results"][0];
+    assert_eq!((&row["verdict"], &row["property"]), (&json!("true"), &json!("EF deadlock")));
+    let fired: Vec<_> = row["trace"].as_array().unwrap().iter().map(|it| it["transition"].clone()).collect();
+    assert_eq!(fired.len(), 2, "{row}");
+    let played =
+        folder.shell(&format!("cotama simulate philosophers:2 {} {} --json", fired[0], fired[1])).json(0);
+    assert_eq!((&played["fired"], &played["enabled"]), (&json!(fired), &json!([])));
+    let answer = check(&folder, "kanban:3", &["bounds(P1 + P2)", "bounds(P1)"], &["--json"]).json(0);
+    let bounds: Vec<_> = answer["results"].as_array().unwrap().iter().map(|it| &it["bound"]).collect();
+    assert_eq!(bounds, [6, 3]);
+}
+
+#[test]
+fn a_property_that_holds_for_no_good_reason_is_named() {
+    let folder = Folder::new("check_vacuous");
+    let asked = ["AG ((Closing & Open) -> AF Closed)", "AG (Closing -> !obstacle)"];
+    let answer = check(&folder, "door", &asked, &["--untimed", "--json"]).json(0);
+    let said = [0, 1].map(|it| answer["results"][it]["vacuous"].as_str().unwrap_or("").to_owned());
+    assert!(said[0].contains("holds vacuously") && said[1].is_empty(), "{said:?}");
+}
+
+#[test]
+fn time_is_measured_where_there_are_intervals() {
+    let folder = Folder::new("check_time");
+    folder.write("race.net", "tr fast [1,2] idle -> won  tr late [5,7] won -> done  pl idle (1)");
+    let answer =
+        check(&folder, "race.net", &["bound(fast -> done)", "bound(late -> idle)"], &["--json"]).json(0);
+    let [first, second] = [0, 1].map(|it| &answer["results"][it]);
+    assert_eq!((&first["min"], &first["max"]), (&json!(5), &json!(7)));
+    assert_eq!((&second["min"], &second["max"]), (&json!("inf"), &json!("inf")));
+    let answer = check(&folder, "race.net", &["EF done"], &["--json"]).json(0);
+    assert_eq!(answer["results"][0]["trace"][1]["time"], "6");
+    assert_eq!(check(&folder, "race.net", &["bound(fast -> done)"], &["--untimed"]).code, Some(3));
+}
+
+#[test]
+fn the_laws_of_a_model_are_checked_when_nothing_is_asked() {
+    let folder = Folder::new("check_laws");
+    let answer = folder.cotama(&["check", "door", "--json"]).json(0);
+    let names: Vec<_> = answer["results"].as_array().unwrap().iter().map(|it| it["name"].clone()).collect();
+    assert_eq!(names.len(), 6);
+    assert_eq!(names[1], "never_both(Closing, obstacle)");
+    assert_eq!(answer["left_out"], json!(["handles(all)", "deterministic"]));
+}
+
+#[test]
+fn a_file_without_laws_is_asked_the_usual_questions() {
+    let folder = Folder::new("check_usual");
+    folder.write("lamp.net", "tr on off -> lit  tr out lit -> off  pl off (1)");
+    folder.write("pump.net", "tr in -> tank  tr out tank*2 ->");
+    let usual = |model: &str, code| {
+        let answer = folder.cotama(&["check", model, "--untimed", "--json"]).json(code);
+        let row = |it: &serde_json::Value| format!("{} {} {}", it["name"], it["verdict"], it["bound"]);
+        answer["results"].as_array().unwrap().iter().map(row).collect::<Vec<_>>().join("; ").replace('"', "")
+    };
+    assert_eq!(usual("lamp.net", 0), "deadlock_free true null; one_safe true null; quasi_live true null");
+    assert_eq!(usual("pump.net", 0), "deadlock_free true null; bounds true inf; quasi_live true null");
+}
+
+#[test]
+fn a_system_is_checked_in_every_interleaving() {
+    let folder = Folder::new("check_system");
+    let more = ["--json", "--max-states", "100000"];
+    let answer = check(&folder, "decision", &["AG gs.Wait + gs.Wait.absent = 1"], &more).json(0);
+    assert!(answer["notes"][0].as_str().unwrap().contains("every interleaving"), "{answer}");
+}
+
+#[test]
+fn files_hold_one_property_a_line_or_those_of_the_contest() {
+    let folder = Folder::new("check_files");
+    folder
+        .write("wanted.txt", "# of the door\n\nnever: AG !(Closing & obstacle)\n  EF Open\nlive\ndeadlock\n");
+    let answer =
+        folder.cotama(&["check", "door", "--untimed", "--properties", "wanted.txt", "--json"]).json(1);
+    let rows = answer["results"].as_array().unwrap();
+    let named: Vec<_> =
+        rows.iter().map(|it| (it["name"].as_str().unwrap(), it["verdict"].as_str().unwrap())).collect();
+    assert_eq!(named, [("never", "true"), ("EF Open", "true"), ("live", "true"), ("deadlock", "false")]);
+    assert_eq!(folder.cotama(&["export", "door", "--output", "door.pnml"]).code, Some(0));
+    folder.write("wanted.xml", CONTEST);
+    let mcc = folder.cotama(&["check", "door.pnml", "--untimed", "--properties", "wanted.xml", "--mcc"]);
+    assert_eq!(mcc.code, Some(0), "{mcc:?}");
+    let lines: Vec<_> = mcc.stdout.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
+    assert_eq!(lines, ["FORMULA never-two TRUE", "FORMULA most 1"]);
+}
+
+#[test]
+fn the_contest_is_told_when_nothing_is_known() {
+    let folder = Folder::new("check_contest");
+    let asked = ["ReachabilityDeadlock", "OneSafe"];
+    let ended = check(&folder, "philosophers:3", &asked, &["--mcc"]);
+    let lines: Vec<_> = ended.stdout.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
+    assert_eq!(lines, ["FORMULA ReachabilityDeadlock TRUE", "FORMULA OneSafe TRUE"]);
+    let more = ["--mcc", "--engine", "explicit", "--max-states", "5"];
+    let ended = check(&folder, "philosophers:3", &["ReachabilityDeadlock"], &more);
+    assert_eq!(
+        (ended.code, ended.stdout.as_str()),
+        (Some(3), "FORMULA ReachabilityDeadlock CANNOT_COMPUTE\n")
+    );
+    let ended = check(&folder, "watchdog", &["bound(w1 -> Fault)"], &["--mcc"]);
+    assert_eq!(ended.code, Some(2), "{ended:?}");
+}
+
+#[test]
+fn what_a_property_gets_wrong_is_shown_at_its_place() {
+    let folder = Folder::new("check_wrong");
+    let said = |properties: &[&str]| {
+        let ended = check(&folder, "door", properties, &[]);
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""));
+        ended.stderr
+    };
+    golden("bad_property_place.txt", &said(&["AG !(Closng & obstacle)"]));
+    golden("bad_property_syntax.txt", &said(&["AG (Closing &"]));
+    folder.write("wanted.txt", "# two are wrong\nfirst: EF Opn\nEF Open\nthird: AG bounds(\n");
+    golden("bad_property_file.txt", &folder.cotama(&["check", "door", "--properties", "wanted.txt"]).stderr);
+    folder.write("wanted.xml", CONTEST.replace("p0", "nowhere"));
+    golden(
+        "bad_property_contest.txt",
+        &folder.cotama(&["check", "door", "--properties", "wanted.xml"]).stderr,
+    );
+    folder.write("cut.xml", &CONTEST[..200]);
+    let ended = folder.cotama(&["check", "door", "--properties", "cut.xml"]);
+    assert!(ended.code == Some(2) && ended.stderr.contains("cut.xml:"), "{ended:?}");
+    folder.write("empty.txt", "# nothing\n");
+    assert_eq!(folder.cotama(&["check", "door", "--properties", "empty.txt"]).code, Some(2));
+    folder.write("bad.net", "tr a [3,2] p -> q\n");
+    let ended = folder.cotama(&["check", "bad.net"]);
+    assert!(ended.code == Some(2) && ended.stderr.contains("bad.net:1:"), "{ended:?}");
+}
+
+#[test]
+fn an_engine_of_another_version_and_a_trace_of_no_form_are_refused() {
+    let folder = Folder::new("check_refused");
+    for more in
+        [["--engine", "symbolic"], ["--engine", "sat"], ["--trace", "run.txt"], ["--max-seconds", "-1"]]
+    {
+        let ended = check(&folder, "door", &["EF Open"], &more);
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{more:?}");
+    }
+    assert_eq!(folder.files(""), [""; 0]);
+}
+
+#[test]
+fn a_certificate_is_checked_again_and_refused_when_it_was_changed() {
+    let folder = Folder::new("check_certificate");
+    let more = ["--certificate", "feast.json"];
+    assert_eq!(check(&folder, "philosophers:3", &["EF deadlock"], &more).code, Some(0));
+    golden("verify_feast.txt", &folder.cotama(&["verify", "feast.json"]).stdout);
+    let answer = folder.shell("cotama verify - --json < feast.json").json(0);
+    assert_eq!((&answer["verified"], &answer["verdict"]), (&json!(true), &json!(true)));
+    let text = folder.read("feast.json");
+    folder.write("claimed.json", text.replace("\"verdict\":true", "\"verdict\":false"));
+    let answer = folder.cotama(&["verify", "claimed.json", "--json"]).json(1);
+    assert_eq!((&answer["verified"], &answer["verdict"]), (&json!(false), &json!(null)));
+    assert!(answer["at"].is_string() && answer["message"].is_string());
+    golden("verify_refused.txt", &folder.cotama(&["verify", "claimed.json"]).stdout);
+    folder.write("cut.json", &text[..text.len() / 2]);
+    folder.write("other.json", text.replace("cotama-certificate/1", "cotama-certificate/9"));
+    for name in ["cut.json", "other.json", "missing.json"] {
+        let ended = folder.cotama(&["verify", name]);
+        assert!(ended.code == Some(2) && ended.stderr.contains(name), "{ended:?}");
+    }
+}
+
+#[test]
+fn evidence_of_every_kind_is_accepted() {
+    let folder = Folder::new("check_evidence");
+    folder.write("pump.net", "tr in -> tank  tr out tank*2 ->");
+    for (model, property, code, kind) in [
+        ("kanban:2", "P1 = 2", 0, "state"),
+        ("philosophers:3", "AG !deadlock", 1, "trace"),
+        ("door", "A (F G Closed | G F Blocked)", 1, "lasso"),
+        ("kanban:5", "AG !deadlock", 0, "refutation"),
+        ("kanban:2", "AG EF Pback1", 0, "graph"),
+        ("kanban:3", "bounds(P1 + P2)", 0, "parts"),
+        ("pump.net", "bounds(tank)", 0, "growth"),
+    ] {
+        let more = ["--untimed", "--certificate", "it.json", "--json"];
+        let answer = check(&folder, model, &[property], &more).json(code);
+        let row = &answer["results"][0];
+        assert_eq!((&row["evidence"], &row["certificate"]), (&json!(kind), &json!("it.json")), "{property}");
+        let answer = folder.cotama(&["verify", "it.json", "--json"]).json(0);
+        assert_eq!(answer["verdict"], json!(code == 0), "{property}");
+        std::fs::remove_file(folder.path().join("it.json")).unwrap();
+    }
+}
+
+#[test]
+fn without_evidence_no_certificate_is_written() {
+    let folder = Folder::new("check_no_evidence");
+    let ended = check(&folder, "watchdog", &["EF Fault"], &["--certificate", "it.json"]);
+    assert_eq!(ended.code, Some(0));
+    assert!(ended.stderr.contains("no certificate for EF Fault: properties of time nets"), "{ended:?}");
+    assert_eq!(folder.files(""), [""; 0]);
+}
+
+#[test]
+fn of_several_properties_each_has_a_file_of_its_own() {
+    let folder = Folder::new("check_several");
+    let more = ["--certificate", "it.json", "--trace", "run.html"];
+    let ended = check(&folder, "philosophers:3", &["EF deadlock", "EF eat_1"], &more);
+    assert_eq!(ended.code, Some(0), "{ended:?}");
+    assert_eq!(folder.files(""), ["it-1.json", "it-2.json", "run-1.html", "run-2.html"]);
+    assert!(folder.read("run-2.html").starts_with("<!DOCTYPE html>"));
+    let more = ["--trace", "run.json"];
+    assert_eq!(check(&folder, "philosophers:3", &["AG !deadlock"], &more).code, Some(1));
+    let run: serde_json::Value = serde_json::from_str(&folder.read("run.json")).unwrap();
+    assert_eq!((&run["holds"], &run["deadlock"]), (&json!(false), &json!(true)));
+}

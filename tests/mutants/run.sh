@@ -1,0 +1,144 @@
+#!/usr/bin/env bash
+# Seeds one defect after the other into a copy of the workspace, and sees whether a test fails each time.
+#
+#   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list next to this script
+#   tests/mutants/run.sh --table         writes README.md anew from the lists
+#
+# A list has paragraphs:
+#
+#   mutant: what is wrong, in plain words
+#   file: path below verification/src
+#   test: the target that kills it, where it is not the one of the engine
+#   by: the test that kills it, tried first; the whole test target is run only when it does not; `time` when it hangs
+#   - text that occurs exactly once in the file, of one or more lines
+#   + text in its place
+#   equivalent: why no test can tell the difference; then it is not run
+#
+# Each mutant costs one build of the crate and of one test target. SECONDS_PER_RUN (default 120) is how long tests may
+# take: one that hangs is killed by time. Exits 1 when a mutant survives, does not compile, or its text is not found.
+set -euo pipefail
+export LC_ALL=C CARGO_PROFILE_DEV_DEBUG=0 CARGO_TERM_COLOR=never
+unset COTAMA_MCC_DIR COTAMA_TPN_DIR # the suite alone must do
+lists=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+root=$(cd "$lists/../.." && pwd)
+work=${CARGO_TARGET_DIR:-$root/target}/mutants
+copy=$work/workspace
+export CARGO_TARGET_DIR=$work/build
+limit=${SECONDS_PER_RUN:-120}
+declare -A target_of=([explicit]=statespace [certificate]=certificates)
+bad=0
+
+# Builds the tests of a target; prints where they are.
+build() {
+    (cd "$copy" && cargo test --offline -p cotama-verification --test "$1" --no-run --message-format=json) \
+        2>"$work/build.log" | sed -n 's/.*"executable":"\([^"]*\)".*/\1/p' | tail -1
+}
+
+# Runs tests until one fails; prints its name, or `time`, or `a crash`; nothing when all pass.
+first_failure() {
+    local line out tests status=0
+    exec {out}< <(cd "$copy/verification" && ulimit -v 16000000 && exec timeout "$limit" "$@" 2>/dev/null)
+    tests=$!
+    while read -r line <&"$out"; do
+        if [[ $line =~ ^test\ (.*)\ \.\.\.\ FAILED$ ]]; then
+            echo "${BASH_REMATCH[1]}"
+            kill "$tests" 2>/dev/null || true
+            return
+        fi
+    done
+    wait "$tests" || status=$?
+    case $status in 0) ;; 124) echo time ;; *) echo "a crash" ;; esac
+}
+
+report() { printf '%s: %s: %s\n' "$engine" "$mutant" "$1"; }
+
+# Runs the mutant that was read, if one was.
+try() {
+    [[ -n $mutant ]] || return 0
+    local path=$copy/verification/src/$file text tests killer=
+    if [[ -n $equivalent ]]; then
+        report "equivalent: $equivalent"
+        return
+    fi
+    text=$(cat "$path"; printf x)
+    local before=${text%%"$old"*} after=${text#*"$old"}
+    if [[ $before == "$text" || $after == *"$old"* ]]; then
+        report "NOT FOUND exactly once in $file"
+        bad=1
+        return
+    fi
+    cp -p "$path" "$work/original"
+    printf %s "$before$new${after%x}" >"$path"
+    if tests=$(build "$target") && [[ -n $tests ]]; then
+        [[ -z $by ]] || killer=$(first_failure "$tests" --exact "$by")
+        [[ -n $killer ]] || killer=$(first_failure "$tests")
+        if [[ -n $killer ]]; then
+            report "killed by $killer"
+        else
+            report SURVIVED
+            bad=1
+        fi
+    else
+        report "DOES NOT COMPILE"
+        grep -m3 '^error' "$work/build.log" || true
+        bad=1
+    fi
+    cat "$work/original" >"$path"
+}
+
+run() {
+    engine=$1 usual=${target_of[$1]:-$1}
+    local tests failure line
+    tests=$(build "$usual")
+    failure=$(first_failure "$tests")
+    if [[ -n $failure ]]; then
+        echo "$engine: without a defect $failure fails" >&2
+        exit 1
+    fi
+    mutant=
+    while IFS= read -r line; do
+        case $line in
+            'mutant: '*) try; mutant=${line#*: } target=$usual file='' by='' old='' new='' equivalent='' ;;
+            'file: '*) file=${line#*: } ;;
+            'by: '*) by=${line#*: } ;;
+            'test: '*) target=${line#*: } ;;
+            'equivalent: '*) equivalent=${line#*: } ;;
+            '- '*) old+=${old:+$'\n'}${line#- } ;;
+            '+ '*) new+=${new:+$'\n'}${line#+ } ;;
+        esac
+    done <"$lists/$engine.txt"
+    try
+}
+
+table() {
+    sed -n '1,/^| engine/p' "$lists/README.md" | sed '$d'
+    echo '| engine | defect | killed by |'
+    echo '| --- | --- | --- |'
+    for name in "${all[@]}"; do
+        awk -v engine="$name" -v usual="${target_of[$name]:-$name}" '
+            function row() {
+                if (equivalent != "") killer = "equivalent: " equivalent
+                else if (by == "time") killer = "time: the tests of `" target "` hang"
+                else killer = "`" target " " by "`"
+                if (mutant != "") print "| " engine " | " mutant " | " killer " |"
+            }
+            /^mutant: / { row(); mutant = substr($0, 9); target = usual; by = equivalent = "" }
+            /^test: / { target = substr($0, 7) }
+            /^by: / { by = substr($0, 5) }
+            /^equivalent: / { equivalent = substr($0, 13) }
+            END { row() }' "$lists/$name.txt"
+    done
+}
+
+all=(structural reductions explicit stubborn temporal coverability tpn certificate)
+if [[ ${1-} == --table ]]; then
+    table >"$lists/README.new"
+    mv "$lists/README.new" "$lists/README.md"
+    exit
+fi
+mkdir -p "$copy"
+rm -rf "${copy:?}"/*
+(cd "$root" && tar cf - --exclude=./target --exclude='./.*' .) | tar xf - -C "$copy"
+[[ $# -gt 0 ]] || set -- "${all[@]}"
+for name in "$@"; do run "$name"; done
+exit $bad

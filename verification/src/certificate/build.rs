@@ -1,0 +1,239 @@
+//! Certificates from what engines hold.
+
+use super::{
+    Certificate, Evidence, Fact, Formula, Growth, Lasso, Linear, Net, Question, SCHEMA, Trace, Transition,
+};
+use crate::property::{self, Atom, Property};
+use crate::pt::Pt;
+use crate::temporal::{Rest, Run};
+use crate::{coverability, explicit};
+use cotama_core::net::TransitionId;
+use std::fmt;
+
+/// An answer to a question.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Whether it is so.
+    Holds(bool),
+    /// The most tokens, to [`Bound`](property::Question::Bound).
+    Bound(u64),
+    /// That there is no most, to [`Bound`](property::Question::Bound).
+    Unbounded,
+}
+
+/// Why there is no certificate for a property.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncertifiable {
+    /// It speaks of milliseconds.
+    Time,
+    /// The answer does not fit the question, or is larger than 9,223,372,036,854,775,807.
+    Answer,
+}
+
+impl fmt::Display for Uncertifiable {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Time => "properties of time nets have no certificates",
+            Self::Answer => "the answer does not fit the question",
+        })
+    }
+}
+
+impl std::error::Error for Uncertifiable {}
+
+impl Certificate {
+    /// A certificate for the answer to a property.
+    ///
+    /// # Errors
+    ///
+    /// When the property is about time, or the answer is of another kind than the question.
+    pub fn new(
+        pt: &Pt,
+        property: &Property,
+        answer: Answer,
+        evidence: Evidence,
+    ) -> Result<Self, Uncertifiable> {
+        let question = Question::new(pt, &property.question, answer)?;
+        let verdict = !matches!(answer, Answer::Holds(false));
+        Ok(Self::of(pt, &property.name, question, verdict, evidence))
+    }
+
+    /// A certificate for the verdict on a question.
+    pub fn of(pt: &Pt, property: &str, question: Question, verdict: bool, evidence: Evidence) -> Self {
+        Self {
+            schema: SCHEMA.to_owned(),
+            net: Net::from(pt),
+            property: property.to_owned(),
+            question,
+            verdict,
+            evidence,
+        }
+    }
+
+    /// The file: one line of JSON.
+    pub fn text(&self) -> String {
+        // Strings, numbers, lists and maps with strings as keys: there is nothing that JSON cannot say.
+        serde_json::to_string(self).map_or_else(|_| String::new(), |it| it + "\n")
+    }
+}
+
+impl From<&Pt> for Net {
+    fn from(pt: &Pt) -> Self {
+        let name = |place: u32| pt.places[place as usize].clone();
+        let transitions = pt.transitions.iter().zip(0..).map(|(transition, id)| {
+            let needs = pt.needs.of(id);
+            let mut give: Vec<_> = needs.iter().map(|&(place, tokens)| (place, i64::from(tokens))).collect();
+            for &(place, change) in pt.effects.of(id) {
+                match give.binary_search_by_key(&place, |it| it.0) {
+                    Ok(at) => give[at].1 += change,
+                    Err(at) => give.insert(at, (place, change)),
+                }
+            }
+            // What gives more than a place can hold never fires, with the most that fits as well.
+            let most = |it: i64| u32::try_from(it).unwrap_or(u32::MAX);
+            let give = give.into_iter().filter(|it| it.1 > 0).map(|it| (name(it.0), most(it.1)));
+            Transition {
+                name: transition.clone(),
+                take: needs.iter().map(|&(place, tokens)| (name(place), tokens)).collect(),
+                give: give.collect(),
+            }
+        });
+        Self {
+            name: pt.name.clone(),
+            places: pt.places.iter().cloned().zip(pt.initial.iter().copied()).collect(),
+            transitions: transitions.collect(),
+        }
+    }
+}
+
+impl Question {
+    /// The question of a property, with the answer where it is a number.
+    ///
+    /// # Errors
+    ///
+    /// As [`Certificate::new`].
+    pub fn new(pt: &Pt, question: &property::Question, answer: Answer) -> Result<Self, Uncertifiable> {
+        use property::Question as Asked;
+        Ok(match (question, answer) {
+            (Asked::Response { .. }, _) => return Err(Uncertifiable::Time),
+            (Asked::Bound(places), Answer::Bound(most)) => Self::Bound {
+                places: places.iter().map(|it| pt.places[it.0 as usize].clone()).collect(),
+                most: i64::try_from(most).map_err(|_| Uncertifiable::Answer)?,
+            },
+            (Asked::Bound(places), Answer::Unbounded) => {
+                Self::Unbounded { places: places.iter().map(|it| pt.places[it.0 as usize].clone()).collect() }
+            }
+            (Asked::Bound(_), Answer::Holds(_)) | (_, Answer::Bound(_) | Answer::Unbounded) => {
+                return Err(Uncertifiable::Answer);
+            }
+            (Asked::Formula(formula), _) => Self::Formula(Formula::new(pt, formula)?),
+            (Asked::Liveness, _) => Self::Live,
+            (Asked::QuasiLiveness, _) => Self::QuasiLive,
+            (Asked::StableMarking, _) => Self::Stable,
+            (Asked::OneSafe, _) => Self::OneSafe,
+        })
+    }
+}
+
+impl Formula {
+    /// A formula of the property language.
+    ///
+    /// # Errors
+    ///
+    /// When it speaks of milliseconds.
+    pub fn new(pt: &Pt, formula: &property::Formula) -> Result<Self, Uncertifiable> {
+        use property::Formula as Asked;
+        let boxed = |it: &Asked| Self::new(pt, it).map(Box::new);
+        let list = |all: &[Asked]| all.iter().map(|it| Self::new(pt, it)).collect::<Result<_, _>>();
+        Ok(match formula {
+            Asked::Atom(Atom::AtMost(linear)) => {
+                let weights = linear.weights.iter().map(|&(place, weight)| (place.0, weight));
+                Self::AtMost(Linear::new(pt, linear.constant, weights))
+            }
+            Asked::Atom(Atom::Fireable(some)) => {
+                Self::Fireable(some.iter().map(|it| pt.transitions[it.0 as usize].clone()).collect())
+            }
+            Asked::Atom(Atom::Deadlock) => Self::Deadlock,
+            Asked::Not(a) => Self::Not(boxed(a)?),
+            Asked::And(all) => Self::And(list(all)?),
+            Asked::Or(all) => Self::Or(list(all)?),
+            Asked::Exists(a) => Self::Exists(boxed(a)?),
+            Asked::All(a) => Self::All(boxed(a)?),
+            Asked::Next(a) => Self::Next(boxed(a)?),
+            Asked::Finally(a) => Self::Finally(boxed(a)?),
+            Asked::Globally(a) => Self::Globally(boxed(a)?),
+            Asked::Until(a, b) => Self::Until(Box::new((Self::new(pt, a)?, Self::new(pt, b)?))),
+            Asked::Within(..) => return Err(Uncertifiable::Time),
+        })
+    }
+}
+
+impl Linear {
+    /// `constant + sum of weight * tokens <= 0`, by numbers of places.
+    pub fn new(pt: &Pt, constant: i64, weights: impl IntoIterator<Item = (u32, i64)>) -> Self {
+        let named = weights.into_iter().map(|(place, weight)| (pt.places[place as usize].clone(), weight));
+        Self { constant, weights: named.collect() }
+    }
+}
+
+impl Fact {
+    /// That this weighted sum of tokens is never larger than at a marking; `None` when its value there needs more than 64
+    /// bits.
+    pub fn sum(pt: &Pt, weights: &[(u32, i64)], from: &[u32]) -> Option<Self> {
+        let value = weights.iter().try_fold(0_i64, |sum, &(place, weight)| {
+            sum.checked_sub(weight.checked_mul(from[place as usize].into())?)
+        })?;
+        Some(Self::AtMost(Linear::new(pt, value, weights.iter().copied())))
+    }
+
+    /// That one of these places is always marked.
+    pub fn trap(pt: &Pt, places: &[u32]) -> Self {
+        Self::Trap(places.iter().map(|&it| pt.places[it as usize].clone()).collect())
+    }
+}
+
+fn names(pt: &Pt, transitions: &[u32]) -> Vec<String> {
+    transitions.iter().map(|&it| pt.transitions[it as usize].clone()).collect()
+}
+
+impl Evidence {
+    /// The way to a marking that shows by itself what is looked for.
+    pub fn trace(pt: &Pt, fire: &[u32]) -> Self {
+        Self::trace_then(pt, fire, Self::State)
+    }
+
+    /// The way to a marking, and why it is the one looked for.
+    pub fn trace_then(pt: &Pt, fire: &[u32], then: Self) -> Self {
+        Self::Trace(Trace { fire: names(pt, fire), then: Box::new(then) })
+    }
+
+    /// A run that goes on for ever.
+    pub fn lasso(pt: &Pt, stem: &[u32], cycle: &[u32]) -> Self {
+        Self::Lasso(Lasso { stem: names(pt, stem), cycle: names(pt, cycle) })
+    }
+
+    /// What makes sums of tokens larger than any number; `None` when a sequence is too long to be written out.
+    pub fn growth(pt: &Pt, growth: &coverability::Growth) -> Option<Self> {
+        let names = |it: &coverability::Sequence| Some(names(pt, &numbers(it.firings.as_ref()?)));
+        Some(Self::Growth(Growth { stem: names(&growth.stem)?, pump: names(&growth.pump)? }))
+    }
+
+    /// The run that a search for runs has found; `None` when it may go on in any way, see [`Run::closed`].
+    pub fn run(pt: &Pt, run: &Run) -> Option<Self> {
+        let cycle = match &run.rest {
+            Rest::Any => return None,
+            Rest::Stays => Vec::new(),
+            Rest::Cycle(cycle) => numbers(cycle),
+        };
+        Some(Self::lasso(pt, &numbers(&run.stem), &cycle))
+    }
+
+    /// All reachable markings, from the initial one: an answer to any question of CTL about the whole net.
+    pub fn graph(graph: &explicit::Graph) -> Self {
+        Self::Graph(graph.states())
+    }
+}
+
+fn numbers(transitions: &[TransitionId]) -> Vec<u32> {
+    transitions.iter().map(|it| it.0).collect()
+}

@@ -1,0 +1,461 @@
+//! Which engine is asked what, and how their findings become an answer.
+
+use super::engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+use super::engines::{Coverability, Explicit, Structural, Stubborn, Temporal, growth};
+use super::known::Known;
+use super::reduced::Smaller;
+use super::{Answer, Choice, Options, Verdict};
+use crate::certificate::{Evidence, One};
+use crate::explicit::{Limit, Limits};
+use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
+use crate::structural;
+use crate::temporal::{Rest, Run};
+use cotama_core::net::{PlaceId, TransitionId};
+use std::time::{Duration, Instant};
+
+/// Markings that are few enough to be met before anything cleverer is tried.
+const FEW: u64 = 200_000;
+
+/// Markings of a net whose graph is evidence.
+const CERTIFIED: u64 = 100_000;
+
+/// Markings of a net that is looked at once more for a run.
+const SHOWN: u64 = 20_000;
+
+/// Markings of a first look.
+const GLANCE: u64 = 1_000;
+
+pub(super) fn answer(net: &Known<'_>, question: &Question, options: &Options<'_>) -> Answer {
+    let budget = Budget {
+        limits: options.limits,
+        jobs: options.jobs,
+        evidence: options.evidence,
+        progress: options.progress,
+    };
+    let mut asked =
+        Asked { net, engine: options.engine, budget, techniques: Vec::new(), tried: Vec::new(), states: 0 };
+    let (verdict, run, mut evidence) = asked.question(question);
+    if evidence == Evidence::None && budget.evidence && !matches!(verdict, Verdict::Unknown(_)) {
+        evidence = asked.all_markings(question, &verdict);
+    }
+    let is_known = !matches!(verdict, Verdict::Unknown(_));
+    let techniques = if is_known { asked.techniques } else { asked.tried };
+    Answer { verdict, run, schedule: None, evidence, techniques, states: asked.states }
+}
+
+/// A verdict with a run and evidence.
+type Shown = (Verdict, Option<Run>, Evidence);
+
+struct Asked<'a, 'n> {
+    net: &'a Known<'n>,
+    engine: Choice,
+    budget: Budget<'a>,
+    techniques: Vec<&'static str>,
+    /// Engines that were asked, also in vain.
+    tried: Vec<&'static str>,
+    states: u64,
+}
+
+impl Asked<'_, '_> {
+    fn question(&mut self, question: &Question) -> Shown {
+        match question {
+            Question::Formula(formula) => self.formula(&formula.simplified()),
+            Question::Bound(places) => self.bound(places),
+            Question::OneSafe => self.one_safe(),
+            Question::QuasiLiveness => self.dead(|_, dead| dead.is_empty()),
+            Question::StableMarking => self.dead(|net, dead| {
+                let never = |it: u32| dead.binary_search(&TransitionId(it)).is_ok();
+                let changers = |place| net.pt().changers.of(place).iter();
+                (0..net.pt().places.len() as u32).any(|place| changers(place).all(|it| never(it.0)))
+            }),
+            Question::Liveness => self.live(),
+            Question::Response { .. } => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    /// That all markings were looked at, if they are few enough for the small checker, and if it knows such questions.
+    fn all_markings(&self, question: &Question, verdict: &Verdict) -> Evidence {
+        if let (Question::Bound(places), Verdict::Bound(Extent::Infinite)) = (question, verdict) {
+            return growth(self.net.pt(), places, &self.budget).unwrap_or(Evidence::None);
+        }
+        let known = match question {
+            Question::Formula(formula) => Ctl::new(&formula.simplified()).is_some(),
+            Question::Response { .. } => false,
+            _ => true,
+        };
+        let states = self.budget.limits.states.min(CERTIFIED);
+        let few = Budget { limits: Limits { states, ..self.budget.limits }, ..self.budget };
+        if !known {
+            return Evidence::None;
+        }
+        self.net.with_graph(&few, |graph| graph.map_or(Evidence::None, Evidence::graph))
+    }
+
+    fn one_safe(&mut self) -> Shown {
+        let pt = self.net.pt();
+        if matches!(self.engine, Choice::Auto | Choice::Structural)
+            && let structural::Answer::Impossible(bounds) = { self.net.structure().one_safe() }
+        {
+            self.used("structural");
+            let evidence = Evidence::one_safe(pt, self.net.structure().dead(), &bounds);
+            return (Verdict::Holds(true), None, evidence.unwrap_or(Evidence::None));
+        }
+        let two = |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
+        let goal = Formula::Or((0..pt.places.len() as u32).map(|it| two(PlaceId(it))).collect());
+        self.reachability(&Reachability { goal, expected: false })
+    }
+
+    fn formula(&mut self, formula: &Formula) -> Shown {
+        if let Some(condition) = Condition::new(formula, self.net.pt()) {
+            self.used("initial");
+            let holds = condition.holds(self.net.pt().initial.as_slice());
+            return (Verdict::Holds(holds), None, Evidence::State);
+        }
+        if let Some(asked) = Reachability::new(formula) {
+            return self.reachability(&asked);
+        }
+        match formula {
+            Formula::Not(inner) => match self.formula(inner) {
+                (Verdict::Holds(holds), run, evidence) => (Verdict::Holds(!holds), run, evidence),
+                unknown => unknown,
+            },
+            Formula::And(parts) => self.parts(parts, false),
+            Formula::Or(parts) => self.parts(parts, true),
+            _ => self.temporal(formula),
+        }
+    }
+
+    /// Parts one of which decides if it is `decisive`; those that ask for one marking come first.
+    fn parts(&mut self, parts: &[Formula], decisive: bool) -> Shown {
+        let mut order: Vec<usize> = (0..parts.len()).collect();
+        order.sort_by_key(|&it| Reachability::new(&parts[it]).is_none());
+        let (mut open, mut each) = (None, vec![Evidence::None; parts.len()]);
+        for part in order {
+            match self.formula(&parts[part]) {
+                (Verdict::Holds(holds), run, evidence) if holds == decisive => {
+                    return (Verdict::Holds(decisive), run, one(evidence, part));
+                }
+                (Verdict::Unknown(reason), ..) => open = open.or(Some(reason)),
+                (.., evidence) => each[part] = evidence,
+            }
+        }
+        match open {
+            Some(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+            None => (Verdict::Holds(!decisive), None, each_of(each)),
+        }
+    }
+
+    fn reachability(&mut self, asked: &Reachability) -> Shown {
+        match self.reach(&asked.goal).found {
+            Found::Way(way) => {
+                let fire: Vec<u32> = way.iter().map(|it| it.0).collect();
+                let evidence = Evidence::trace(self.net.pt(), &fire);
+                (Verdict::Holds(asked.expected), Some(Run { stem: way, rest: Rest::Any }), evidence)
+            }
+            Found::Never(evidence) => (Verdict::Holds(!asked.expected), None, evidence),
+            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    /// Looks for a marking: by the structure, on a smaller net, among few markings, with few firings in each, among all.
+    fn reach(&mut self, goal: &Formula) -> Finding {
+        let task = Task::Reach(goal);
+        if self.engine != Choice::Auto {
+            return self.chosen(task);
+        }
+        // A way that a glance finds; that there is none is shown better by others.
+        let limits = self.budget.limits;
+        let first = Stubborn.find(
+            self.net,
+            task,
+            &Budget { limits: Limits { states: GLANCE, ..limits }, ..self.budget },
+        );
+        if matches!(first.found, Found::Way(_)) {
+            self.used(Stubborn.name());
+            return first;
+        }
+        let first = self.ask(&Structural, self.net, task, limits);
+        if first.is_something() {
+            return first;
+        }
+        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal));
+        let Some(smaller) = smaller else { return self.search(self.net, goal) };
+        let known = Known::new(&smaller.reduced.net);
+        self.used("reductions");
+        let mut found = self.ask(&Structural, &known, Task::Reach(&smaller.goal), self.budget.limits);
+        if !found.is_something() {
+            found = self.search(&known, &smaller.goal);
+        }
+        match found.found {
+            Found::Way(way) => match smaller.reduced.trail.lift(pt, &way) {
+                Ok(way) => Finding { found: Found::Way(way), ..found },
+                Err(_) => Finding::nothing(Reason::Limit(Limit::Bytes), found.states),
+            },
+            // What was shown of the smaller net says nothing to who does not believe the reductions.
+            Found::Never(_) => Finding { found: Found::Never(Evidence::None), ..found },
+            _ => found,
+        }
+    }
+
+    fn search(&mut self, net: &Known<'_>, goal: &Formula) -> Finding {
+        let limits = self.budget.limits;
+        let few = Limits { states: limits.states.min(FEW), ..limits };
+        let found = self.ask(&Explicit, net, Task::Reach(goal), few);
+        let Found::Nothing(reason) = found.found else { return found };
+        if reason == Reason::Limit(Limit::Unbounded) {
+            let found = self.ask(&Coverability, net, Task::Reach(goal), half(limits));
+            if found.is_something() {
+                return found;
+            }
+            return self.ask(&Stubborn, net, Task::Reach(goal), limits);
+        }
+        if limits.states <= FEW || limits.is_over() {
+            return found;
+        }
+        let found = self.ask(&Stubborn, net, Task::Reach(goal), half(limits));
+        if found.is_something() {
+            return found;
+        }
+        self.ask(&Explicit, net, Task::Reach(goal), limits)
+    }
+
+    fn bound(&mut self, places: &[PlaceId]) -> Shown {
+        let mut sum = Linear::default();
+        for &place in places {
+            match sum.weights.binary_search_by_key(&place, |it| it.0) {
+                Ok(at) => sum.weights[at].1 += 1,
+                Err(at) => sum.weights.insert(at, (place, 1)),
+            }
+        }
+        let found = self.most(&sum);
+        match found.found {
+            Found::Most(most, way, evidence) => {
+                let run = way.map(|stem| Run { stem, rest: Rest::Any });
+                (Verdict::Bound(most), run, evidence)
+            }
+            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    fn most(&mut self, sum: &Linear) -> Finding {
+        if self.engine != Choice::Auto {
+            return self.chosen(Task::Bound(sum));
+        }
+        let first = self.ask(&Structural, self.net, Task::Bound(sum), self.budget.limits);
+        if first.is_something() {
+            return first;
+        }
+        let pt = self.net.pt();
+        let Some(smaller) = Smaller::for_sum(pt, sum) else { return self.search_most(self.net, sum) };
+        let known = Known::new(&smaller.reduced.net);
+        self.used("reductions");
+        let mut found = self.ask(&Structural, &known, Task::Bound(&smaller.sum), self.budget.limits);
+        if !found.is_something() {
+            found = self.search_most(&known, &smaller.sum);
+        }
+        if let Found::Most(most, way, _) = found.found {
+            let way = way.and_then(|it| smaller.reduced.trail.lift(pt, &it).ok());
+            found.found = Found::Most(most, way, Evidence::None);
+        }
+        found
+    }
+
+    fn search_most(&mut self, net: &Known<'_>, sum: &Linear) -> Finding {
+        let found = self.ask(&Explicit, net, Task::Bound(sum), self.budget.limits);
+        match found.found {
+            Found::Nothing(Reason::Limit(Limit::Unbounded)) => {
+                self.ask(&Coverability, net, Task::Bound(sum), self.budget.limits)
+            }
+            _ => found,
+        }
+    }
+
+    /// A question about the transitions that never fire: they are those that are found by the structure, or all.
+    fn dead(&mut self, holds: impl Fn(&Known<'_>, &[TransitionId]) -> bool) -> Shown {
+        let none = holds(self.net, &[]);
+        if self.engine == Choice::Auto || self.engine == Choice::Structural {
+            let mut structure = self.net.structure();
+            structure.find_dead_transitions();
+            let some = structure.dead().transitions.clone();
+            drop(structure);
+            // More dead transitions change neither `yes, there is one` nor `yes, it is stable`.
+            if holds(self.net, &some) != none {
+                self.used("structural");
+                return (Verdict::Holds(!none), None, Evidence::None);
+            }
+        }
+        let engine: &dyn Engine = if self.engine == Choice::Structural { &Structural } else { &Explicit };
+        let mut found = self.ask(engine, self.net, Task::Dead, self.budget.limits);
+        if matches!(found.found, Found::Nothing(Reason::Limit(Limit::Unbounded))) {
+            found = self.ask(&Coverability, self.net, Task::Dead, self.budget.limits);
+        }
+        match found.found {
+            Found::Dead(dead, evidence) => (Verdict::Holds(holds(self.net, &dead)), None, evidence),
+            Found::Nothing(reason) if self.engine == Choice::Auto => {
+                self.dead_one_by_one(none, reason, &holds)
+            }
+            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    /// Asks for each transition alone; few markings may suffice for most.
+    fn dead_one_by_one(
+        &mut self,
+        none: bool,
+        reason: Reason,
+        holds: &impl Fn(&Known<'_>, &[TransitionId]) -> bool,
+    ) -> Shown {
+        let mut dead = Vec::new();
+        let mut open = Vec::new();
+        for transition in (0..self.net.pt().transitions.len() as u32).map(TransitionId) {
+            match self.reach(&Formula::Atom(Atom::Fireable(vec![transition]))).found {
+                Found::Never(_) => dead.push(transition),
+                Found::Way(_) => {}
+                _ => open.push(transition),
+            }
+            if self.budget.limits.is_over() {
+                return (Verdict::Unknown(reason), None, Evidence::None);
+            }
+        }
+        let mut most = [&dead[..], &open[..]].concat();
+        most.sort_unstable();
+        let (least, most) = (holds(self.net, &dead), holds(self.net, &most));
+        if least == most || least != none {
+            return (Verdict::Holds(least), None, Evidence::None);
+        }
+        (Verdict::Unknown(reason), None, Evidence::None)
+    }
+
+    fn live(&mut self) -> Shown {
+        let pt = self.net.pt();
+        if self.engine == Choice::Auto && !pt.transitions.is_empty() {
+            let mut structure = self.net.structure();
+            structure.find_dead_transitions();
+            let dead = !structure.dead().transitions.is_empty();
+            drop(structure);
+            if dead {
+                self.used("structural");
+                return (Verdict::Holds(false), None, Evidence::None);
+            }
+            let deadlock = Formula::Atom(Atom::Deadlock);
+            let found = self.ask(&Structural, self.net, Task::Reach(&deadlock), self.budget.limits);
+            if let Found::Way(stem) = found.found {
+                return (Verdict::Holds(false), Some(Run { stem, rest: Rest::Stays }), Evidence::None);
+            }
+            let siphons = structural::minimal_siphons(pt, 10_000, 20_000_000);
+            if let Some(live) = structural::commoner(pt, &siphons).live {
+                self.used("structural");
+                return (Verdict::Holds(live), None, Evidence::None);
+            }
+        }
+        let engine: &dyn Engine = if self.engine == Choice::Structural { &Structural } else { &Explicit };
+        match self.ask(engine, self.net, Task::Live, self.budget.limits).found {
+            Found::Holds(holds, run, evidence) => (Verdict::Holds(holds), run, evidence),
+            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    fn temporal(&mut self, formula: &Formula) -> Shown {
+        let pt = self.net.pt();
+        let smaller = (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
+        let found = match &smaller {
+            None => self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits),
+            Some(smaller) => {
+                self.used("reductions");
+                let known = Known::new(&smaller.reduced.net);
+                self.ask(&Temporal, &known, Task::Temporal(&smaller.goal), self.budget.limits)
+            }
+        };
+        match found.found {
+            Found::Holds(holds, run, evidence) => {
+                let run = match &smaller {
+                    None => run,
+                    Some(smaller) => run
+                        .and_then(|it| smaller.lifted(pt, it))
+                        .or_else(|| self.shown_in_full(formula, holds)),
+                };
+                // One run is evidence for what is said of runs; it is one of the whole net.
+                let run = if is_of_runs(formula) { run.map(|it| it.closed(pt)) } else { run };
+                let shown = run.as_ref().filter(|_| is_of_runs(formula)).and_then(|it| Evidence::run(pt, it));
+                let evidence = shown.unwrap_or(if smaller.is_none() { evidence } else { Evidence::None });
+                (Verdict::Holds(holds), run, evidence)
+            }
+            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    /// A run of the whole net for a verdict that was found on a smaller one, if that can have a run and the net is small.
+    fn shown_in_full(&self, formula: &Formula, holds: bool) -> Option<Run> {
+        if holds != matches!(formula, Formula::Exists(_)) {
+            return None;
+        }
+        let limits = Limits { states: self.budget.limits.states.min(SHOWN), ..self.budget.limits };
+        let task = Task::Temporal(formula);
+        match Temporal.find(self.net, task, &Budget { limits, ..self.budget }).found {
+            Found::Holds(again, run, _) if again == holds => run,
+            _ => None,
+        }
+    }
+
+    fn chosen(&mut self, task: Task<'_>) -> Finding {
+        let engine: &dyn Engine = match self.engine {
+            Choice::Structural => &Structural,
+            Choice::Stubborn => &Stubborn,
+            Choice::Explicit | Choice::Auto => &Explicit,
+        };
+        self.ask(engine, self.net, task, self.budget.limits)
+    }
+
+    fn ask(&mut self, engine: &dyn Engine, net: &Known<'_>, task: Task<'_>, limits: Limits) -> Finding {
+        let found = engine.find(net, task, &Budget { limits, ..self.budget });
+        if !self.tried.contains(&engine.name()) {
+            self.tried.push(engine.name());
+        }
+        self.states = self.states.max(found.states);
+        if found.is_something() {
+            self.used(engine.name());
+        }
+        found
+    }
+
+    fn used(&mut self, technique: &'static str) {
+        self.techniques.retain(|&it| it != technique);
+        self.techniques.push(technique);
+    }
+}
+
+/// Whether a formula speaks of single runs: one quantifier, and not of successors.
+fn is_of_runs(formula: &Formula) -> bool {
+    let quantified = |it: &Formula| matches!(it, Formula::All(_) | Formula::Exists(_));
+    match formula {
+        Formula::All(path) | Formula::Exists(path) => {
+            !path.any(&quantified) && !matches!(&**path, Formula::Next(inner) if !inner.needs_run())
+        }
+        _ => false,
+    }
+}
+
+/// Half of the memory and of the time that is left.
+fn half(limits: Limits) -> Limits {
+    let now = Instant::now();
+    let left = |it: Instant| now + it.saturating_duration_since(now) / 2 + Duration::from_millis(1);
+    Limits { bytes: limits.bytes / 2, deadline: limits.deadline.map(left), ..limits }
+}
+
+/// Evidence for one part of several.
+pub(super) fn one(evidence: Evidence, part: usize) -> Evidence {
+    match evidence {
+        Evidence::None => Evidence::None,
+        evidence => Evidence::One(One { part, by: Box::new(evidence) }),
+    }
+}
+
+/// Evidence for all parts.
+fn each_of(evidence: Vec<Evidence>) -> Evidence {
+    if evidence.contains(&Evidence::None) { Evidence::None } else { Evidence::Each(evidence) }
+}

@@ -1,0 +1,130 @@
+//! The trait of engines.
+
+use super::Known;
+use crate::certificate::Evidence;
+use crate::explicit::{Limit, Limits, Progress};
+use crate::property::{Formula, Linear};
+use crate::temporal::Run;
+use cotama_core::net::TransitionId;
+use std::fmt;
+
+/// What is looked for in a net.
+#[derive(Clone, Copy, Debug)]
+pub enum Task<'t> {
+    /// A reachable marking of which this formula, which speaks of one marking, is true.
+    Reach(&'t Formula),
+    /// The most that `constant + sum of weight * tokens` ever is.
+    Bound(&'t Linear),
+    /// Which transitions never fire.
+    Dead,
+    /// Whether every transition can fire again from every reachable marking.
+    Live,
+    /// Whether a formula holds at the start.
+    Temporal(&'t Formula),
+}
+
+/// The most of something.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extent {
+    /// So many.
+    Finite(u64),
+    /// There is no most.
+    Infinite,
+}
+
+impl fmt::Display for Extent {
+    /// A number or `+inf`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Finite(number) => number.fmt(f),
+            Self::Infinite => f.write_str("+inf"),
+        }
+    }
+}
+
+/// What an engine found.
+#[derive(Clone, Debug)]
+pub enum Found {
+    /// A way to a marking that was looked for.
+    Way(Vec<TransitionId>),
+    /// There is no such marking.
+    Never(Evidence),
+    /// The most tokens, and a way to a marking that has them where one is known.
+    Most(Extent, Option<Vec<TransitionId>>, Evidence),
+    /// All transitions that never fire.
+    Dead(Vec<TransitionId>, Evidence),
+    /// Whether it is so, a run that shows it, and evidence.
+    Holds(bool, Option<Run>, Evidence),
+    /// Nothing.
+    Nothing(Reason),
+}
+
+/// What an engine found, and how far it went for it.
+#[derive(Clone, Debug)]
+pub struct Finding {
+    /// What it found.
+    pub found: Found,
+    /// How many markings it met.
+    pub states: u64,
+}
+
+impl Finding {
+    /// Nothing was found.
+    pub const fn nothing(reason: Reason, states: u64) -> Self {
+        Self { found: Found::Nothing(reason), states }
+    }
+
+    /// Whether something was found.
+    pub const fn is_something(&self) -> bool {
+        !matches!(self.found, Found::Nothing(_))
+    }
+}
+
+/// Why there is no answer.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Reason {
+    /// A limit was reached.
+    Limit(Limit),
+    /// The engine cannot tell: what it looks at allows both.
+    Undecided,
+    /// The engine does not answer such questions.
+    Unsuited,
+}
+
+impl fmt::Display for Reason {
+    /// Half a sentence.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Limit(Limit::States) => "the limit of markings was reached",
+            Self::Limit(Limit::Bytes) => "the limit of memory was reached",
+            Self::Limit(Limit::Time) => "the limit of time was reached",
+            Self::Limit(Limit::Tokens) => "a place can hold more than 4294967295 tokens",
+            Self::Limit(Limit::Words) => "markings take more than 128 words",
+            Self::Limit(Limit::Unbounded) => "the net is unbounded",
+            Self::Undecided => "what the engine looks at allows both answers",
+            Self::Unsuited => "the engine does not answer such questions",
+        })
+    }
+}
+
+/// What an engine may use.
+#[derive(Clone, Copy)]
+pub struct Budget<'b> {
+    /// Markings, bytes, time.
+    pub limits: Limits,
+    /// Threads.
+    pub jobs: usize,
+    /// Whether evidence is worth more work.
+    pub evidence: bool,
+    /// Called now and then.
+    pub progress: &'b dyn Fn(Progress),
+}
+
+/// An engine. What it says is so; when it does not know, it says that.
+pub trait Engine {
+    /// The name that users know it by.
+    fn name(&self) -> &'static str;
+
+    /// Does a task on a net.
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding;
+}

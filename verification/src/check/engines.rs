@@ -1,0 +1,350 @@
+//! The engines behind the trait.
+
+use super::clauses::clauses;
+use super::engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+use super::known::Known;
+use crate::certificate::Evidence;
+use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};
+use crate::explicit::{Goal, Limit, Limits, Reached, reach, statespace};
+use crate::property::{Atom, Formula, Linear};
+use crate::pt::Pt;
+use crate::structural;
+use crate::stubborn;
+use crate::temporal::{self, Verdict};
+use cotama_core::net::{PlaceId, TransitionId};
+
+/// Looks at the structure of the net and visits no marking.
+#[derive(Clone, Copy, Debug)]
+pub struct Structural;
+
+impl Engine for Structural {
+    fn name(&self) -> &'static str {
+        "structural"
+    }
+
+    fn find(&self, net: &Known<'_>, task: Task<'_>, _: &Budget<'_>) -> Finding {
+        let found = match task {
+            Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net),
+            Task::Reach(goal) => goal_by_clauses(net, goal),
+            Task::Bound(sum) => bound(net, sum),
+            Task::Dead | Task::Live | Task::Temporal(_) => Found::Nothing(Reason::Unsuited),
+        };
+        Finding { found, states: 0 }
+    }
+}
+
+fn deadlock(net: &Known<'_>) -> Found {
+    let mut structure = net.structure();
+    match structure.deadlock() {
+        structural::Answer::Impossible(proof) => {
+            let evidence = Evidence::deadlock_free(net.pt(), structure.dead(), &proof);
+            Found::Never(evidence.unwrap_or(Evidence::None))
+        }
+        structural::Answer::Reachable(way) => Found::Way(way),
+        structural::Answer::Unknown(_) => Found::Nothing(Reason::Undecided),
+    }
+}
+
+fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
+    let Some(clauses) = clauses(goal, net.pt()) else { return Found::Nothing(Reason::Undecided) };
+    let mut structure = net.structure();
+    let bounds: Vec<_> = structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
+    let mut undecided = false;
+    let mut parts = Vec::new();
+    for clause in &clauses {
+        if !undecided || clause.iter().all(|it| possible(it, &bounds)) {
+            match structure.reach(clause) {
+                structural::Answer::Impossible(proof) => parts.push((clause.clone(), proof)),
+                structural::Answer::Reachable(way) => return Found::Way(way),
+                structural::Answer::Unknown(_) => undecided = true,
+            }
+        }
+    }
+    if undecided {
+        return Found::Nothing(Reason::Undecided);
+    }
+    let evidence = Evidence::never(net.pt(), structure.dead(), goal, &parts);
+    Found::Never(evidence.unwrap_or(Evidence::None))
+}
+
+/// Whether a marking within the bounds of single places can satisfy an inequality.
+fn possible(linear: &Linear, bounds: &[Option<i64>]) -> bool {
+    let least = linear.weights.iter().try_fold(i128::from(linear.constant), |sum, &(place, weight)| {
+        let tokens = if weight > 0 { 0 } else { bounds.get(place.0 as usize).copied().flatten()? };
+        Some(sum + i128::from(weight) * i128::from(tokens))
+    });
+    least.is_none_or(|it| it <= 0)
+}
+
+fn bound(net: &Known<'_>, sum: &Linear) -> Found {
+    let mut structure = net.structure();
+    let bound = structure.upper_bound(&sum.weights);
+    let full = bound.as_ref().and_then(|bound| above(&Linear { constant: 0, ..sum.clone() }, bound.at_most));
+    match (bound, full.map(|it| structure.reach(&[it]))) {
+        (Some(bound), Some(structural::Answer::Reachable(way))) => {
+            let most = i128::from(bound.at_most) + i128::from(sum.constant);
+            let fire: Vec<u32> = way.iter().map(|it| it.0).collect();
+            let evidence = Evidence::bounded(net.pt(), structure.dead(), &bound)
+                .map_or(Evidence::None, |it| Evidence::most(it, net.pt(), &fire));
+            Found::Most(extent(most), Some(way), evidence)
+        }
+        _ => Found::Nothing(Reason::Undecided),
+    }
+}
+
+/// `sum >= least` as an inequality.
+fn above(sum: &Linear, least: i64) -> Option<Linear> {
+    let weights = sum.weights.iter().map(|&(place, weight)| Some((place, weight.checked_neg()?)));
+    let constant = least.checked_sub(sum.constant)?;
+    Some(Linear { constant, weights: weights.collect::<Option<_>>()? })
+}
+
+fn extent(tokens: i128) -> Extent {
+    Extent::Finite(u64::try_from(tokens.max(0)).unwrap_or(u64::MAX))
+}
+
+fn value(sum: &Linear, marking: &[u32]) -> i128 {
+    let tokens = |place: PlaceId| marking.get(place.0 as usize).copied().map_or(0, i128::from);
+    sum.weights
+        .iter()
+        .fold(sum.constant.into(), |all, &(place, weight)| all + i128::from(weight) * tokens(place))
+}
+
+/// Meets all reachable markings, one by one, breadth first.
+#[derive(Clone, Copy, Debug)]
+pub struct Explicit;
+
+impl Engine for Explicit {
+    fn name(&self) -> &'static str {
+        "explicit"
+    }
+
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
+        match task {
+            Task::Reach(goal) => match Goal::new(goal) {
+                Some(it) => reached(reach(net.pt(), it, &budget.limits, budget.jobs, budget.progress)),
+                None => Finding::nothing(Reason::Unsuited, 0),
+            },
+            Task::Bound(sum) => most(net, sum, budget),
+            Task::Dead => {
+                let space = statespace(net.pt(), &budget.limits, budget.jobs, budget.progress);
+                let found = match space.limit {
+                    Some(limit) => Found::Nothing(Reason::Limit(limit)),
+                    None => Found::Dead(space.dead_transitions, Evidence::None),
+                };
+                Finding { found, states: space.states }
+            }
+            Task::Live => net.with_graph(budget, |graph| match graph {
+                Ok(graph) => {
+                    let found = Found::Holds(graph.liveness().is_live(), None, Evidence::None);
+                    Finding { found, states: graph.states() as u64 }
+                }
+                Err(limit) => Finding::nothing(Reason::Limit(limit), 0),
+            }),
+            Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
+        }
+    }
+}
+
+fn reached(reached: Reached) -> Finding {
+    let states = reached.states();
+    let found = match reached {
+        Reached::Trace { transitions, .. } => Found::Way(transitions),
+        Reached::Never { .. } => Found::Never(Evidence::None),
+        Reached::Unknown { limit, .. } => Found::Nothing(Reason::Limit(limit)),
+    };
+    Finding { found, states }
+}
+
+/// The most of a sum, by asking for more than the most that was seen until there is no such marking.
+fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
+    if let (&[(place, 1)], 0) = (&sum.weights[..], sum.constant) {
+        let space = statespace(net.pt(), &budget.limits, budget.jobs, budget.progress);
+        let found = match (space.limit, space.bounds.get(place.0 as usize)) {
+            (None, Some(&tokens)) => Found::Most(Extent::Finite(tokens), None, Evidence::None),
+            (limit, _) => Found::Nothing(limit.map_or(Reason::Undecided, Reason::Limit)),
+        };
+        return Finding { found, states: space.states };
+    }
+    let (mut best, mut way, mut states) = (value(sum, &net.pt().initial), Vec::new(), 0);
+    loop {
+        let more = i64::try_from(best + 1).ok().and_then(|least| above(sum, least));
+        let goal = more.map(|it| Formula::Atom(Atom::AtMost(it)));
+        let Some(asked) = goal.as_ref().and_then(Goal::new) else {
+            return Finding::nothing(Reason::Undecided, states);
+        };
+        let found = reach(net.pt(), asked, &budget.limits, budget.jobs, budget.progress);
+        states = states.max(found.states());
+        match found {
+            Reached::Trace { transitions, .. } => {
+                let Some(marking) = after(net.pt(), &transitions) else {
+                    return Finding::nothing(Reason::Limit(Limit::Tokens), states);
+                };
+                (best, way) = (value(sum, &marking), transitions);
+            }
+            Reached::Never { .. } => {
+                return Finding { found: Found::Most(extent(best), Some(way), Evidence::None), states };
+            }
+            Reached::Unknown { limit, .. } => return Finding::nothing(Reason::Limit(limit), states),
+        }
+    }
+}
+
+/// The marking after these firings.
+fn after(pt: &Pt, way: &[TransitionId]) -> Option<Vec<u32>> {
+    way.iter().try_fold(pt.initial.clone(), |marking, it| pt.fire(&marking, it.0))
+}
+
+/// Meets markings best first, firing only some of the transitions in each.
+#[derive(Clone, Copy, Debug)]
+pub struct Stubborn;
+
+impl Engine for Stubborn {
+    fn name(&self) -> &'static str {
+        "stubborn"
+    }
+
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
+        let Task::Reach(goal) = task else { return Finding::nothing(Reason::Unsuited, 0) };
+        let found = match goal {
+            Formula::Atom(Atom::Deadlock) => {
+                Some(stubborn::deadlock(net.pt(), &budget.limits, budget.progress))
+            }
+            _ => stubborn::reach_reduced(net.pt(), goal, &budget.limits, budget.progress),
+        };
+        found.map_or(Finding::nothing(Reason::Unsuited, 0), reached)
+    }
+}
+
+/// Formulas of CTL and LTL.
+#[derive(Clone, Copy, Debug)]
+pub struct Temporal;
+
+impl Engine for Temporal {
+    fn name(&self) -> &'static str {
+        "temporal"
+    }
+
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
+        let Task::Temporal(formula) = task else { return Finding::nothing(Reason::Unsuited, 0) };
+        match temporal::answer(net.pt(), formula, &budget.limits, budget.progress) {
+            Verdict::Known { holds, run, states } => {
+                Finding { found: Found::Holds(holds, run, Evidence::None), states }
+            }
+            Verdict::Unknown { reason: temporal::Reason::Limit(limit), states } => {
+                Finding::nothing(Reason::Limit(limit), states)
+            }
+            Verdict::Unknown { states, .. } => Finding::nothing(Reason::Unsuited, states),
+        }
+    }
+}
+
+/// Nets with infinitely many markings: what more tokens keep true.
+#[derive(Clone, Copy, Debug)]
+pub struct Coverability;
+
+impl Engine for Coverability {
+    fn name(&self) -> &'static str {
+        "coverability"
+    }
+
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
+        let stop = || budget.limits.is_over();
+        let limits = coverability_limits(budget, &stop);
+        let unfinished =
+            |it: coverability::Unfinished| Finding::nothing(Reason::Limit(limit(it.limit)), it.nodes);
+        match task {
+            Task::Reach(goal) => match coverability::reaches(net.pt(), goal, &limits) {
+                None => Finding::nothing(Reason::Unsuited, 0),
+                Some(Coverable::Yes(way)) => match way.firings {
+                    Some(way) => Finding { found: Found::Way(way), states: 0 },
+                    None => Finding::nothing(Reason::Undecided, 0),
+                },
+                Some(Coverable::No) => Finding { found: Found::Never(Evidence::None), states: 0 },
+                Some(Coverable::Unknown(it)) => unfinished(it),
+            },
+            Task::Bound(_) | Task::Dead => match CoverabilitySet::new(net.pt(), &limits) {
+                Ok(set) => Finding { found: covered(&set, task), states: set.met() },
+                Err(it) => unfinished(it),
+            },
+            Task::Live | Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
+        }
+    }
+}
+
+fn coverability_limits<'a>(budget: &Budget<'_>, stop: &'a dyn Fn() -> bool) -> coverability::Limits<'a> {
+    let nodes = budget.limits.states.min(10_000_000);
+    coverability::Limits { nodes, bytes: budget.limits.bytes, stop, ..coverability::Limits::default() }
+}
+
+/// Tokens of a marking on the way to which something is looked for that can be repeated.
+const MANY: u64 = 50;
+
+/// What can be repeated for ever and each time adds tokens to places: what first makes the net unbounded, or else a part of the
+/// way to many tokens in one of them. There may be none: tokens that grow in a place can be moved to another one.
+pub(super) fn growth(pt: &Pt, places: &[PlaceId], budget: &Budget<'_>) -> Option<Evidence> {
+    let stop = || budget.limits.is_over();
+    let limits = coverability_limits(budget, &stop);
+    if let Bounded::No(growth) = coverability::bounded(pt, &limits)
+        && growth.grows.iter().any(|it| places.contains(&it.0))
+    {
+        return Evidence::growth(pt, &growth);
+    }
+    let set = CoverabilitySet::new(pt, &limits).ok()?;
+    places.iter().find_map(|&place| {
+        let way = set.covers(&[(place, MANY)])?.firings.filter(|it| it.len() <= 2_000)?;
+        let fired = |marking: &mut Vec<u32>, it: &TransitionId| {
+            let after = pt.fire(marking, it.0)?;
+            Some(std::mem::replace(marking, after))
+        };
+        let mut last = pt.initial.clone();
+        let mut markings: Vec<Vec<u32>> = way.iter().map_while(|it| fired(&mut last, it)).collect();
+        markings.push(last);
+        let grows = |from: &[u32], to: &[u32]| {
+            from[place.0 as usize] < to[place.0 as usize] && from.iter().zip(to).all(|(from, to)| from <= to)
+        };
+        let mut pairs = (0..markings.len()).flat_map(|to| (0..to).map(move |from| (from, to)));
+        let (from, to) = pairs.find(|&(from, to)| grows(&markings[from], &markings[to]))?;
+        let sequence = |it: &[TransitionId]| coverability::Sequence {
+            length: it.len() as u128,
+            firings: Some(it.into()),
+        };
+        let (stem, pump) = (sequence(&way[..from]), sequence(&way[from..to]));
+        Evidence::growth(pt, &coverability::Growth { stem, pump, grows: Vec::new() })
+    })
+}
+
+fn covered(set: &CoverabilitySet<'_>, task: Task<'_>) -> Found {
+    let Task::Bound(sum) = task else { return Found::Dead(set.dead_transitions(), Evidence::None) };
+    let mut places = Vec::new();
+    for &(place, weight) in &sum.weights {
+        match usize::try_from(weight) {
+            Ok(times @ ..1_000) => places.extend(std::iter::repeat_n(place, times)),
+            _ => return Found::Nothing(Reason::Undecided),
+        }
+    }
+    match set.bound(&places) {
+        None => Found::Most(Extent::Infinite, None, Evidence::None),
+        Some(most) => match i128::try_from(most) {
+            Ok(most) => Found::Most(extent(most + i128::from(sum.constant)), None, Evidence::None),
+            Err(_) => Found::Nothing(Reason::Undecided),
+        },
+    }
+}
+
+fn limit(limit: coverability::Limit) -> Limit {
+    match limit {
+        coverability::Limit::Nodes => Limit::States,
+        coverability::Limit::Bytes => Limit::Bytes,
+        coverability::Limit::Stopped => Limit::Time,
+        coverability::Limit::Numbers => Limit::Tokens,
+    }
+}
+
+/// The limits of the explicit engine are those of all engines.
+impl Limits {
+    /// Whether the time is over.
+    pub fn is_over(&self) -> bool {
+        self.deadline.is_some_and(|it| std::time::Instant::now() >= it)
+    }
+}

@@ -1,0 +1,48 @@
+//! A net with what was found of it.
+
+use super::Budget;
+use crate::explicit::{Graph, Limit, Limits};
+use crate::pt::Pt;
+use crate::structural::{self, Structure};
+use std::cell::{OnceCell, RefCell, RefMut};
+
+/// A net, and what engines found of it, kept for the next question.
+#[derive(Debug)]
+pub struct Known<'n> {
+    pt: &'n Pt,
+    structure: OnceCell<RefCell<Structure<'n>>>,
+    graph: RefCell<Option<(Limits, Result<Graph, Limit>)>>,
+}
+
+impl<'n> Known<'n> {
+    /// Nothing is known yet.
+    pub fn new(pt: &'n Pt) -> Self {
+        Self { pt, structure: OnceCell::new(), graph: RefCell::new(None) }
+    }
+
+    /// The net.
+    pub fn pt(&self) -> &'n Pt {
+        self.pt
+    }
+
+    /// What its structure says.
+    pub(super) fn structure(&self) -> RefMut<'_, Structure<'n>> {
+        let made = || RefCell::new(Structure::new(self.pt, structural::Limits::default()));
+        self.structure.get_or_init(made).borrow_mut()
+    }
+
+    /// Does something with the graph of its markings, or with the limit that keeps it from being made.
+    pub(super) fn with_graph<R>(
+        &self,
+        budget: &Budget<'_>,
+        with: impl FnOnce(Result<&Graph, Limit>) -> R,
+    ) -> R {
+        let mut kept = self.graph.borrow_mut();
+        let more = |made: &Limits| budget.limits.states > made.states || budget.limits.bytes > made.bytes;
+        if kept.as_ref().is_none_or(|(made, graph)| graph.is_err() && more(made)) {
+            *kept = Some((budget.limits, Graph::new(self.pt, &budget.limits, budget.progress)));
+        }
+        let graph = kept.as_ref().map(|it| it.1.as_ref().map_err(|&limit| limit));
+        with(graph.unwrap_or(Err(Limit::Bytes)))
+    }
+}

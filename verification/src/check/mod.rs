@@ -1,0 +1,202 @@
+//! A question to a net, and its answer: engines behind one trait, and the choice among them.
+//!
+//! ```text
+//! text, XML, a law -> Property   property       Net, System, PNML, .net -> Model
+//! (Model, Property) -> Task                     what is looked for, free of operators that one engine alone knows
+//! Task -> Finding                               by an Engine: structural, stubborn, explicit, coverability, temporal
+//! Finding -> Answer                             the verdict, a run, and evidence that `certificate::verify` checks again
+//! ```
+//!
+//! ```
+//! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+//! use cotama_verification::check::{Model, Options, Verdict, check};
+//! use cotama_verification::property;
+//!
+//! let mut lamp = OwnedNet::new("lamp", "");
+//! let off = lamp.place(OwnedPlace::new("off", 1)).unwrap();
+//! let on = lamp.place(OwnedPlace::new("on", 0)).unwrap();
+//! lamp.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
+//! let lamp = Model::from(&lamp.view().net());
+//!
+//! let both = property::parse("EF (on & off)", lamp.pt()).unwrap();
+//! let answer = check(&lamp, &both, &Options::default());
+//! assert_eq!((answer.verdict, answer.engine()), (Verdict::Holds(false), "structural"));
+//! ```
+
+mod auto;
+mod clauses;
+mod engine;
+mod engines;
+mod known;
+mod laws;
+mod model;
+mod reduced;
+mod report;
+mod timed;
+
+pub use engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+pub use engines::{Coverability, Explicit, Structural, Stubborn, Temporal};
+pub use known::Known;
+pub use laws::{laws, question};
+pub use model::Model;
+pub use report::{Checkable, NoModel, Report, ReportError, report};
+
+use crate::certificate::{self, Certificate, Evidence, Uncertifiable};
+use crate::explicit::{Limits, Progress};
+use crate::property::{Property, Question};
+use crate::pt::Pt;
+use crate::temporal::Run;
+use crate::tpn::{Schedule, Time};
+use std::fmt;
+
+/// What is known of a question.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Verdict {
+    /// Whether it is so.
+    Holds(bool),
+    /// The most tokens.
+    Bound(Extent),
+    /// The least and the most time; `None` when there is nothing to measure, as the transition never fires.
+    Response(Option<(Time, Time)>),
+    /// Nothing.
+    Unknown(Reason),
+}
+
+/// An answer, and how it is known.
+#[derive(Clone, Debug)]
+pub struct Answer {
+    /// What is known.
+    pub verdict: Verdict,
+    /// A run that shows it: a way to what was looked for, or a counterexample.
+    pub run: Option<Run>,
+    /// The run with dates, of time nets.
+    pub schedule: Option<Schedule>,
+    /// Evidence that can be checked again; [`Evidence::None`] when the verdict is as good as the engine.
+    pub evidence: Evidence,
+    /// What led to the answer, in order: names of engines, and `reductions`.
+    pub techniques: Vec<&'static str>,
+    /// How many markings, or classes of a time net, were met by the engine that met most.
+    pub states: u64,
+}
+
+impl Answer {
+    /// The engine that decided.
+    pub fn engine(&self) -> &'static str {
+        self.techniques.last().copied().unwrap_or("none")
+    }
+
+    /// The answer to a question as a file that [`verify`](crate::certificate::verify()) checks again. Formulas are
+    /// [simplified](crate::property::Formula::simplified) in it.
+    ///
+    /// # Errors
+    /// When there is nothing to certify, or no form for it.
+    pub fn certificate(&self, pt: &Pt, property: &Property) -> Result<Certificate, Uncertified> {
+        let known = match self.verdict {
+            Verdict::Holds(holds) => certificate::Answer::Holds(holds),
+            Verdict::Bound(Extent::Finite(most)) => certificate::Answer::Bound(most),
+            Verdict::Bound(Extent::Infinite) => certificate::Answer::Unbounded,
+            Verdict::Response(_) => return Err(Uncertified::Form(Uncertifiable::Time)),
+            Verdict::Unknown(_) => return Err(Uncertified::Unknown),
+        };
+        if self.evidence == Evidence::None {
+            return Err(Uncertified::NoEvidence(self.engine()));
+        }
+        let question = match &property.question {
+            Question::Formula(formula) => Question::Formula(formula.simplified()),
+            question => question.clone(),
+        };
+        let property = Property { name: property.name.clone(), question };
+        Certificate::new(pt, &property, known, self.evidence.clone()).map_err(Uncertified::Form)
+    }
+}
+
+/// Why there is no certificate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Uncertified {
+    /// The answer is not known.
+    Unknown,
+    /// The engine of this name gives none.
+    NoEvidence(&'static str),
+    /// The answer has no form in a certificate.
+    Form(Uncertifiable),
+}
+
+impl fmt::Display for Uncertified {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Unknown => f.write_str("the answer is not known"),
+            Self::NoEvidence(engine) => write!(f, "the engine `{engine}` gives no evidence for it"),
+            Self::Form(why) => why.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for Uncertified {}
+
+/// Which engine is asked. Formulas of CTL and LTL beyond reachability have one engine, which is asked by every choice.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Choice {
+    /// Those that suit the question, the cheapest first.
+    #[default]
+    Auto,
+    /// The structure of the net alone.
+    Structural,
+    /// Markings one by one, only some transitions in each.
+    Stubborn,
+    /// All markings one by one.
+    Explicit,
+}
+
+/// How a question is answered.
+#[derive(Clone, Copy)]
+pub struct Options<'o> {
+    /// By which engine.
+    pub engine: Choice,
+    /// What it may use.
+    pub limits: Limits,
+    /// On how many threads, where an engine can use several.
+    pub jobs: usize,
+    /// Whether evidence is worth more work: without it, verdicts carry what evidence comes for free.
+    pub evidence: bool,
+    /// Called now and then.
+    pub progress: &'o dyn Fn(Progress),
+}
+
+impl Default for Options<'_> {
+    fn default() -> Self {
+        Self { engine: Choice::Auto, limits: Limits::default(), jobs: 1, evidence: false, progress: &|_| () }
+    }
+}
+
+/// A model and what was found of it so far, which serves the next question.
+#[derive(Debug)]
+pub struct Checker<'m> {
+    model: &'m Model,
+    known: Known<'m>,
+}
+
+impl<'m> Checker<'m> {
+    /// Nothing is known of it yet.
+    pub fn new(model: &'m Model) -> Self {
+        Self { model, known: Known::new(model.pt()) }
+    }
+
+    /// Answers a question.
+    pub fn answer(&self, property: &Property, options: &Options<'_>) -> Answer {
+        match self.model {
+            Model::Plain(_) => auto::answer(&self.known, &property.question, options),
+            Model::Timed { net, .. } => timed::answer(&self.known, net, &property.question, options),
+        }
+    }
+}
+
+/// Answers one question.
+pub fn check(model: &Model, property: &Property, options: &Options<'_>) -> Answer {
+    Checker::new(model).answer(property, options)
+}
+
+/// Answers questions to one net, in their order.
+pub fn check_all(model: &Model, properties: &[Property], options: &Options<'_>) -> Vec<Answer> {
+    let checker = Checker::new(model);
+    properties.iter().map(|it| checker.answer(it, options)).collect()
+}

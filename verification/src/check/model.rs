@@ -1,0 +1,62 @@
+//! What can be asked questions.
+
+use crate::pt::Pt;
+use crate::tpn::{self, TimeNet, TimeNetDefect};
+use cotama_core::net::Net;
+
+/// A net, with time or without.
+#[derive(Clone, Debug)]
+pub enum Model {
+    /// Enabled transitions fire in any order.
+    Plain(Pt),
+    /// Transitions fire within their intervals.
+    Timed {
+        /// The net.
+        net: TimeNet,
+        /// The same without intervals.
+        untimed: Pt,
+    },
+}
+
+impl Model {
+    /// The net without time.
+    pub fn pt(&self) -> &Pt {
+        match self {
+            Self::Plain(pt) => pt,
+            Self::Timed { untimed, .. } => untimed,
+        }
+    }
+
+    /// A net of the core with its intervals. Events come at any time, and a transition of a higher priority does not keep
+    /// others from firing: what is never reached here is never reached by a player.
+    ///
+    /// # Errors
+    ///
+    /// When a time net cannot say what the net says.
+    pub fn timed(net: &Net<'_>) -> Result<Self, TimeNetDefect> {
+        if net.transitions.iter().all(|it| it.within.is_none()) {
+            return Ok(Self::from(net));
+        }
+        Ok(Self::from(tpn::from_net(net)?.net))
+    }
+}
+
+/// Without its intervals.
+impl From<&Net<'_>> for Model {
+    fn from(net: &Net<'_>) -> Self {
+        Self::Plain(Pt::from(net))
+    }
+}
+
+impl From<Pt> for Model {
+    fn from(pt: Pt) -> Self {
+        Self::Plain(pt)
+    }
+}
+
+impl From<TimeNet> for Model {
+    fn from(net: TimeNet) -> Self {
+        let untimed = net.untimed();
+        Self::Timed { net, untimed }
+    }
+}

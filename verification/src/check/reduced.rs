@@ -1,0 +1,122 @@
+//! A question to a smaller net.
+
+use crate::property::{Atom, Formula, Linear};
+use crate::pt::Pt;
+use crate::reductions::{Goal, Keep, Reduced, Tokens, Trail, reduce};
+use crate::temporal::{Rest, Run};
+use cotama_core::net::PlaceId;
+
+/// A smaller net, and what is asked of it.
+pub(super) struct Smaller {
+    pub(super) reduced: Reduced,
+    /// The formula of the question; true where it is about a sum.
+    pub(super) goal: Formula,
+    /// The sum of the question; nothing where it is about a formula.
+    pub(super) sum: Linear,
+}
+
+impl Smaller {
+    /// For a formula that is looked for in a marking; `None` when the net does not become smaller.
+    pub(super) fn for_goal(pt: &Pt, goal: &Formula) -> Option<Self> {
+        match goal {
+            Formula::Atom(Atom::Deadlock) => Self::new(pt, goal, Goal::Deadlock),
+            _ if goal.any(&|it| matches!(it, Formula::Atom(Atom::Deadlock))) => None,
+            _ => Self::new(pt, goal, Goal::Reachability),
+        }
+    }
+
+    /// For a formula about runs.
+    pub(super) fn for_formula(pt: &Pt, formula: &Formula) -> Option<Self> {
+        let deadlock = formula.any(&|it| matches!(it, Formula::Atom(Atom::Deadlock)));
+        let steps = formula.any(&|it| matches!(it, Formula::Next(_)));
+        let quantifiers = |it: &Formula| matches!(it, Formula::All(_) | Formula::Exists(_));
+        match formula {
+            Formula::All(path) | Formula::Exists(path) if !steps && !deadlock && !path.any(&quantifiers) => {
+                Self::new(pt, formula, Goal::StutterInvariantLtl)
+            }
+            _ => Self::new(pt, formula, Goal::Ctl),
+        }
+    }
+
+    fn new(pt: &Pt, formula: &Formula, goal: Goal) -> Option<Self> {
+        let formula = in_tokens(formula, pt)?;
+        let reduced = smaller(pt, &Keep { places: visible(&formula), ..Keep::new(goal) })?;
+        let goal = rewritten(&formula, &reduced.trail)?;
+        Some(Self { reduced, goal, sum: Linear::default() })
+    }
+
+    /// For a sum of tokens.
+    pub(super) fn for_sum(pt: &Pt, sum: &Linear) -> Option<Self> {
+        let places = sum.weights.iter().map(|it| it.0).collect();
+        let reduced = smaller(pt, &Keep { places, ..Keep::new(Goal::Bounds) })?;
+        let sum = told(sum, &reduced.trail)?;
+        Some(Self { reduced, goal: Formula::TRUE, sum })
+    }
+
+    /// The run of the original net; `None` when it cannot be told.
+    pub(super) fn lifted(&self, pt: &Pt, run: Run) -> Option<Run> {
+        let trail = &self.reduced.trail;
+        match run.rest {
+            Rest::Cycle(cycle) => {
+                let (stem, cycle) = trail.lift_lasso(pt, &run.stem, &cycle).ok()?;
+                Some(Run { stem, rest: Rest::Cycle(cycle) })
+            }
+            rest => Some(Run { stem: trail.lift(pt, &run.stem).ok()?, rest }),
+        }
+    }
+}
+
+fn smaller(pt: &Pt, keep: &Keep) -> Option<Reduced> {
+    let reduced = reduce(pt, keep);
+    (!reduced.counts.is_empty()).then_some(reduced)
+}
+
+/// The most inequalities that enabled transitions are written out to.
+const MOST: usize = 20_000;
+
+/// The same formula with tokens instead of transitions that are enabled.
+fn in_tokens(formula: &Formula, pt: &Pt) -> Option<Formula> {
+    let mut left = MOST;
+    let mut enabled = |it: u32| {
+        let needs = pt.needs.of(it);
+        left = left.checked_sub(needs.len() + 1)?;
+        let needs = needs.iter().map(|&(place, need)| {
+            Formula::Atom(Atom::AtMost(Linear { constant: need.into(), weights: vec![(PlaceId(place), -1)] }))
+        });
+        Some(Formula::And(needs.collect()))
+    };
+    formula.with_atoms(&mut |atom| match atom {
+        Atom::Fireable(transitions) => {
+            Some(Formula::Or(transitions.iter().map(|it| enabled(it.0)).collect::<Option<_>>()?))
+        }
+        _ => Some(Formula::Atom(atom.clone())),
+    })
+}
+
+fn visible(formula: &Formula) -> Vec<PlaceId> {
+    let mut places = Vec::new();
+    formula.with_atoms(&mut |atom| {
+        if let Atom::AtMost(linear) = atom {
+            places.extend(linear.weights.iter().map(|it| it.0));
+        }
+        Some(Formula::TRUE)
+    });
+    places.sort_unstable();
+    places.dedup();
+    places
+}
+
+/// The same formula in the tokens of the smaller net.
+fn rewritten(formula: &Formula, trail: &Trail) -> Option<Formula> {
+    formula.with_atoms(&mut |atom| match atom {
+        Atom::AtMost(linear) => Some(Formula::Atom(Atom::AtMost(told(linear, trail)?))),
+        Atom::Deadlock => Some(Formula::Atom(Atom::Deadlock)),
+        Atom::Fireable(_) => None,
+    })
+}
+
+fn told(linear: &Linear, trail: &Trail) -> Option<Linear> {
+    let sum = Tokens { constant: linear.constant, weights: linear.weights.clone() };
+    let Tokens { constant, weights } = trail.tokens(&sum)?;
+    Some(Linear { constant, weights })
+}

@@ -1,0 +1,62 @@
+//! Boundedness.
+
+use super::search::{Order, Search};
+use super::word::Sequence;
+use super::{Limit, Limits, Unfinished};
+use crate::bounds::bounds;
+use crate::pt::Pt;
+use cotama_core::net::PlaceId;
+
+/// How many markings are met one after the other before another order is tried.
+pub(super) const FIRST: u64 = 1_000;
+
+/// Whether a net is bounded: whether it has finitely many reachable markings.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Bounded {
+    /// It is.
+    Yes,
+    /// It is not.
+    No(Growth),
+    /// A limit was reached before either was shown.
+    Unknown(Unfinished),
+}
+
+/// Why a net is unbounded: after `stem` fires from the initial marking, `pump` can fire again and again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Growth {
+    /// How to get there.
+    pub stem: Sequence,
+    /// What can be repeated; it takes tokens from no place.
+    pub pump: Sequence,
+    /// Places that grow, and by how much each time; sorted, never empty.
+    pub grows: Vec<(PlaceId, u64)>,
+}
+
+/// Whether a net is bounded. Sums of tokens that never grow, see [`bounds`](crate::bounds::bounds), prove it for most
+/// bounded nets; otherwise markings are passed through.
+pub fn bounded(pt: &Pt, limits: &Limits<'_>) -> Bounded {
+    let few = Limits { nodes: limits.nodes.min(FIRST), ..*limits };
+    for order in [Order::First, Order::Greatest] {
+        match search(pt, &few, order) {
+            Bounded::Unknown(Unfinished { limit: Limit::Nodes, .. }) if limits.nodes > FIRST => {}
+            answer => return answer,
+        }
+    }
+    if bounds(pt).iter().all(Option::is_some) {
+        return Bounded::Yes;
+    }
+    search(pt, limits, Order::Greatest)
+}
+
+fn search(pt: &Pt, limits: &Limits<'_>, order: Order) -> Bounded {
+    let mut search = Search::new(pt, order);
+    let is_raised = &mut |marking: &[super::Tokens]| marking.iter().any(|it| it.is_omega());
+    match search.run(limits, is_raised) {
+        Ok(None) => Bounded::Yes,
+        Ok(Some(id)) => match search.pumping(id, limits.firings) {
+            Some(growth) => Bounded::No(growth),
+            None => Bounded::Unknown(Unfinished { limit: Limit::Numbers, nodes: search.nodes() }),
+        },
+        Err(unfinished) => Bounded::Unknown(unfinished),
+    }
+}

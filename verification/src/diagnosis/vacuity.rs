@@ -1,0 +1,127 @@
+//! Whether a property holds for a reason that is none.
+
+use super::claim::claim;
+use super::words::{Says, always, says, ticked};
+use crate::property::{Atom, Formula};
+use crate::pt::Pt;
+
+/// A part of a property, and a stronger property in which it stands no more: if that holds as well, the part does not matter,
+/// and the property holds vacuously (Kupferman and Vardi, "Vacuity detection in temporal model checking", STTT 4(2), 2003).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Vacuity {
+    /// The part.
+    pub part: Formula,
+    /// The property with the part replaced: by false, or by true below a negation. Simplified.
+    pub formula: Formula,
+}
+
+/// The questions that tell whether a formula, which is known to hold, holds vacuously. Each is to be checked; of one that
+/// holds, [`Vacuity::words`] says what that means. Those that say that something never
+/// comes are first; else larger parts come before what they are made of.
+///
+/// ```
+/// use cotama_core::net::owned::{OwnedNet, OwnedPlace};
+/// use cotama_verification::{diagnosis::vacuous, property::{self, Question}, pt::Pt};
+///
+/// let mut net = OwnedNet::new("motor", "");
+/// ["fault", "stopped"].map(|it| net.place(OwnedPlace::new(it, 0)).unwrap());
+/// let pt = Pt::from(&net.view().net());
+/// let property = property::parse("AG (fault -> AF stopped)", &pt).unwrap();
+/// let Question::Formula(formula) = &property.question else { panic!("not a formula") };
+/// let asked = vacuous(formula);
+/// assert_eq!(asked[0].formula.display(&pt).to_string(), "AG fault <= 0");
+/// let words = "`AG (fault -> AF stopped)` holds vacuously: `fault` is never marked, so `AF stopped` is never put to the test.";
+/// assert_eq!(asked[0].words(&property.name, &pt), words);
+/// ```
+pub fn vacuous(formula: &Formula) -> Vec<Vacuity> {
+    let whole = formula.simplified();
+    let mut found: Vec<Vacuity> = Vec::new();
+    for (part, replaced) in replacements(formula, true) {
+        let formula = replaced.simplified();
+        let says_nothing = formula == whole || formula == Formula::TRUE || formula == Formula::FALSE;
+        if !says_nothing && found.iter().all(|it| it.formula != formula) {
+            found.push(Vacuity { part, formula });
+        }
+    }
+    // What never comes is the better reason.
+    found.sort_by_key(|it| it.never().is_none());
+    found
+}
+
+/// For each part, from the outside to the inside: the part, and the formula with false (true, below a negation) for it.
+fn replacements(formula: &Formula, positive: bool) -> Vec<(Formula, Formula)> {
+    let constant = if positive { Formula::FALSE } else { Formula::TRUE };
+    let inside = |inner: &Formula, positive: bool, wrap: &dyn Fn(Box<Formula>) -> Formula| -> Vec<_> {
+        let all = std::iter::once((inner.clone(), if positive { Formula::FALSE } else { Formula::TRUE }));
+        let all = all.chain(replacements(inner, positive));
+        all.map(|(part, it)| (part, wrap(Box::new(it)))).collect()
+    };
+    match formula {
+        Formula::Atom(_) => Vec::new(),
+        Formula::Not(a) => inside(a, !positive, &Formula::Not),
+        // The two inequalities of an equation are one thing.
+        Formula::And(all) if is_equation(all) => Vec::new(),
+        Formula::And(all) | Formula::Or(all) => {
+            let is_and = matches!(formula, Formula::And(_));
+            let with = |at: usize, it: Formula| {
+                let mut all = all.clone();
+                all[at] = it;
+                if is_and { Formula::And(all) } else { Formula::Or(all) }
+            };
+            let whole = all.iter().enumerate().map(|(at, part)| (part.clone(), with(at, constant.clone())));
+            let mut found: Vec<_> = whole.collect();
+            for (at, part) in all.iter().enumerate() {
+                found.extend(replacements(part, positive).into_iter().map(|(part, it)| (part, with(at, it))));
+            }
+            found
+        }
+        Formula::Exists(a) => inside(a, positive, &Formula::Exists),
+        Formula::All(a) => inside(a, positive, &Formula::All),
+        Formula::Next(a) => inside(a, positive, &Formula::Next),
+        Formula::Finally(a) => inside(a, positive, &Formula::Finally),
+        Formula::Globally(a) => inside(a, positive, &Formula::Globally),
+        Formula::Within(limit, a) => inside(a, positive, &|a| Formula::Within(*limit, a)),
+        Formula::Until(a, b) => {
+            let mut found = inside(a, positive, &|a| Formula::Until(a, b.clone()));
+            found.extend(inside(b, positive, &|b| Formula::Until(a.clone(), b)));
+            found
+        }
+    }
+}
+
+fn is_equation(all: &[Formula]) -> bool {
+    let [Formula::Atom(Atom::AtMost(a)), Formula::Atom(Atom::AtMost(b))] = all else { return false };
+    a.weights.len() == b.weights.len()
+        && a.constant.checked_neg() == Some(b.constant)
+        && a.weights.iter().zip(&b.weights).all(|(a, b)| a.0 == b.0 && a.1.checked_neg() == Some(b.1))
+}
+
+impl Vacuity {
+    /// What it means that the stronger property holds, in a sentence; `property` is the text of the one that it was made from.
+    pub fn words(&self, property: &str, pt: &Pt) -> String {
+        let show = |it: &Formula| ticked(&it.display(pt).to_string());
+        let (property, part) = (ticked(property), show(&self.part));
+        if let Some(never) = self.never() {
+            let is_test = !matches!(self.part, Formula::Not(_));
+            let so = if is_test { "is never put to the test" } else { "makes no difference" };
+            return format!("{property} holds vacuously: {}, so {part} {so}.", always(pt, &never));
+        }
+        format!(
+            "{property} holds vacuously: {} holds already, so {part} makes no difference.",
+            show(&self.formula)
+        )
+    }
+
+    /// What the stronger property says at all times, if it says that something never comes.
+    fn never(&self) -> Option<Formula> {
+        let Formula::All(path) = &self.formula else { return None };
+        let Formula::Globally(state) = &**path else { return None };
+        let state = state.is_state().then(|| claim(state, true))?;
+        let is_never = |it: &Formula| matches!(says(it), Says::Empty(_) | Says::Disabled(_) | Says::Alive);
+        let all = match &state {
+            Formula::And(parts) if !parts.is_empty() => parts.iter().all(is_never),
+            one => is_never(one),
+        };
+        all.then_some(state)
+    }
+}

@@ -1,0 +1,389 @@
+//! Breadth first through all reachable markings, level by level, on any number of threads.
+//!
+//! Threads take blocks of a level, and sort the markings that follow into boxes, one for each table; a full box is added to
+//! its table at once. Which thread finds a marking first, and so the order within a level, is left to chance, but not which
+//! markings a level has, nor what is counted.
+
+use super::block::Block;
+use super::diamonds::Diamonds;
+use super::enabling::Seen;
+use super::goal::Packed;
+use super::space::{Space, TooNarrow};
+use super::table::{BATCH, TABLES, Table, hash, table_of};
+use super::view::{Bits, View};
+use super::{Limit, Limits, Progress};
+use crate::pt::Pt;
+use std::sync::atomic::{AtomicU8, AtomicU64, Ordering::Relaxed};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Instant;
+
+/// Threads are worth their start for so many blocks each.
+const BLOCKS_OF_A_THREAD: usize = 4;
+
+/// How many markings a box holds: enough that many of them lie near each other in the table.
+const fn room<const S: usize>() -> usize {
+    4096 / S
+}
+
+/// What is done while markings are passed through.
+#[derive(Clone, Copy)]
+pub(super) struct Plan<'p> {
+    pub(super) pt: &'p Pt,
+    pub(super) limits: &'p Limits,
+    pub(super) jobs: usize,
+    pub(super) progress: &'p dyn Fn(Progress),
+    /// Stop after the first level that has one of these.
+    pub(super) goal: Option<Packed<'p>>,
+}
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    Exhausted,
+    Found,
+    Limit(Limit),
+}
+
+/// What is counted of markings when what follows them is computed.
+#[derive(Clone, Debug)]
+pub(super) struct Tally {
+    pub(super) arcs: u64,
+    pub(super) dead: u64,
+    pub(super) sum: u64,
+    pub(super) seen: Seen,
+    /// A bit for each transition that was enabled.
+    pub(super) enabled: Vec<u64>,
+}
+
+/// A search that ended.
+pub(super) struct Explored<const S: usize> {
+    pub(super) end: End,
+    /// Markings of complete levels.
+    pub(super) states: u64,
+    /// Levels that were met: the last one is not complete, or empty, unless it has a goal.
+    pub(super) depth: u64,
+    pub(super) tally: Tally,
+    /// The markings of each level, with a goal only.
+    pub(super) levels: Vec<Vec<Block<S>>>,
+    /// The goals in the last level.
+    pub(super) goals: Vec<[u64; S]>,
+    /// Bytes at the end, and most bytes at any time.
+    pub(super) bytes: u64,
+    pub(super) peak: u64,
+}
+
+/// What threads share.
+struct Shared<'s, const S: usize> {
+    space: &'s Space,
+    deltas: Vec<[u64; S]>,
+    diamonds: Diamonds,
+    limits: &'s Limits,
+    goal: Option<Packed<'s>>,
+    tables: Vec<Mutex<Table<S>>>,
+    queue: Mutex<Vec<Block<S>>>,
+    spare: Mutex<Vec<Block<S>>>,
+    states: AtomicU64,
+    bytes: AtomicU64,
+    peak: AtomicU64,
+    /// Zero, or the limit that was reached.
+    stop: AtomicU8,
+}
+
+/// A thread's own part.
+struct Worker<const S: usize> {
+    boxes: Vec<[u64; S]>,
+    /// For each marking in a box the transition that leads to it.
+    via: Vec<u32>,
+    fill: [usize; TABLES],
+    /// The box that is emptied first.
+    first: usize,
+    fresh: Vec<Block<S>>,
+    kept: Vec<Block<S>>,
+    goals: Vec<[u64; S]>,
+    view: View,
+    /// To look at goals.
+    scratch: (View, Seen),
+    tally: Tally,
+    /// All bits of all new markings.
+    union: [u64; S],
+}
+
+pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<Explored<S>, TooNarrow> {
+    let shared = Shared::<S> {
+        space,
+        deltas: space.deltas(),
+        diamonds: Diamonds::new(plan.pt),
+        limits: plan.limits,
+        goal: plan.goal,
+        tables: (0..TABLES).map(|_| Mutex::new(Table::new())).collect(),
+        queue: Mutex::default(),
+        spare: Mutex::default(),
+        states: AtomicU64::new(0),
+        bytes: AtomicU64::new(0),
+        peak: AtomicU64::new(0),
+        stop: AtomicU8::new(0),
+    };
+    let jobs = plan.jobs.max(1);
+    let mut workers: Vec<Worker<S>> = (0..jobs).map(|it| Worker::new(&shared, it * TABLES / jobs)).collect();
+    let mut levels = Vec::new();
+    let (mut states, mut depth) = (0, 0);
+    workers[0].put(&shared, &space.initial(), Diamonds::NONE);
+    workers[0].empty(&shared);
+    loop {
+        let union =
+            workers.iter().fold([0; S], |all: [u64; S], it| std::array::from_fn(|at| all[at] | it.union[at]));
+        let limit = space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
+        let goals: Vec<[u64; S]> = workers.iter_mut().flat_map(|it| std::mem::take(&mut it.goals)).collect();
+        let fresh: Vec<Block<S>> = workers.iter_mut().flat_map(|it| std::mem::take(&mut it.fresh)).collect();
+        if let Some(before) = levels.last_mut() {
+            *before = workers.iter_mut().flat_map(|it| std::mem::take(&mut it.kept)).collect();
+        }
+        let end = match limit {
+            // How much of a level fits depends on chance; whether all of it fits does not.
+            Some(limit @ (Limit::States | Limit::Tokens)) => Some(End::Limit(limit)),
+            _ if !goals.is_empty() => Some(End::Found),
+            Some(limit) => Some(End::Limit(limit)),
+            None => fresh.is_empty().then_some(End::Exhausted),
+        };
+        if limit.is_none() && !fresh.is_empty() {
+            states = shared.states.load(Relaxed);
+        }
+        if let Some(end) = end {
+            // The levels before the last one are complete, and so is what is counted of them.
+            let mut tally = Tally::new(space);
+            for worker in &workers {
+                tally.add(&worker.tally);
+            }
+            let (bytes, peak) = (shared.bytes.load(Relaxed), shared.peak.load(Relaxed));
+            return Ok(Explored { end, states, depth, tally, levels, goals, bytes, peak });
+        }
+        let waiting = fresh.iter().map(|it| it.via.len()).sum::<usize>() as u64;
+        (plan.progress)(Progress { states, depth, waiting });
+        let threads = (fresh.len() / BLOCKS_OF_A_THREAD).clamp(1, workers.len());
+        *lock(&shared.queue) = fresh;
+        if plan.goal.is_some() {
+            levels.push(Vec::new());
+        }
+        let (first, others) = workers[..threads].split_at_mut(1);
+        thread::scope(|scope| {
+            for worker in others {
+                // Without another thread this one does all.
+                let _ = thread::Builder::new().spawn_scoped(scope, || worker.level(&shared, &|| ()));
+            }
+            first[0].level(&shared, &|| {
+                let states = shared.states.load(Relaxed);
+                (plan.progress)(Progress { states, depth, waiting });
+            });
+        });
+        depth += 1;
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+impl<const S: usize> Shared<'_, S> {
+    fn is_stopped(&self) -> bool {
+        self.stop.load(Relaxed) != 0
+    }
+
+    fn stop(&self, limit: Limit) {
+        let _ = self.stop.compare_exchange(0, limit.code(), Relaxed, Relaxed);
+    }
+
+    /// Takes so many bytes; or stops the search when there are not as many.
+    fn reserve(&self, bytes: usize) -> bool {
+        let total = self.bytes.fetch_add(bytes as u64, Relaxed) + bytes as u64;
+        let is_free = total <= self.limits.bytes;
+        if is_free {
+            self.peak.fetch_max(total, Relaxed);
+        } else {
+            self.release(bytes);
+            self.stop(Limit::Bytes);
+        }
+        is_free
+    }
+
+    fn release(&self, bytes: usize) {
+        self.bytes.fetch_sub(bytes as u64, Relaxed);
+    }
+}
+
+impl Tally {
+    fn new(space: &Space) -> Self {
+        let enabled = vec![0; space.enabling.view().enabled.len()];
+        Self { arcs: 0, dead: 0, sum: 0, seen: space.enabling.unseen(), enabled }
+    }
+
+    /// Adds another one.
+    fn add(&mut self, other: &Self) {
+        self.arcs += other.arcs;
+        self.dead += other.dead;
+        self.sum = self.sum.max(other.sum);
+        self.seen.merge(&other.seen);
+        self.enabled.iter_mut().zip(&other.enabled).for_each(|(a, b)| *a |= b);
+    }
+}
+
+impl<const S: usize> Worker<S> {
+    fn new(shared: &Shared<'_, S>, first: usize) -> Self {
+        let enabling = &shared.space.enabling;
+        Self {
+            boxes: vec![[0; S]; TABLES * room::<S>()],
+            via: vec![0; TABLES * room::<S>()],
+            fill: [0; TABLES],
+            first,
+            fresh: Vec::new(),
+            kept: Vec::new(),
+            goals: Vec::new(),
+            view: enabling.view(),
+            scratch: (enabling.view(), enabling.unseen()),
+            tally: Tally::new(shared.space),
+            union: [0; S],
+        }
+    }
+
+    /// Takes blocks of the level as long as there are any.
+    fn level(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
+        loop {
+            let Some(mut block) = lock(&shared.queue).pop() else { break };
+            if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
+                shared.stop(Limit::Time);
+            }
+            // Other limits let the level be counted to its end, so that the counts are those of complete levels.
+            if shared.stop.load(Relaxed) != Limit::Time.code() {
+                self.expand(shared, &block);
+            }
+            tick();
+            if shared.goal.is_some() {
+                let before = block.bytes();
+                block.markings.shrink_to_fit();
+                block.via = Vec::new();
+                shared.release(before - block.bytes());
+                self.kept.push(block);
+            } else {
+                block.markings.clear();
+                block.via.clear();
+                lock(&shared.spare).push(block);
+            }
+        }
+        self.empty(shared);
+    }
+
+    /// Computes what follows the markings of a block.
+    fn expand(&mut self, shared: &Shared<'_, S>, block: &Block<S>) {
+        let (mut arcs, mut dead, mut most) = (0, 0, 0);
+        let mut view = std::mem::take(&mut self.view);
+        let mut ever = std::mem::take(&mut self.tally.enabled);
+        for (marking, &via) in block.markings.iter().zip(&block.via) {
+            shared.space.enabling.look(marking, &mut view, &mut self.tally.seen);
+            most = most.max(view.sum);
+            let before = arcs;
+            let left_out = shared.diamonds.of(via);
+            for (at, ((&enabled, ever), left_out)) in
+                view.enabled.iter().zip(&mut ever).zip(left_out).enumerate()
+            {
+                *ever |= enabled;
+                arcs += u64::from(enabled.count_ones());
+                for bit in Bits(enabled & !left_out) {
+                    let transition = 64 * at as u32 + bit;
+                    let delta = &shared.deltas[transition as usize];
+                    let after = std::array::from_fn(|at| marking[at].wrapping_add(delta[at]));
+                    self.put(shared, &after, transition);
+                }
+            }
+            dead += u64::from(arcs == before);
+        }
+        self.view = view;
+        self.tally.enabled = ever;
+        self.tally.arcs += arcs;
+        self.tally.dead += dead;
+        self.tally.sum = self.tally.sum.max(most);
+    }
+
+    #[inline]
+    fn put(&mut self, shared: &Shared<'_, S>, marking: &[u64; S], via: u32) {
+        let table = table_of(hash(marking));
+        let fill = self.fill[table];
+        self.boxes[table * room::<S>() + fill] = *marking;
+        self.via[table * room::<S>() + fill] = via;
+        self.fill[table] = fill + 1;
+        if fill + 1 == room::<S>() {
+            self.flush(shared, table);
+        }
+    }
+
+    /// Empties all boxes; each thread starts with another one, so that they seldom wait for each other.
+    fn empty(&mut self, shared: &Shared<'_, S>) {
+        for table in (self.first..TABLES).chain(0..self.first) {
+            if self.fill[table] > 0 {
+                self.flush(shared, table);
+            }
+        }
+    }
+
+    /// Empties a box into its table.
+    #[inline(never)]
+    fn flush(&mut self, shared: &Shared<'_, S>, at: usize) {
+        let count = std::mem::take(&mut self.fill[at]);
+        if shared.is_stopped() {
+            return;
+        }
+        let mut table = lock(&shared.tables[at]);
+        let Self { boxes, via, fresh, goals, scratch: (view, seen), union, .. } = self;
+        let mut new = 0;
+        let start = at * room::<S>();
+        let batches = boxes[start..][..count].chunks(BATCH).zip(via[start..].chunks(BATCH));
+        for (batch, via) in batches {
+            if let Some(slots) = table.grown(batch.len()) {
+                let before = table.slots();
+                if !shared.reserve(Table::<S>::bytes(slots)) {
+                    break;
+                }
+                if !table.grow(slots) {
+                    shared.release(Table::<S>::bytes(slots));
+                    shared.stop(Limit::Bytes);
+                    break;
+                }
+                shared.release(Table::<S>::bytes(before));
+            }
+            table.insert(batch, |at| {
+                let marking = &batch[at];
+                new += 1;
+                for (all, word) in union.iter_mut().zip(marking) {
+                    *all |= word;
+                }
+                if shared.goal.is_some_and(|it| it.holds(shared.space, marking, view, seen)) {
+                    goals.push(*marking);
+                }
+                match fresh.last_mut() {
+                    Some(block) if block.via.len() < Block::<S>::ROOM => block.push(marking, via[at]),
+                    _ => fresh.extend(shared.block(marking, via[at])),
+                }
+            });
+        }
+        drop(table);
+        if shared.states.fetch_add(new, Relaxed) + new > shared.limits.states {
+            shared.stop(Limit::States);
+        }
+    }
+}
+
+impl<const S: usize> Shared<'_, S> {
+    /// A block with a marking in it, if there is memory for it.
+    fn block(&self, marking: &[u64; S], via: u32) -> Option<Block<S>> {
+        let mut block = lock(&self.spare).pop().or_else(|| {
+            let bytes = Block::<S>::ROOM * (size_of::<[u64; S]>() + size_of::<u32>());
+            let block = self.reserve(bytes).then(Block::new)?;
+            if block.is_none() {
+                self.release(bytes);
+                self.stop(Limit::Bytes);
+            }
+            block
+        })?;
+        block.push(marking, via);
+        Some(block)
+    }
+}

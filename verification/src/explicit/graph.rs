@@ -1,0 +1,335 @@
+//! The reachable markings with the arcs between them.
+
+use super::goal::Goal;
+use super::layout::Width;
+use super::space::{Search, Space, TooNarrow, search};
+use super::table::hash;
+use super::{Limit, Limits, Progress};
+use crate::pt::Pt;
+use cotama_core::net::TransitionId;
+use std::time::Instant;
+
+/// Successors whose places in the index are looked up at once: their loads overlap.
+const BATCH: usize = 256;
+
+/// The reachable markings, numbered from 0, the initial one, in the order of a breadth first search that fires transitions
+/// in their order; and for each marking those that follow it.
+#[derive(Debug)]
+pub struct Graph {
+    space: Space,
+    /// Words of a marking.
+    words: usize,
+    markings: Vec<u64>,
+    /// For each marking where its successors begin.
+    starts: Vec<usize>,
+    successors: Vec<u32>,
+    /// How many transitions the net has.
+    transitions: u32,
+    /// A bit for each transition that some marking enables.
+    fired: Vec<u64>,
+}
+
+impl Graph {
+    /// The graph of a net; on one thread, so that numbers are always the same. `progress` is called now and then.
+    ///
+    /// # Errors
+    /// The limit that was reached; [`Limit::States`] also when there are 4,294,967,295 markings.
+    ///
+    /// ```
+    /// use cotama_core::net::TransitionId;
+    /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+    /// use cotama_verification::explicit::{Graph, Limits};
+    /// use cotama_verification::pt::Pt;
+    ///
+    /// let mut lamp = OwnedNet::new("lamp", "A lamp.");
+    /// let off = lamp.place(OwnedPlace::new("off", 1)).unwrap();
+    /// let on = lamp.place(OwnedPlace::new("on", 0)).unwrap();
+    /// lamp.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
+    /// lamp.transition(OwnedTransition::new("release").take(on, 1).give(off, 1)).unwrap();
+    /// let graph = Graph::new(&Pt::from(&lamp.view().net()), &Limits::default(), &|_| ()).unwrap();
+    /// assert_eq!((graph.states(), graph.arcs()), (2, 2));
+    /// assert_eq!((graph.marking(1), graph.successors(1)), (vec![0, 1], &[0][..]));
+    /// assert_eq!(graph.transitions(1), [TransitionId(1)]);
+    /// ```
+    pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Limit> {
+        search(pt, Width::of(pt).ok_or(Limit::Tokens)?, &mut Construction { pt, limits, progress })?
+    }
+
+    /// How many markings there are.
+    pub fn states(&self) -> usize {
+        self.starts.len() - 1
+    }
+
+    /// How many arcs there are: pairs of a marking and a transition that is enabled in it.
+    pub fn arcs(&self) -> usize {
+        self.successors.len()
+    }
+
+    /// The markings that follow a marking, one for each transition that is enabled in it, in their order.
+    ///
+    /// # Panics
+    /// When there is no such marking.
+    #[inline]
+    pub fn successors(&self, state: u32) -> &[u32] {
+        &self.successors[self.starts[state as usize]..self.starts[state as usize + 1]]
+    }
+
+    /// The transitions that are enabled in a marking, in their order, which is that of [`Graph::successors`].
+    ///
+    /// # Panics
+    /// When there is no such marking.
+    pub fn transitions(&self, state: u32) -> Vec<TransitionId> {
+        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+        self.space.enabling.look(self.packed(state), &mut view, &mut seen);
+        view.transitions().map(TransitionId).collect()
+    }
+
+    /// The tokens of each place.
+    ///
+    /// # Panics
+    /// When there is no such marking.
+    pub fn marking(&self, state: u32) -> Vec<u32> {
+        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+        let (marking, stored) = (self.packed(state), self.words);
+        self.space.enabling.look(marking, &mut view, &mut seen);
+        let word = |at: usize| if at < stored { marking[at] } else { view.computed[at - stored] };
+        self.space.layout.fields.iter().map(|it| it.tokens(word(it.word)) as u32).collect()
+    }
+
+    /// For each marking whether the goal holds in it.
+    pub fn satisfying(&self, goal: Goal<'_>) -> Vec<bool> {
+        let goal = goal.packed(&self.space);
+        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+        let holds = |it: &[u64]| goal.holds(&self.space, it, &mut view, &mut seen);
+        self.markings.chunks_exact(self.words).map(holds).collect()
+    }
+
+    /// A shortest way from the initial marking to another one.
+    ///
+    /// # Panics
+    /// When there is no such marking.
+    pub fn way(&self, to: u32) -> Vec<TransitionId> {
+        // The marking that a marking was first met from: later markings are not met from earlier ones than their own.
+        let mut before = vec![0; to as usize + 1];
+        let mut met = 0;
+        for from in 0..=to {
+            for &state in self.successors(from).iter().filter(|it| **it <= to) {
+                if state > met {
+                    met = state;
+                    before[state as usize] = from;
+                }
+            }
+            if met == to {
+                break;
+            }
+        }
+        let mut way = Vec::new();
+        let mut state = to;
+        while state != 0 {
+            let from = before[state as usize];
+            let at = self.successors(from).iter().position(|it| *it == state);
+            way.extend(at.map(|at| self.transitions(from)[at]));
+            state = from;
+        }
+        way.reverse();
+        way
+    }
+
+    /// Transitions that some marking enables, or that none does.
+    pub(super) fn fired(&self, ever: bool) -> impl Iterator<Item = u32> {
+        (0..self.transitions).filter(move |it| (self.fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
+    }
+
+    /// Transitions that some of these markings enable: a bit for each, 64 to a word.
+    pub(super) fn enabled(&self, states: impl Iterator<Item = u32>) -> Vec<u64> {
+        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+        let mut all = vec![0; view.enabled.len()];
+        for state in states {
+            self.space.enabling.look(self.packed(state), &mut view, &mut seen);
+            all.iter_mut().zip(&view.enabled).for_each(|(all, it)| *all |= it);
+        }
+        all
+    }
+
+    fn packed(&self, state: u32) -> &[u64] {
+        &self.markings[state as usize * self.words..][..self.words]
+    }
+}
+
+/// What the graph is made with.
+struct Construction<'c> {
+    pt: &'c Pt,
+    limits: &'c Limits,
+    progress: &'c dyn Fn(Progress),
+}
+
+impl Search for Construction<'_> {
+    type Found = Result<Graph, Limit>;
+
+    fn search<const S: usize>(&mut self, space: Space) -> Result<Self::Found, TooNarrow> {
+        let mut parts = Parts::<S>::new(&space, self.limits);
+        let ended = parts.explore(&space, self.progress);
+        if let Some(limit) = space.check(&parts.union)? {
+            return Ok(Err(limit));
+        }
+        let Parts { markings, mut starts, successors, fired, .. } = parts;
+        let transitions = self.pt.transitions.len() as u32;
+        Ok(ended.map(|()| {
+            starts.push(successors.len());
+            let markings = markings.into_flattened();
+            Graph { space, words: S, markings, starts, successors, transitions, fired }
+        }))
+    }
+}
+
+/// The graph as it grows.
+struct Parts<'p, const S: usize> {
+    limits: &'p Limits,
+    /// Bytes of all lists.
+    bytes: u64,
+    markings: Vec<[u64; S]>,
+    starts: Vec<usize>,
+    successors: Vec<u32>,
+    fired: Vec<u64>,
+    /// Numbers of markings, [`EMPTY`] where there is none, each where its hash leads to or after that with none empty between.
+    index: Vec<u32>,
+    /// All bits of all markings.
+    union: [u64; S],
+}
+
+/// No number of a marking.
+const EMPTY: u32 = u32::MAX;
+
+impl<'p, const S: usize> Parts<'p, S> {
+    fn new(space: &Space, limits: &'p Limits) -> Self {
+        Self {
+            limits,
+            bytes: 0,
+            markings: Vec::new(),
+            starts: Vec::new(),
+            successors: Vec::new(),
+            fired: vec![0; space.enabling.view().enabled.len()],
+            index: Vec::new(),
+            union: [0; S],
+        }
+    }
+
+    /// Adds all markings, or as many as there are before a limit or a guess that is too small.
+    fn explore(&mut self, space: &Space, progress: &dyn Fn(Progress)) -> Result<(), Limit> {
+        let deltas = space.deltas::<S>();
+        let (mut view, mut seen) = (space.enabling.view(), space.enabling.unseen());
+        let mut following: Vec<[u64; S]> = Vec::new();
+        self.connect(&[space.initial()])?;
+        self.successors.clear();
+        let (mut state, mut depth, mut level) = (0, 0, 1);
+        while state < level && !space.is_too_narrow(&self.union) {
+            if self.limits.deadline.is_some_and(|it| Instant::now() >= it) {
+                return Err(Limit::Time);
+            }
+            following.clear();
+            while state < level && following.len() < BATCH {
+                let marking = self.markings[state];
+                space.enabling.look(&marking, &mut view, &mut seen);
+                self.fired.iter_mut().zip(&view.enabled).for_each(|(all, it)| *all |= it);
+                self.bytes += make_room(&mut self.starts, 1, self.limits.bytes - self.bytes)?;
+                self.starts.push(self.successors.len() + following.len());
+                let fire = |it: u32| {
+                    let delta = &deltas[it as usize];
+                    std::array::from_fn(|at| marking[at].wrapping_add(delta[at]))
+                };
+                following.extend(view.transitions().map(fire));
+                state += 1;
+            }
+            self.connect(&following)?;
+            let (states, waiting) = (self.markings.len() as u64, (self.markings.len() - state) as u64);
+            progress(Progress { states, depth, waiting });
+            if state == level {
+                (level, depth) = (self.markings.len(), depth + 1);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the numbers of these markings to the successors; new ones get the next number.
+    fn connect(&mut self, markings: &[[u64; S]]) -> Result<(), Limit> {
+        let free = self.limits.bytes - self.bytes;
+        self.bytes += make_room(&mut self.markings, markings.len(), free)?;
+        let free = self.limits.bytes - self.bytes;
+        self.bytes += make_room(&mut self.successors, markings.len(), free)?;
+        self.spread(markings.len())?;
+        let first = self.successors.len();
+        // Most markings have a number already, and it lies where their hash leads.
+        self.successors.extend(markings.iter().map(|it| self.index[home(it, self.index.len())]));
+        for (at, marking) in markings.iter().enumerate() {
+            let guess = self.successors[first + at];
+            if self.markings.get(guess as usize) != Some(marking) {
+                self.successors[first + at] = self.number(marking);
+            }
+        }
+        let most = self.limits.states.min(u64::from(EMPTY));
+        if self.markings.len() as u64 > most { Err(Limit::States) } else { Ok(()) }
+    }
+
+    /// The number of a marking, for which there is room.
+    fn number(&mut self, marking: &[u64; S]) -> u32 {
+        let mut slot = home(marking, self.index.len());
+        loop {
+            let number = self.index[slot];
+            if number == EMPTY {
+                break;
+            }
+            if self.markings[number as usize] == *marking {
+                return number;
+            }
+            slot = if slot + 1 == self.index.len() { 0 } else { slot + 1 };
+        }
+        let number = self.markings.len() as u32;
+        self.index[slot] = number;
+        self.markings.push(*marking);
+        for (all, word) in self.union.iter_mut().zip(marking) {
+            *all |= word;
+        }
+        number
+    }
+
+    /// Makes the index larger if so many more markings are too many for it.
+    fn spread(&mut self, more: usize) -> Result<(), Limit> {
+        let (count, before) = (self.markings.len() + more, self.index.len());
+        if 5 * count <= 4 * before {
+            return Ok(());
+        }
+        self.index = Vec::new();
+        self.bytes -= (before * size_of::<u32>()) as u64;
+        let slots = (count * 7 / 4).max(before * 7 / 5);
+        self.bytes += make_room(&mut self.index, slots, self.limits.bytes - self.bytes)?;
+        self.index.resize(slots, EMPTY);
+        for (number, marking) in self.markings.iter().enumerate() {
+            let mut slot = home(marking, slots);
+            while self.index[slot] != EMPTY {
+                slot = if slot + 1 == slots { 0 } else { slot + 1 };
+            }
+            self.index[slot] = number as u32;
+        }
+        Ok(())
+    }
+}
+
+/// Where in an index of so many slots a marking belongs.
+#[inline]
+fn home<const S: usize>(marking: &[u64; S], slots: usize) -> usize {
+    ((u128::from(hash(marking)) * slots as u128) >> 64) as usize
+}
+
+/// Makes room for so many more items in a list, half as many again as it has if it must grow; returns the bytes taken.
+fn make_room<T>(list: &mut Vec<T>, more: usize, free: u64) -> Result<u64, Limit> {
+    let (before, needed) = (list.capacity(), list.len() + more);
+    if needed <= before {
+        return Ok(0);
+    }
+    let room = needed.max(before + before / 2);
+    if (room * size_of::<T>()) as u64 > free {
+        return Err(Limit::Bytes);
+    }
+    list.try_reserve_exact(room - list.len()).map_err(|_| Limit::Bytes)?;
+    Ok(((list.capacity() - before) * size_of::<T>()) as u64)
+}

@@ -1,0 +1,113 @@
+//! The explicit engine: reachable markings one by one.
+//!
+//! | item | what it answers |
+//! | --- | --- |
+//! | [`statespace`] | how many markings are reachable, and what is counted of them |
+//! | [`reach`] | whether a marking with a property is reachable, and a shortest way to one |
+//! | [`Graph`] | the markings and the arcs between them, to be passed through again |
+//! | [`Liveness`] | liveness and reversibility, from the strongly connected components of the graph |
+//!
+//! Markings are packed into machine words by bounds that [`bounds`](crate::bounds::bounds) proves, in widths that are tried
+//! out elsewhere. A search ends with all markings, or at one of its [`Limits`]; that too is an answer. Answers are the same
+//! on any number of threads, but for limits of memory and time.
+//!
+//! ```
+//! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+//! use cotama_verification::explicit::{Limits, statespace};
+//! use cotama_verification::pt::Pt;
+//!
+//! let mut lamp = OwnedNet::new("lamp", "A lamp.");
+//! let off = lamp.place(OwnedPlace::new("off", 1)).unwrap();
+//! let on = lamp.place(OwnedPlace::new("on", 0)).unwrap();
+//! lamp.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
+//! lamp.transition(OwnedTransition::new("release").take(on, 1).give(off, 1)).unwrap();
+//! let lamp = Pt::from(&lamp.view().net());
+//! let space = statespace(&lamp, &Limits::default(), 1, &|_| ());
+//! assert_eq!((space.states, space.arcs, space.dead_markings, space.limit), (2, 2, 0, None));
+//! ```
+
+mod block;
+mod diamonds;
+mod enabling;
+mod explore;
+mod goal;
+mod graph;
+mod growth;
+mod implied;
+mod layout;
+mod liveness;
+mod markings;
+mod reach;
+mod space;
+mod statespace;
+mod table;
+mod view;
+
+pub use goal::Goal;
+pub use graph::Graph;
+pub use growth::Growth;
+pub use liveness::{Components, Liveness};
+pub(crate) use markings::{Index, Look, Markings, hash};
+pub use reach::{Reached, reach};
+pub use statespace::{StateSpace, statespace};
+
+use std::time::Instant;
+
+/// How much a search may use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// The most markings. A level of the search that does not fit as a whole is not counted at all.
+    pub states: u64,
+    /// The most bytes for markings, tables and arcs, before they are taken.
+    pub bytes: u64,
+    /// When to stop.
+    pub deadline: Option<Instant>,
+}
+
+impl Default for Limits {
+    /// No limit on markings and time, 4 GiB.
+    fn default() -> Self {
+        Self { states: u64::MAX, bytes: 4 << 30, deadline: None }
+    }
+}
+
+/// Why a search ended before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Limit {
+    /// More markings than [`Limits::states`].
+    States,
+    /// More memory than [`Limits::bytes`].
+    Bytes,
+    /// [`Limits::deadline`] has passed.
+    Time,
+    /// A place with more than 4,294,967,295 tokens.
+    Tokens,
+    /// A marking that does not fit in 128 words.
+    Words,
+    /// The net is unbounded: it has no end.
+    Unbounded,
+}
+
+impl Limit {
+    const ALL: [Self; 6] =
+        [Self::States, Self::Bytes, Self::Time, Self::Tokens, Self::Words, Self::Unbounded];
+
+    fn code(self) -> u8 {
+        1 + self as u8
+    }
+
+    fn of(code: u8) -> Option<Self> {
+        Self::ALL.get(usize::from(code).checked_sub(1)?).copied()
+    }
+}
+
+/// How far a search is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Progress {
+    /// Markings so far.
+    pub states: u64,
+    /// Firings from the initial marking to the level that is worked on.
+    pub depth: u64,
+    /// Markings of this level.
+    pub waiting: u64,
+}

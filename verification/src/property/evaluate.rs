@@ -1,0 +1,148 @@
+//! Formulas about one marking, to be asked of many markings.
+
+use super::{Atom, Formula, Linear};
+use crate::pt::Pt;
+use cotama_core::net::PlaceId;
+
+/// Something that says how many tokens each place holds.
+pub trait Marking {
+    /// The tokens of a place of the net; any number for other places.
+    fn tokens(&self, place: PlaceId) -> u64;
+}
+
+/// By place; places beyond the end hold none.
+impl Marking for [u32] {
+    #[inline]
+    fn tokens(&self, place: PlaceId) -> u64 {
+        self.get(place.0 as usize).copied().map_or(0, u64::from)
+    }
+}
+
+/// By place; places beyond the end hold none.
+impl Marking for [u64] {
+    #[inline]
+    fn tokens(&self, place: PlaceId) -> u64 {
+        self.get(place.0 as usize).copied().unwrap_or(0)
+    }
+}
+
+/// A formula about one marking, made to be evaluated fast: a chain of tests, each of which says where to go on.
+///
+/// ```
+/// # use cotama_core::net::owned::{OwnedNet, OwnedPlace};
+/// # use cotama_verification::property::{self, Condition, Question};
+/// # use cotama_verification::pt::Pt;
+/// let mut net = OwnedNet::new("net", "");
+/// net.place(OwnedPlace::new("p", 0)).unwrap();
+/// net.place(OwnedPlace::new("q", 0)).unwrap();
+/// let net = Pt::from(&net.view().net());
+/// let property = property::parse("p + q <= 3 & !q", &net).unwrap();
+/// let Question::Formula(formula) = &property.question else { panic!("not a formula") };
+/// let condition = Condition::new(formula, &net).unwrap();
+/// assert!(condition.holds([3_u32, 0].as_slice()));
+/// assert!(!condition.holds([2_u32, 1].as_slice()));
+/// ```
+#[derive(Clone, Debug)]
+pub struct Condition<'n> {
+    net: &'n Pt,
+    /// Each leads only to tests before it.
+    tests: Vec<(Test, [u32; 2])>,
+    first: u32,
+}
+
+/// Where a formula is known to be false, or true.
+const ENDS: [u32; 2] = [u32::MAX - 1, u32::MAX];
+
+#[derive(Clone, Debug)]
+enum Test {
+    AtLeast(PlaceId, u64),
+    AtMostZero(Linear),
+    Fireable(u32),
+    Deadlock,
+}
+
+impl<'n> Condition<'n> {
+    /// `None` when the formula has temporal operators or quantifiers. Its transitions are those of the net.
+    pub fn new(formula: &Formula, net: &'n Pt) -> Option<Self> {
+        let mut condition = Self { net, tests: Vec::new(), first: 0 };
+        condition.first = formula.is_state().then(|| condition.add(formula, ENDS))?;
+        Some(condition)
+    }
+
+    /// Whether it holds in a marking. Tokens and weights may be as large as they like.
+    #[inline]
+    pub fn holds<M: Marking + ?Sized>(&self, marking: &M) -> bool {
+        let mut at = self.first;
+        while let Some((test, next)) = self.tests.get(at as usize) {
+            let holds = match test {
+                Test::AtLeast(place, tokens) => marking.tokens(*place) >= *tokens,
+                Test::AtMostZero(linear) => linear.holds(marking),
+                Test::Fireable(transition) => self.enabled(marking, *transition),
+                Test::Deadlock => (0..self.net.transitions.len() as u32).all(|it| !self.enabled(marking, it)),
+            };
+            at = next[usize::from(holds)];
+        }
+        at == ENDS[1]
+    }
+
+    fn enabled<M: Marking + ?Sized>(&self, marking: &M, transition: u32) -> bool {
+        let needs = self.net.needs.of(transition);
+        needs.iter().all(|&(place, tokens)| marking.tokens(PlaceId(place)) >= u64::from(tokens))
+    }
+
+    /// Adds the tests of a formula that lead to one of two tests that are there; where the first of them is.
+    fn add(&mut self, formula: &Formula, [no, yes]: [u32; 2]) -> u32 {
+        match formula {
+            Formula::Not(inner) => self.add(inner, [yes, no]),
+            Formula::And(all) => all.iter().rev().fold(yes, |next, part| self.add(part, [no, next])),
+            Formula::Or(all) => all.iter().rev().fold(no, |next, part| self.add(part, [next, yes])),
+            Formula::Atom(Atom::AtMost(linear)) => self.compare(linear, [no, yes]),
+            Formula::Atom(Atom::Fireable(transitions)) => {
+                transitions.iter().rev().fold(no, |next, it| self.push(Test::Fireable(it.0), [next, yes]))
+            }
+            Formula::Atom(Atom::Deadlock) => self.push(Test::Deadlock, [no, yes]),
+            // `new` lets no other formula pass.
+            _ => no,
+        }
+    }
+
+    fn push(&mut self, test: Test, next: [u32; 2]) -> u32 {
+        self.tests.push((test, next));
+        self.tests.len() as u32 - 1
+    }
+
+    fn compare(&mut self, linear: &Linear, [no, yes]: [u32; 2]) -> u32 {
+        let constant = i128::from(linear.constant);
+        match linear.weights.as_slice() {
+            [] => [no, yes][usize::from(constant <= 0)],
+            // constant + weight * tokens <= 0: fewer tokens than the first number that is too large
+            &[(place, weight @ 1..)] => match u64::try_from((-constant).div_euclid(i128::from(weight)) + 1) {
+                Ok(tokens) => self.push(Test::AtLeast(place, tokens), [yes, no]),
+                Err(_) => no,
+            },
+            // constant <= -weight * tokens: at least the quotient, rounded up
+            &[(place, weight @ ..=-1)] => {
+                let tokens = -(-constant).div_euclid(-i128::from(weight));
+                self.push(Test::AtLeast(place, u64::try_from(tokens).unwrap_or(0)), [no, yes])
+            }
+            _ => self.push(Test::AtMostZero(linear.clone()), [no, yes]),
+        }
+    }
+}
+
+impl Linear {
+    /// Whether the inequality holds in a marking.
+    #[inline]
+    pub fn holds<M: Marking + ?Sized>(&self, marking: &M) -> bool {
+        // The sum in two parts, `high * 2^64 + low`, neither of which can overflow.
+        let split = |value: i128| (value >> 64, value & i128::from(u64::MAX));
+        let (mut high, mut low) = split(i128::from(self.constant));
+        for &(place, weight) in &self.weights {
+            let part = split(i128::from(weight) * i128::from(marking.tokens(place)));
+            (high, low) = (high + part.0, low + part.1);
+        }
+        let (carried, low) = split(low);
+        let high = high + carried;
+        high < 0 || (high == 0 && low == 0)
+    }
+}

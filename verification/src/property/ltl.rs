@@ -1,0 +1,108 @@
+//! The normal form of LTL.
+
+use super::Formula;
+use std::collections::HashMap;
+
+/// A formula about one run as nodes that share what is equal, with negations in what is said of one marking only. A
+/// node speaks of nodes before it only. Runs are infinite: the last marking before a deadlock lasts.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Ltl {
+    nodes: Vec<LtlNode>,
+    root: u32,
+}
+
+/// A part of a formula about one run; numbers are positions in [`Ltl::nodes`].
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub enum LtlNode {
+    /// A formula about the first marking.
+    State(Formula),
+    /// All of them.
+    And(Vec<u32>),
+    /// One of them.
+    Or(Vec<u32>),
+    /// From the next marking on.
+    Next(u32),
+    /// The first until the second, which comes.
+    Until(u32, u32),
+    /// The second as long as the first has not come, and when it comes; always, if it never comes.
+    Release(u32, u32),
+}
+
+impl Ltl {
+    /// The formula that stands after a quantifier. `None` when it has quantifiers, or speaks of time.
+    pub fn new(path: &Formula) -> Option<Self> {
+        Self::of(path, true)
+    }
+
+    /// What is true of a run exactly when the formula is not: what a counterexample to `A` has to meet.
+    pub fn negation_of(path: &Formula) -> Option<Self> {
+        Self::of(path, false)
+    }
+
+    fn of(path: &Formula, positive: bool) -> Option<Self> {
+        let mut builder = Builder::default();
+        let root = builder.add(&path.simplified(), positive)?;
+        Some(Self { nodes: builder.nodes, root })
+    }
+
+    /// Its parts.
+    pub fn nodes(&self) -> &[LtlNode] {
+        &self.nodes
+    }
+
+    /// The node that is the whole formula.
+    pub fn root(&self) -> u32 {
+        self.root
+    }
+}
+
+#[derive(Default)]
+struct Builder {
+    nodes: Vec<LtlNode>,
+    positions: HashMap<LtlNode, u32>,
+}
+
+impl Builder {
+    fn push(&mut self, node: LtlNode) -> u32 {
+        if let Some(&at) = self.positions.get(&node) {
+            return at;
+        }
+        let at = self.nodes.len() as u32;
+        self.positions.insert(node.clone(), at);
+        self.nodes.push(node);
+        at
+    }
+
+    /// A simple formula or its negation.
+    fn add(&mut self, formula: &Formula, positive: bool) -> Option<u32> {
+        if formula.is_state() {
+            let state = if positive { formula.clone() } else { formula.clone().negated() };
+            return Some(self.push(LtlNode::State(state)));
+        }
+        let node = match formula {
+            Formula::Not(inner) => return self.add(inner, !positive),
+            Formula::And(all) | Formula::Or(all) => {
+                let mut parts = all.iter().map(|it| self.add(it, positive)).collect::<Option<Vec<_>>>()?;
+                parts.sort_unstable();
+                parts.dedup();
+                let conjunction = matches!(formula, Formula::And(_)) == positive;
+                if conjunction { LtlNode::And(parts) } else { LtlNode::Or(parts) }
+            }
+            Formula::Next(inner) => LtlNode::Next(self.add(inner, positive)?),
+            Formula::Until(a, b) => {
+                let (a, b) = (self.add(a, positive)?, self.add(b, positive)?);
+                if positive { LtlNode::Until(a, b) } else { LtlNode::Release(a, b) }
+            }
+            Formula::Finally(inner) | Formula::Globally(inner) => {
+                let inner = self.add(inner, positive)?;
+                if matches!(formula, Formula::Finally(_)) == positive {
+                    LtlNode::Until(self.push(LtlNode::State(Formula::TRUE)), inner)
+                } else {
+                    LtlNode::Release(self.push(LtlNode::State(Formula::FALSE)), inner)
+                }
+            }
+            _ => return None,
+        };
+        Some(self.push(node))
+    }
+}

@@ -1,0 +1,367 @@
+//! From a text of the language to a property.
+
+use super::error::{Fault, quoted};
+use super::lexer::{Lexeme, Token, is_reserved, lexemes};
+use super::linear::Sum;
+use super::names::{Ids, Names};
+use super::{Atom, Formula, Linear, Property, PropertyError, Question};
+use crate::pt::Pt;
+use std::ops::Range;
+
+/// The longest text, in bytes.
+pub const MAX_TEXT: usize = 1 << 20;
+
+/// How deep operators and parentheses may be nested, and formulas of files.
+pub const MAX_DEPTH: usize = 128;
+
+/// Reads a question about a net. Its name is the text without white space around it.
+///
+/// # Errors
+/// The first thing that is wrong with the text, and where.
+pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
+    let located = |fault: Fault| fault.located("property", text);
+    if text.len() > MAX_TEXT {
+        let message = format!("the text has {} bytes, more than {MAX_TEXT}", text.len());
+        return Err(located(Fault::new(0..0, message).help("ask for its parts one by one")));
+    }
+    let mut parser = Parser {
+        lexemes: &lexemes(text).map_err(located)?,
+        at: 0,
+        names: Names::new(net, Ids::default()),
+        depth: 0,
+        quantified: false,
+        parts: Formula::MAX_PARTS,
+    };
+    let question = parser.question().map_err(located)?;
+    Ok(Property { name: text.trim().to_owned(), question })
+}
+
+pub(super) struct Parser<'t> {
+    /// The last of them is the end.
+    pub(super) lexemes: &'t [Lexeme<'t>],
+    pub(super) at: usize,
+    pub(super) names: Names<'t>,
+    depth: usize,
+    /// Whether a quantifier is around.
+    quantified: bool,
+    /// How many parts equivalences may still add.
+    parts: usize,
+}
+
+/// What was read: a number or a statement.
+pub(super) struct Value {
+    pub(super) what: What,
+    pub(super) span: Range<usize>,
+    /// Where its `U` stands, if it is an until without parentheses.
+    pub(super) until: Option<Range<usize>>,
+}
+
+pub(super) enum What {
+    Sum(Sum),
+    Formula(Formula),
+}
+
+/// Operators between statements, loosest first.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Join {
+    Equivalence,
+    Implication,
+    Or,
+    And,
+    Until,
+}
+
+impl Join {
+    fn tighter(self) -> Self {
+        match self {
+            Self::Equivalence => Self::Implication,
+            Self::Implication => Self::Or,
+            Self::Or => Self::And,
+            Self::And | Self::Until => Self::Until,
+        }
+    }
+}
+
+impl Value {
+    pub(super) fn new(what: What, span: Range<usize>) -> Self {
+        Self { what, span, until: None }
+    }
+
+    fn formula(self) -> Result<Formula, Fault> {
+        match self.what {
+            What::Formula(formula) => Ok(formula),
+            What::Sum(sum) => match sum.as_place() {
+                Some(place) => Ok(Formula::Atom(Atom::AtMost(Linear::marked(place)))),
+                None => Err(Fault::new(self.span, "this is a number, and a statement is expected")
+                    .help("compare it with another number, as in `p + q <= 3`")),
+            },
+        }
+    }
+
+    /// An operand of anything but an until.
+    fn operand(self) -> Result<Formula, Fault> {
+        match self.until {
+            Some(span) => Err(Fault::new(span, "an until beside another operator")
+                .help("put it in parentheses, as in `(a U b) & c`")),
+            None => self.formula(),
+        }
+    }
+
+    pub(super) fn sum(self) -> Result<Sum, Fault> {
+        match self.what {
+            What::Sum(sum) => Ok(sum),
+            What::Formula(_) => Err(Fault::new(self.span, "this is a statement, and a number is expected")
+                .help("`+`, `-`, `*` and comparisons are for numbers of tokens; join statements with `&`, `|`, `->` or `<->`")),
+        }
+    }
+}
+
+impl<'t> Parser<'t> {
+    pub(super) fn token(&self) -> &'t Token<'t> {
+        self.lexemes.get(self.at).map_or(&Token::End, |lexeme| &lexeme.token)
+    }
+
+    pub(super) fn span(&self) -> Range<usize> {
+        self.lexemes.get(self.at).or(self.lexemes.last()).map_or(0..0, |lexeme| lexeme.span.clone())
+    }
+
+    /// Passes one of these symbols or words, if it is next.
+    pub(super) fn take(&mut self, spellings: &[&str]) -> bool {
+        let (Token::Word(next) | Token::Symbol(next)) = self.token() else { return false };
+        let taken = spellings.contains(next);
+        self.at += usize::from(taken);
+        taken
+    }
+
+    pub(super) fn expect(&mut self, symbol: &str) -> Result<(), Fault> {
+        if self.take(&[symbol]) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}` is expected"))) }
+    }
+
+    #[cold]
+    pub(super) fn unexpected(&self, help: &str) -> Fault {
+        let message = match self.token() {
+            Token::End => "the text ends too early".to_owned(),
+            Token::Word(word) => format!("{} is not expected here", quoted(word)),
+            Token::Quoted(name) => format!("the name {} is not expected here", quoted(name)),
+            Token::Number(number) => format!("the number {number} is not expected here"),
+            Token::Symbol(symbol) => format!("`{symbol}` is not expected here"),
+        };
+        Fault::new(self.span(), message).help(help)
+    }
+
+    fn question(&mut self) -> Result<Question, Fault> {
+        let question = if self.take(&["bounds"]) {
+            self.bounds()?
+        } else if self.take(&["bound"]) {
+            self.expect("(")?;
+            let (name, span) = self.name("a transition")?;
+            let from = self.names.transition(name, span)?;
+            self.expect("->")?;
+            let (name, span) = self.name("a place")?;
+            let to = self.names.place(name, span)?;
+            self.expect(")")?;
+            Question::Response { from, to }
+        } else if self.take(&["live"]) {
+            Question::Liveness
+        } else if self.take(&["quasi_live"]) {
+            Question::QuasiLiveness
+        } else if self.take(&["stable"]) {
+            Question::StableMarking
+        } else if self.take(&["one_safe"]) {
+            Question::OneSafe
+        } else {
+            Question::Formula(self.expression(Join::Equivalence)?.formula()?)
+        };
+        match self.token() {
+            Token::End => Ok(question),
+            _ if matches!(question, Question::Formula(_)) => {
+                Err(self.unexpected("join statements with `&`, `|`, `->` or `<->`"))
+            }
+            _ => Err(self.unexpected("the question ends before this; ask one question at a time")),
+        }
+    }
+
+    fn bounds(&mut self) -> Result<Question, Fault> {
+        self.expect("(")?;
+        let mut places = Vec::new();
+        loop {
+            let (name, span) = self.name("a place")?;
+            let place = self.names.place(name, span.clone())?;
+            if places.contains(&place) {
+                let fault = Fault::new(span, format!("the place {} stands twice in one sum", quoted(name)));
+                return Err(fault.help("name it once"));
+            }
+            places.push(place);
+            if !self.take(&["+"]) {
+                break;
+            }
+        }
+        if !self.take(&[")"]) {
+            return Err(self.unexpected("places are joined by `+`, and `)` ends them"));
+        }
+        Ok(Question::Bound(places))
+    }
+
+    pub(super) fn name(&mut self, expected: &str) -> Result<(&'t str, Range<usize>), Fault> {
+        let name = match self.token() {
+            Token::Word(word) if !is_reserved(word) => *word,
+            Token::Quoted(name) => name,
+            Token::Word(_) => {
+                return Err(self.unexpected("it is a word of the language; put a name like it in quotes"));
+            }
+            _ => return Err(self.unexpected(&format!("the name of {expected} is expected"))),
+        };
+        let span = self.span();
+        self.at += 1;
+        Ok((name, span))
+    }
+
+    /// What is nested in the next thing: counts how deep.
+    pub(super) fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Fault>) -> Result<T, Fault> {
+        if self.depth == MAX_DEPTH {
+            let message = format!("operators are nested more than {MAX_DEPTH} deep");
+            return Err(Fault::new(self.span(), message).help("ask for its parts one by one"));
+        }
+        self.depth += 1;
+        let value = read(self);
+        self.depth -= 1;
+        value
+    }
+
+    fn join(&self) -> Option<Join> {
+        let (Token::Word(next) | Token::Symbol(next)) = self.token() else { return None };
+        match *next {
+            "<->" => Some(Join::Equivalence),
+            "->" => Some(Join::Implication),
+            "|" | "||" | "or" => Some(Join::Or),
+            "&" | "&&" | "and" => Some(Join::And),
+            "U" => Some(Join::Until),
+            _ => None,
+        }
+    }
+
+    /// Operands joined by operators that bind at least as tightly.
+    pub(super) fn expression(&mut self, loosest: Join) -> Result<Value, Fault> {
+        let mut left = self.unary()?;
+        while let Some(join) = self.join().filter(|&join| join >= loosest) {
+            let (operator, start) = (self.span(), left.span.start);
+            if join == Join::Until && !self.quantified {
+                return Err(outside("U", operator));
+            }
+            let formula = match join {
+                Join::Until => {
+                    let first = left.operand()?;
+                    self.at += 1;
+                    let second = self.nested(|it| it.expression(Join::Until))?.formula()?;
+                    Formula::Until(first.into(), second.into())
+                }
+                Join::And | Join::Or => {
+                    let mut all = vec![left.operand()?];
+                    while self.join() == Some(join) {
+                        self.at += 1;
+                        all.push(self.expression(join.tighter())?.operand()?);
+                    }
+                    if join == Join::And { Formula::And(all) } else { Formula::Or(all) }
+                }
+                Join::Implication => {
+                    let first = left.operand()?;
+                    self.at += 1;
+                    let second = self.nested(|it| it.expression(join))?.operand()?;
+                    Formula::Or(vec![Formula::Not(first.into()), second])
+                }
+                Join::Equivalence => {
+                    let first = left.operand()?;
+                    self.at += 1;
+                    let second = self.expression(join.tighter())?.operand()?;
+                    Formula::equivalence(first, second, &mut self.parts).ok_or_else(|| {
+                        Fault::new(
+                            operator.clone(),
+                            "the formula is too long when its equivalences are written out",
+                        )
+                        .help("ask for its parts one by one")
+                    })?
+                }
+            };
+            left = Value::new(What::Formula(formula), start..self.end());
+            left.until = (join == Join::Until).then_some(operator);
+        }
+        Ok(left)
+    }
+
+    /// Where the last word that was passed ends.
+    pub(super) fn end(&self) -> usize {
+        self.at.checked_sub(1).and_then(|at| self.lexemes.get(at)).map_or(0, |lexeme| lexeme.span.end)
+    }
+
+    /// Negations, quantifiers and temporal operators with what they are said of.
+    fn unary(&mut self) -> Result<Value, Fault> {
+        let span = self.span();
+        let (Token::Word(operator) | Token::Symbol(operator)) = self.token() else {
+            return self.comparison();
+        };
+        let (quantifier, temporal) = match *operator {
+            "!" | "not" => (None, None),
+            "A" | "E" => (Some(&operator[..1]), None),
+            "X" | "F" | "G" => (None, Some(*operator)),
+            "AX" | "EX" | "AF" | "EF" | "AG" | "EG" => (Some(&operator[..1]), Some(&operator[1..])),
+            _ => return self.comparison(),
+        };
+        self.at += 1;
+        let outer = self.quantified;
+        self.quantified |= quantifier.is_some();
+        if let (Some(temporal), false) = (temporal, self.quantified) {
+            return Err(outside(temporal, span));
+        }
+        let limit =
+            if temporal == Some("F") && self.take(&["<="]) { Some(self.milliseconds()?) } else { None };
+        let inner = if quantifier.is_some() && temporal.is_none() && self.take(&["["]) {
+            let inner = self.nested(|it| it.expression(Join::Equivalence))?.formula()?;
+            self.expect("]")?;
+            inner
+        } else {
+            self.nested(Self::unary)?.formula()?
+        };
+        self.quantified = outer;
+        let inner = match (temporal, limit) {
+            (Some("X"), _) => Formula::Next(inner.into()),
+            (Some("F"), Some(limit)) => Formula::Within(limit, inner.into()),
+            (Some("F"), None) => Formula::Finally(inner.into()),
+            (Some(_), _) => Formula::Globally(inner.into()),
+            (None, _) => inner,
+        };
+        let formula = match quantifier {
+            Some("E") => Formula::Exists(inner.into()),
+            Some(_) => Formula::All(inner.into()),
+            None if temporal.is_none() => Formula::Not(inner.into()),
+            None => inner,
+        };
+        Ok(Value::new(What::Formula(formula), span.start..self.end()))
+    }
+
+    fn milliseconds(&mut self) -> Result<u64, Fault> {
+        let span = self.span();
+        let Token::Number(number) = *self.token() else {
+            return Err(self.unexpected("a limit of time is expected, as in `AF<=200ms p`"));
+        };
+        self.at += 1;
+        let unit = if self.take(&["ms"]) {
+            1
+        } else if self.take(&["s"]) {
+            1000
+        } else {
+            return Err(self.unexpected("a limit of time has a unit: `ms` or `s`"));
+        };
+        number.checked_mul(unit).ok_or_else(|| {
+            Fault::new(span, format!("{number} seconds are too many"))
+                .help(format!("the largest limit is {} ms", u64::MAX))
+        })
+    }
+}
+
+fn outside(operator: &str, span: Range<usize>) -> Fault {
+    let help = match operator {
+        "U" => "write `A[a U b]` or `E[a U b]`".to_owned(),
+        _ => format!("write `A{operator}` or `E{operator}`, or `A (...)` around a formula of LTL"),
+    };
+    Fault::new(span, format!("the temporal operator `{operator}` stands outside of a quantifier")).help(help)
+}

@@ -1,0 +1,171 @@
+//! Smaller nets with the same answer.
+//!
+//! [`reduce`] takes places and transitions away from a net, and puts transitions together, as long as what is asked has the
+//! same answer. A [`Trail`] leads back: [`Trail::place`] tells tokens of the original net from those of the reduced one,
+//! and [`Trail::lift`] makes a run of the original net of one of the reduced net.
+//!
+//! ```
+//! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+//! use cotama_verification::{pt::Pt, reductions::{Goal, Keep, reduce}};
+//!
+//! let mut net = OwnedNet::new("fall", "");
+//! let [a, b, c] = ["a", "b", "c"].map(|it| net.place(OwnedPlace::new(it, (it == "a").into())).unwrap());
+//! net.transition(OwnedTransition::new("slip").take(a, 1).give(b, 1)).unwrap();
+//! net.transition(OwnedTransition::new("fall").take(b, 1).give(c, 1)).unwrap();
+//! let net = Pt::from(&net.view().net());
+//!
+//! let reduced = reduce(&net, &Keep::new(Goal::Deadlock));
+//! assert!(reduced.net.transitions.is_empty());
+//! let dead = reduced.trail.lift(&net, &[]).unwrap();
+//! assert_eq!(dead.iter().map(|it| net.transitions[it.0 as usize].as_str()).collect::<Vec<_>>(), ["slip", "fall"]);
+//! ```
+//!
+//! Every rule with its conditions and source is described at [`Rule`]. The sources:
+//!
+//! - Berthelot, "Checking properties of nets using transformations", 1986.
+//! - Murata, "Petri nets: properties, analysis and applications", 1989.
+//! - Rakow, "Safety slicing Petri nets", 2012.
+//! - Bønneland et al., "Stubborn versus structural reductions for Petri nets", 2019.
+//! - Thierry-Mieg, "Structural reductions revisited", 2020.
+
+mod agglomerate;
+mod components;
+mod draft;
+mod implied;
+mod places;
+mod rule;
+mod slice;
+mod supply;
+mod trail;
+mod transitions;
+
+pub use rule::Rule;
+pub use trail::{LiftError, Tokens, Trail};
+
+use crate::pt::Pt;
+use cotama_core::net::{PlaceId, TransitionId};
+use draft::Draft;
+use std::collections::BTreeMap;
+
+/// What is asked of the net, and so must stay the same.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Goal {
+    /// Which markings of the visible places can be reached.
+    Reachability,
+    /// Which markings of the visible places can be reached in a deadlock; without visible places, whether there is one.
+    Deadlock,
+    /// Which sequences of markings the visible places pass through on maximal runs, where it does not count how long a
+    /// marking lasts: formulas of LTL without a next operator.
+    StutterInvariantLtl,
+    /// Everything that CTL tells of the visible places, step by step, and of deadlocks.
+    Ctl,
+    /// How many tokens the visible places ever hold; as [`Reachability`](Self::Reachability).
+    Bounds,
+}
+
+/// What must be kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Keep {
+    /// The places that are visible.
+    pub places: Vec<PlaceId>,
+    /// Transitions of which it must be seen whether they are enabled: the places that they need are visible.
+    pub transitions: Vec<TransitionId>,
+    /// What is asked of them.
+    pub goal: Goal,
+}
+
+impl Keep {
+    /// Nothing is visible yet.
+    pub fn new(goal: Goal) -> Self {
+        Self { places: Vec::new(), transitions: Vec::new(), goal }
+    }
+
+    fn visible(&self, pt: &Pt) -> Vec<bool> {
+        let mut visible = vec![false; pt.places.len()];
+        let needed = self.transitions.iter().flat_map(|it| pt.needs.of(it.0)).map(|it| it.0);
+        for place in self.places.iter().map(|it| it.0).chain(needed) {
+            if let Some(it) = visible.get_mut(place as usize) {
+                *it = true;
+            }
+        }
+        visible
+    }
+}
+
+/// How much is done.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Limits {
+    /// The rules that may be used; those that do not keep the goal are not.
+    pub rules: Vec<Rule>,
+    /// How many arcs may be looked at, roughly. When they have been, the net is left as far as it is reduced.
+    pub work: u64,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { rules: Rule::ALL.to_vec(), work: 100_000_000 }
+    }
+}
+
+/// A reduced net.
+#[derive(Clone, Debug)]
+pub struct Reduced {
+    /// The net. Places have the names that they had; a transition that stands for several has theirs.
+    pub net: Pt,
+    /// The way back.
+    pub trail: Trail,
+    /// Of each rule, in the order of [`Rule::ALL`], how many places and transitions it changed or took away; rules that
+    /// did nothing are not listed.
+    pub counts: Vec<(Rule, usize)>,
+}
+
+/// Reduces a net as far as the rules go.
+pub fn reduce(pt: &Pt, keep: &Keep) -> Reduced {
+    reduce_within(pt, keep, &Limits::default())
+}
+
+/// Reduces a net within limits.
+pub fn reduce_within(pt: &Pt, keep: &Keep, limits: &Limits) -> Reduced {
+    let mut draft = Draft::new(pt, keep.visible(pt), keep.goal, limits.work);
+    let mut names = pt.transitions.clone();
+    let mut counts: BTreeMap<Rule, usize> = BTreeMap::new();
+    let usable: Vec<Rule> =
+        Rule::ALL.into_iter().filter(|it| it.keeps(keep.goal) && limits.rules.contains(it)).collect();
+    let mut changed = true;
+    while std::mem::take(&mut changed) {
+        for &rule in &usable {
+            // The search for implied places is the dearest; it waits until nothing else is left to do.
+            if !draft.spend(draft.arcs + draft.present.len()) || (rule == Rule::ImpliedPlace && changed) {
+                continue;
+            }
+            let count = apply(rule, &mut draft, &mut names);
+            changed |= count > 0;
+            *counts.entry(rule).or_default() += count;
+        }
+    }
+    let (net, trail) = draft.finished(pt, &names);
+    let listed = |rule: Rule| Some((rule, counts.get(&rule).copied().filter(|&it| it > 0)?));
+    Reduced { net, trail, counts: Rule::ALL.into_iter().filter_map(listed).collect() }
+}
+
+/// How much a rule did.
+fn apply(rule: Rule, draft: &mut Draft, names: &mut Vec<String>) -> usize {
+    match rule {
+        Rule::DeadTransition => transitions::dead(draft),
+        Rule::ConstantPlace => places::constant(draft),
+        Rule::UnlimitedPlace => places::unlimited(draft),
+        Rule::ScaledPlace => places::scaled(draft),
+        Rule::ProportionalPlace => places::proportional(draft),
+        Rule::ImpliedPlace => implied::implied(draft),
+        Rule::EqualTransition => transitions::equal(draft, false),
+        Rule::RepeatedTransition => transitions::equal(draft, true),
+        Rule::Slice => slice::slice(draft),
+        Rule::Suffix => slice::suffix(draft),
+        Rule::AlwaysEnabled => transitions::always_enabled(draft),
+        Rule::Source => supply::sources(draft, names),
+        Rule::FreeCycle => supply::free_cycles(draft, names),
+        Rule::PostAgglomeration | Rule::PreAgglomeration | Rule::FreeAgglomeration => {
+            agglomerate::agglomerate(draft, rule)
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Temporal logic: formulas of CTL on a stored graph, formulas of LTL while the markings are met.
+//!
+//! | item | what it answers |
+//! | --- | --- |
+//! | [`answer`] | any formula of CTL or LTL, by the engine that suits it |
+//! | [`ctl`] | where a formula of CTL holds, of all runs or of fair ones, with ranks and a run as evidence |
+//! | [`all_runs`], [`some_runs`] | formulas of LTL, with a lasso as evidence |
+//!
+//! Runs are maximal: they go on for ever, or end in a deadlock, whose marking lasts.
+
+mod automaton;
+mod ctl;
+mod emptiness;
+mod fairness;
+mod ltl;
+mod product;
+mod run;
+mod verdict;
+mod witness;
+
+pub use ctl::{CtlAnswer, Witness, ctl};
+pub use fairness::Fairness;
+pub use ltl::{all_runs, some_runs};
+pub use run::{Rest, Run};
+pub use verdict::{Reason, Verdict, answer};

@@ -1,0 +1,47 @@
+//! Answers of the checker's front: by the book on thousands of small nets, by known verdicts on public ones; every
+//! certificate verifies, every run replays, and what is changed is refused.
+//!
+//! Public files are in the folder that `COTAMA_MCC_DIR` names: `*.pnml`, and `properties` with files
+//! `NET.EXAMINATION.xml` and `verdicts.tsv`, whose columns start with file, property and verdict.
+
+mod contest;
+#[path = "../tpn/discrete.rs"]
+mod discrete;
+mod laws;
+mod message;
+mod mutations;
+mod nets;
+#[path = "../properties/oracle.rs"]
+mod oracle;
+mod quick;
+#[allow(dead_code, reason = "names that are hard to write are for those who write them")]
+#[path = "../properties/random.rs"]
+mod random;
+mod replay;
+#[path = "../tpn/replay.rs"]
+mod schedule;
+mod small;
+mod timed;
+mod unbounded;
+
+use cotama_verification::property::{Property, Question};
+use cotama_verification::pt::Pt;
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// The folder of public nets; `None`, said loudly, without it.
+fn folder(what: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from);
+    if folder.is_none() {
+        // Not by `eprintln`, which says nothing when a test passes.
+        let message = format!("SKIPPED: COTAMA_MCC_DIR names no folder of public nets, to check {what}\n");
+        let _ = std::io::stderr().write_all(message.as_bytes());
+    }
+    folder
+}
+
+/// A question named by its text.
+fn named(question: Question, pt: &Pt) -> Property {
+    let name = question.display(pt).to_string();
+    Property { name, question }
+}

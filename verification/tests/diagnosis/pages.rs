@@ -1,0 +1,60 @@
+//! Pages, as far as a program can look at them.
+
+use crate::{diagnosis, golden, nets, timed_diagnosis, xml};
+use cotama_verification::diagnosis::Diagnosis;
+
+/// The elements of each picture, and of the page without what only HTML knows.
+fn check(diagnosis: &Diagnosis) -> String {
+    let page = diagnosis.html();
+    let mut rest = page.as_str();
+    let mut pictures = 0;
+    while let Some(at) = rest.find("<svg") {
+        let end = rest.find("</svg>").unwrap() + "</svg>".len();
+        let elements = xml::parse(&rest[at..end]).unwrap();
+        assert!(elements.iter().all(|it| it.name != "script"));
+        assert!(elements[0].number("width") > 0 && elements[0].number("height") > 0);
+        assert_eq!(elements[0].get("role"), Some("img"));
+        (rest, pictures) = (&rest[end..], pictures + 1);
+    }
+    assert!(pictures > 0);
+    let document = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
+    let elements = xml::parse(document).unwrap();
+    assert_eq!(elements.iter().filter(|it| it.name == "tr").count(), diagnosis.trace.len() + 3);
+    assert!(!page.contains("<script") && !page.contains("http-equiv") && !page.contains("src="));
+    page
+}
+
+#[test]
+fn two_trains_on_a_page() {
+    let it = diagnosis(&nets::trains(), "AG !(west_in_section & east_in_section)");
+    golden("trains.html", &check(&it));
+}
+
+#[test]
+fn a_lost_timeout_on_a_page() {
+    golden("watchdog.html", &check(&timed_diagnosis(&nets::watchdog(), "AG !overdue")));
+}
+
+#[test]
+fn markup_in_names_is_text() {
+    let places = [("<b>&\"'`", 1, "<script>alert(1)</script>"), ("]]>\u{1}", 0, "\u{7}")];
+    let net =
+        nets::Sketch::new("<i>", "</style>", &places).line("</td>", "<b>&\"'` -> ]]>\u{1}", "<e>", "<o>").0;
+    let it = diagnosis(&net, "AF (\"<b>&\\\"'`\" & \"]]>\\u{1}\")");
+    let page = check(&it);
+    assert!(!page.contains("<b>") && !page.contains("<i>") && page.contains("&lt;script&gt;"));
+}
+
+#[test]
+fn json_has_the_whole_run() {
+    let it = timed_diagnosis(&nets::watchdog(), "AG !overdue");
+    golden("watchdog.json", &it.json());
+    let read: serde_json::Value = serde_json::from_str(&it.json()).unwrap();
+    assert_eq!(read["holds"], false);
+    assert_eq!(read["trace"][1]["transition"], "rotate");
+    assert_eq!(read["trace"][1]["at_ms"], 50);
+    assert_eq!(read["trace"][2]["changes"][1]["after"], 1);
+    let lasso = diagnosis(&nets::server(), "AG (request -> AF served)");
+    let read: serde_json::Value = serde_json::from_str(&lasso.json()).unwrap();
+    assert_eq!((&read["cycle_starts_at"], &read["deadlock"]), (&1.into(), &false.into()));
+}

@@ -1,0 +1,9 @@
+//! What is asked of a net: the language, the files of the Model Checking Contest, and the forms that engines read.
+
+mod contest;
+mod fuzz;
+mod language;
+mod normal_forms;
+mod oracle;
+mod random;
+mod round_trip;

@@ -1,0 +1,56 @@
+//! Time Petri nets: their files, their classes, their response times, their runs.
+//!
+//! Known answers are taken from the folder that `COTAMA_TPN_DIR` names: `*.net`, `facts.tsv`, `bounds.tsv`.
+
+mod broken;
+mod conversion;
+mod discrete;
+mod facts;
+mod growth;
+mod random;
+mod reading;
+mod regions;
+mod replay;
+mod response;
+mod schedules;
+mod textbook;
+mod watchdog;
+
+use cotama_verification::tina;
+use cotama_verification::tpn::{self, Limits, Response, Time, TimeNet};
+use std::io::Write as _;
+use std::path::PathBuf;
+
+/// The folder of known nets; `None`, said loudly, without it.
+fn folder(what: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os("COTAMA_TPN_DIR").map(PathBuf::from);
+    if folder.is_none() {
+        // Not by `eprintln`, which says nothing when a test passes.
+        let message = format!("SKIPPED: COTAMA_TPN_DIR names no folder of time nets, to check {what}\n");
+        let _ = std::io::stderr().write_all(message.as_bytes());
+    }
+    folder
+}
+
+/// A net of text that is right.
+fn net(text: &str) -> TimeNet {
+    tina::read("test.net", text.as_bytes()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// `min..max`, `never fires` or why not.
+fn bound(net: &TimeNet, from: &str, to: &str) -> String {
+    let (from, to) = (net.transition(from).unwrap(), net.place(to).unwrap());
+    shown(tpn::bound(net, from, to, &Limits::default()))
+}
+
+fn shown(response: Response) -> String {
+    match response {
+        Response::NeverFires => "never fires".to_owned(),
+        Response::Between { min, max } => format!("{min}..{max}"),
+        Response::Unknown { stop, explored } => format!("unknown after {explored}: {stop}"),
+    }
+}
+
+fn finite(time: u64) -> Time {
+    Time::Finite(time)
+}
