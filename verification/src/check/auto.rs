@@ -6,6 +6,7 @@ use super::known::Known;
 use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
 use crate::certificate::{Evidence, One};
+use crate::diagnosis::shrink;
 use crate::explicit::{Limit, Limits};
 use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
 use crate::structural;
@@ -18,6 +19,9 @@ const FEW: u64 = 200_000;
 
 /// Markings of a net whose graph is evidence.
 const CERTIFIED: u64 = 100_000;
+
+/// The longest way of which it is tried to leave firings out.
+const SHRUNK: usize = 500;
 
 /// Markings of a net that is looked at once more for a run.
 const SHOWN: u64 = 20_000;
@@ -148,6 +152,7 @@ impl Asked<'_, '_> {
     fn reachability(&mut self, asked: &Reachability) -> Shown {
         match self.reach(&asked.goal).found {
             Found::Way(way) => {
+                let way = self.shortened(&asked.goal, way);
                 let fire: Vec<u32> = way.iter().map(|it| it.0).collect();
                 let evidence = Evidence::trace(self.net.pt(), &fire);
                 (Verdict::Holds(asked.expected), Some(Run { stem: way, rest: Rest::Any }), evidence)
@@ -155,6 +160,18 @@ impl Asked<'_, '_> {
             Found::Never(evidence) => (Verdict::Holds(!asked.expected), None, evidence),
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
             _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+        }
+    }
+
+    /// A shortest way, if the net is small; otherwise one without firings that are not needed.
+    fn shortened(&self, goal: &Formula, way: Vec<TransitionId>) -> Vec<TransitionId> {
+        let pt = self.net.pt();
+        let limits = Limits { states: self.budget.limits.states.min(SHOWN), ..self.budget.limits };
+        let found = Explicit.find(self.net, Task::Reach(goal), &Budget { limits, ..self.budget }).found;
+        match (found, Condition::new(goal, pt)) {
+            (Found::Way(shortest), _) => shortest,
+            (_, Some(condition)) if way.len() <= SHRUNK => shrink(pt, &way, |it| condition.holds(it)),
+            _ => way,
         }
     }
 

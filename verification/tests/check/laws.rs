@@ -148,7 +148,7 @@ fn a_changed_arc_breaks_a_law_and_the_player_runs_into_it() {
         ("crossing", 29, 84, 59),
         // Nothing but `always_can` breaks here, and that no run shows.
         ("ace_request", 8, 0, 0),
-        ("ace_selection", 36, 51, 21),
+        ("ace_selection", 36, 51, 22),
         ("ace_behaviour", 34, 44, 44),
         ("ace_accuracy", 26, 50, 20),
     ];
