@@ -15,6 +15,8 @@ use cotama_core::problem::{Candidate, Problem, ProblemError};
 /// Two axes: duration and energy.
 const A: usize = 2;
 
+// `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
+// `root_` or `open_`, which nothing else does, and the linker starts at one of them at a time.
 #[unsafe(no_mangle)]
 fn root_problem_new<'a>(
     activities: &'a [&'a [Candidate<A>]],

@@ -14,6 +14,8 @@ use supervisor::{Outcome, Supervisor};
 const EVENTS: u32 = 2_000;
 
 /// The emulator looks for this function by its name.
+// `no_mangle` counts as unsafe because two equal names would meet at link time: no other
+// function is called so.
 #[unsafe(no_mangle)]
 #[inline(never)]
 extern "C" fn icount_mark() {
