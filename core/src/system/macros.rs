@@ -60,7 +60,7 @@
 /// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
 /// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
 ///
-/// It makes a module with `SYSTEM` (the plain data), the functions `on::NET` (an event of a net) and `at::NET` (a place), the type
+/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the functions `on::NET` (an event of a net) and `at::NET` (a place), the type
 /// `Program`, and the type `Player<M>`, where `M` is what events carry along.
 #[macro_export]
 macro_rules! system {
@@ -120,7 +120,8 @@ macro_rules! system {
                     (stringify!($cleared), stringify!($clear_box)),
                 ), )+ )* )?],
             };
-            const SIZE: system_code::Size = {
+            /// How many words, clocks and slots its player has, and how long its packed lists are.
+            pub const SIZE: system_code::Size = {
                 system_source::check(&SYSTEM);
                 system_code::size_of(&SYSTEM)
             };

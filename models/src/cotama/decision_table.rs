@@ -18,7 +18,10 @@ net! {
             wifi: true, mcl: true,
         }
         events {
-            ambiguous, camera, collision, mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
+            ambiguous, camera, collision,
+            /// Any other failure that is hard where it happens.
+            hard,
+            mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
         }
         outputs { global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, adapt_sonar_teleoperation }
         transitions {
@@ -39,6 +42,12 @@ net! {
             collision3 on collision [degraded & wifi]: Ready => Ready emit local_event;
             collision4 on collision [degraded & !wifi]: Ready => Ready emit global_event;
             collision5 on collision [following & !degraded]: Ready => Ready emit adapt_bump;
+            hard1 on hard [planning & wifi]: Ready => Ready emit local_event;
+            hard2 on hard [planning & !wifi]: Ready => Ready emit global_event;
+            hard3 on hard [following & wifi]: Ready => Ready emit local_event;
+            hard4 on hard [following & !wifi]: Ready => Ready emit global_event;
+            hard5 on hard [teleoperated & wifi]: Ready => Ready emit local_event;
+            hard6 on hard [teleoperated & !wifi]: Ready => Ready emit global_event;
             planner1 on planner [planning & wifi]: Ready => Ready emit local_event;
             planner2 on planner [planning & !wifi]: Ready => Ready emit global_event;
             camera1 on camera [teleoperated & wifi]: Ready => Ready emit local_event;

@@ -6,11 +6,21 @@
 
 mod decision_table;
 
+mod delivery_system;
+mod level;
+mod robot;
+mod status_vector;
 mod supervisors;
+mod surroundings;
 mod world;
 
 pub use decision_table::contextual;
+pub use delivery_system::delivery;
+pub use level::{Cause, DecisionalLevel, Level, Permit, Told, fired};
+pub use robot::permit;
+pub use status_vector::observation;
 pub use supervisors::{global, local, path_following, teleoperation};
+pub use surroundings::{faults, operator};
 pub use world::environment;
 
 use cotama_core::system;
@@ -58,6 +68,7 @@ system! {
             env.report_ambiguous => cs.ambiguous mail 1;
             env.report_collision => cs.collision mail 1;
             env.report_planner => cs.planner mail 1;
+            env.report_hard => cs.hard mail 1;
             env.report_refusal => cs.refusal mail 1;
             env.report_mcl => cs.mcl_lost mail 1;
             env.report_sonar => cs.sonar mail 1;

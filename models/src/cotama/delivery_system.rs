@@ -1,0 +1,94 @@
+//! The supervisors as they are shipped, composed.
+
+use super::{
+    contextual, faults, global, local, observation, operator, path_following, permit, teleoperation,
+};
+use cotama_core::system;
+
+system! {
+    /// COTAMA's decisional level as it drives the robot, with everything that may fail and the operator. Events that no net here
+    /// causes come from the robot and from whoever gives missions and objects.
+    pub mod delivery {
+        nets {
+            gs: global,
+            ls: local,
+            pf: path_following,
+            to: teleoperation,
+            permit: permit,
+            gom: observation,
+            cs: contextual,
+            faults: faults,
+            operator: operator,
+        }
+        links {
+            gs.start_drive => ls.start_drive mail 1;
+            gs.gs_abort => ls.gs_abort now;
+            gs.halt => permit.halt now;
+            ls.ended => ls.tick mail 1;
+            ls.drive_done => gs.drive_done mail 1;
+            ls.pf_start => pf.pf_start & permit.grant now;
+            ls.pf_stop => pf.pf_stop & permit.revoke now;
+            ls.to_start => to.to_start & permit.grant now;
+            ls.to_stop => to.to_stop & permit.revoke now;
+            cs.global_event => gs.global_event mail 1;
+            cs.local_event => ls.local_event mail 1;
+            cs.adapt_rt => pf.adapt_rt mail 1;
+            cs.adapt_mcl => pf.adapt_mcl mail 1;
+            cs.adapt_sonar => pf.adapt_sonar mail 1;
+            cs.adapt_bump => pf.adapt_bump mail 1;
+            cs.adapt_sonar_teleoperation => to.adapt_sonar mail 1;
+            gom.slow => cs.slow mail 1;
+            gom.ambiguous => cs.ambiguous mail 1;
+            gom.collision => cs.collision mail 1;
+            gom.planner => cs.planner mail 1;
+            gom.hard => cs.hard mail 1;
+            gom.mcl_lost => cs.mcl_lost mail 1;
+            gom.sonar_lost => cs.sonar mail 1;
+            gom.camera => cs.camera mail 1;
+            gom.wifi_lost => cs.wifi_lost mail 1;
+            gom.vital => cs.vital mail 1;
+            faults.vital_flag => gom.vital_flag mail 1;
+            faults.wifi_flag => gom.wifi_flag mail 1;
+            faults.camera_flag => gom.camera_flag mail 1;
+            faults.sonar_flag => gom.sonar_flag mail 1;
+            faults.mcl_flag => gom.mcl_flag mail 1;
+            faults.drift_flag => gom.drift_flag mail 1;
+            faults.bumper_flag => gom.bumper_flag mail 1;
+            faults.planner_flag => gom.planner_flag mail 1;
+            faults.hard_flag => gom.hard_flag mail 1;
+            faults.deadline_flag => gom.deadline_flag mail 1;
+            operator.op_teleprogram => ls.op_teleprogram now;
+            operator.op_teleoperate => ls.op_teleoperate now;
+            operator.op_waypoints => ls.op_waypoints & gom.answered now;
+            operator.op_path => ls.op_path & gom.answered now;
+            operator.op_goal_reached => ls.op_goal_reached now;
+            operator.refusal => cs.refusal mail 1;
+        }
+        shared {
+            ls.camera = gom.camera;
+            ls.wifi & cs.wifi = gom.wifi;
+            pf.sonar & to.sonar = gom.sonar;
+            pf.mcl & cs.mcl = gom.mcl;
+            operator.camera = faults.camera;
+            operator.wifi = faults.wifi;
+            cs.planning & faults.planning = ls.Planning;
+            cs.following & faults.following = ls.Following;
+            cs.hand_over & operator.hand_over = ls.HandOver;
+            cs.teleprogrammed & operator.teleprogrammed = ls.Teleprogrammed;
+            cs.teleoperated & faults.teleoperated & operator.teleoperated = ls.Teleoperated;
+            cs.optimal & faults.optimal = pf.Optimal;
+            cs.reduced & faults.reduced = pf.Reduced;
+            cs.odometric = pf.Odometric;
+            cs.degraded = pf.Degraded;
+            cs.avoiding = to.Full;
+            cs.level = pf.level;
+        }
+        pending {
+            ls.local_pending = ls.local_event;
+            ls.global_pending = gs.global_event;
+        }
+        clears {
+            ls.gs_abort empties ls.local_event & ls.start_drive;
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! The decisional level with names in place of numbers: what the robot tells it, and what it decided.
+
+use super::{delivery, faults, global, local, operator, path_following, permit, teleoperation};
+use core::marker::PhantomData;
+use cotama_core::net::{EventId, PlaceId};
+use cotama_core::system::{Happening, Of, Offered, Player, Program, Turned, Witness};
+use cotama_core::units::Millis;
+
+/// What an event goes back to: a number that the caller chose, for example the position of a fault in its list. It travels
+/// with everything that is done because of the event.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Cause(pub u16);
+
+/// What the level is told. Each is an event that no supervisor causes; one a round keeps the runs those that were checked.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Told {
+    /// The mission, or what becomes of it.
+    Mission(global::Event),
+    /// What becomes of a drive: a path is there, the goal is reached.
+    Drive(local::Event),
+    /// A failure was diagnosed.
+    Failure(faults::Event),
+    /// The operator says something.
+    Operator(operator::Event),
+}
+
+impl Told {
+    /// Its event in [`delivery`](delivery::SYSTEM).
+    pub fn event(&self) -> Of<EventId> {
+        match self {
+            Self::Mission(event) => delivery::on::gs(event),
+            Self::Drive(event) => delivery::on::ls(event),
+            Self::Failure(event) => delivery::on::faults(event),
+            Self::Operator(event) => delivery::on::operator(event),
+        }
+    }
+}
+
+/// The right to move: commands of motion ask for it, and only a level whose activity moves the robot lends it. It cannot
+/// outlive the next event, since it borrows the level.
+///
+/// ```compile_fail,E0502
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::DecisionalLevel;
+///
+/// let mut level = DecisionalLevel::default();
+/// let permit = level.permit();
+/// let _ = level.round(Millis(100), &mut ()); // whatever happens now may end the activity
+/// drop(permit);
+/// ```
+#[derive(Debug, PartialEq, Eq)]
+pub struct Permit<'l>(PhantomData<&'l ()>);
+
+/// The supervisors of a mission, running. `P` is the packed system: that of [`delivery`](delivery::SYSTEM), or one with the
+/// global supervisor of another mission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, Cause, W, C, S>);
+
+/// The supervisors of the embedded mission.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::{Cause, DecisionalLevel, Told, global, local};
+///
+/// let mut level = DecisionalLevel::default();
+/// assert!(level.permit().is_none());
+/// let _ = level.tell(Millis(0), Told::Mission(global::Event::mission_received), Cause(0), &mut ());
+/// let _ = level.round(Millis(100), &mut ()); // the drive starts: a path is planned
+/// let _ = level.tell(Millis(100), Told::Drive(local::Event::path_ready), Cause(0), &mut ());
+/// assert_eq!(level.local(), local::Place::Following);
+/// assert!(level.permit().is_some());
+/// ```
+pub type DecisionalLevel =
+    Level<delivery::Program, { delivery::SIZE.words }, { delivery::SIZE.clocks }, { delivery::SIZE.slots }>;
+
+impl Default for DecisionalLevel {
+    fn default() -> Self {
+        Self(delivery::Player::new())
+    }
+}
+
+/// The place of a net that is marked, of these.
+macro_rules! marked {
+    ($player:expr, $net:ident, $first:ident $(, $place:ident)*) => {{
+        let tokens = |place| $player.tokens(delivery::at::$net(place));
+        match () {
+            $(() if tokens(Place::$place) > 0 => Place::$place,)*
+            // One of them is always marked: an invariant of the net.
+            () => Place::$first,
+        }
+    }};
+}
+
+impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, C, S> {
+    /// The supervisors of a packed system whose components are those of [`delivery`](delivery::SYSTEM), in their order.
+    pub fn start(program: P) -> Self {
+        Self(Player::start(program, Millis(0), &mut ()))
+    }
+
+    /// Tells it something.
+    pub fn tell(
+        &mut self,
+        now: Millis,
+        told: Told,
+        cause: Cause,
+        witness: &mut impl Witness<Cause>,
+    ) -> Offered {
+        self.0.offer(now, told.event(), cause, witness)
+    }
+
+    /// One round: each supervisor takes its turn.
+    pub fn round(&mut self, now: Millis, witness: &mut impl Witness<Cause>) -> Turned {
+        self.0.round(now, witness)
+    }
+
+    /// The right to move, if an activity runs that moves the robot.
+    pub fn permit(&self) -> Option<Permit<'_>> {
+        let granted = self.0.tokens(delivery::at::permit(permit::Place::Granted)) > 0;
+        granted.then_some(Permit(PhantomData))
+    }
+
+    /// Whether motion has ended for good.
+    pub fn halted(&self) -> bool {
+        self.0.tokens(delivery::at::permit(permit::Place::Destroyed)) > 0
+    }
+
+    /// The place of the global supervisor, by its number in that net.
+    pub fn global(&self) -> PlaceId {
+        let component = delivery::at::gs(global::Place::Wait).component;
+        let places = 0..u32::from(u8::MAX);
+        let mut marked = places.map(PlaceId).filter(|&id| self.0.tokens(Of { component, id }) > 0);
+        marked.next().unwrap_or(PlaceId(0))
+    }
+
+    /// Where the local supervisor of the drive is.
+    pub fn local(&self) -> local::Place {
+        use local::Place;
+        marked!(self.0, ls, Idle, Planning, Following, HandOver, Teleprogrammed, Teleoperated, End)
+    }
+
+    /// Where the adapter of path following is.
+    pub fn path_following(&self) -> path_following::Place {
+        use path_following::Place;
+        marked!(self.0, pf, Off, Optimal, Reduced, Odometric, Degraded)
+    }
+
+    /// Where the adapter of teleoperation is.
+    pub fn teleoperation(&self) -> teleoperation::Place {
+        use teleoperation::Place;
+        marked!(self.0, to, Off, Full, Degraded)
+    }
+
+    /// The level of particles: 2 for all, 0 for the fewest.
+    pub fn particles(&self) -> u32 {
+        self.0.tokens(delivery::at::pf(path_following::Place::level))
+    }
+
+    /// The player under the names.
+    pub fn player(&self) -> &Player<P, Cause, W, C, S> {
+        &self.0
+    }
+}
+
+/// Why something fired: the transition, and the cause it goes back to. The other happenings say `None`.
+pub fn fired(happening: &Happening<Cause>) -> Option<(&'static str, &'static str, Cause)> {
+    let Happening::Fired { transition, carries, .. } = happening else { return None };
+    let component = delivery::SYSTEM.components.get(usize::from(transition.component))?;
+    let transition = component.net.transitions.get(transition.id.0 as usize)?;
+    Some((component.name, transition.name, *carries))
+}

@@ -1,0 +1,83 @@
+//! What the shipped supervisors are closed with for checking: everything that may fail, and the operator.
+
+use cotama_core::net;
+
+net! {
+    /// Everything that may fail, at any time: what is lost stays lost, the rest may come again and again.
+    pub mod faults {
+        places {
+            /// Anything may fail.
+            Ready: 1,
+        }
+        flags {
+            /// Localisation by particles works.
+            mcl: true,
+            /// The sonars work.
+            sonar: true,
+            /// The camera works.
+            camera: true,
+            /// The operator can be reached.
+            wifi: true,
+            /// Power, micro-controller and effectors work.
+            vital: true,
+        }
+        shared { planning, following, teleoperated, optimal, reduced }
+        events {
+            lose_vital, lose_wifi, lose_camera, lose_sonar, lose_mcl,
+            /// Odometry and localisation drift apart; why is not known.
+            drift,
+            bump, no_path,
+            /// Any other hard failure; also: no plan is left that keeps the limits of the mission.
+            fail_hard,
+            overload,
+        }
+        outputs {
+            vital_flag, wifi_flag, camera_flag, sonar_flag, mcl_flag,
+            drift_flag, bumper_flag, planner_flag, hard_flag, deadline_flag,
+        }
+        transitions {
+            vital on lose_vital [vital]: Ready => Ready do vital = false emit vital_flag;
+            wifi on lose_wifi [wifi]: Ready => Ready do wifi = false emit wifi_flag;
+            camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
+            sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
+            mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
+            drift1 on drift [planning]: Ready => Ready emit drift_flag;
+            drift2 on drift [following]: Ready => Ready emit drift_flag;
+            drift3 on drift [teleoperated]: Ready => Ready emit drift_flag;
+            bump1 on bump [following]: Ready => Ready emit bumper_flag;
+            bump2 on bump [teleoperated]: Ready => Ready emit bumper_flag;
+            no_path on no_path [planning]: Ready => Ready emit planner_flag;
+            hard1 on fail_hard [planning]: Ready => Ready emit hard_flag;
+            hard2 on fail_hard [following]: Ready => Ready emit hard_flag;
+            hard3 on fail_hard [teleoperated]: Ready => Ready emit hard_flag;
+            slow1 on overload [optimal]: Ready => Ready emit deadline_flag;
+            slow2 on overload [reduced]: Ready => Ready emit deadline_flag;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+net! {
+    /// The operator: answers as long as the link works; gives up, or is silent for too long, at any time.
+    pub mod operator {
+        places {
+            /// Whatever he does.
+            Ready: 1,
+        }
+        shared { hand_over, teleprogrammed, teleoperated, camera: true, wifi: true }
+        events { teleprogram, teleoperate, waypoints, new_path, arrived, gives_up }
+        outputs { op_teleprogram, op_teleoperate, op_waypoints, op_path, op_goal_reached, refusal }
+        transitions {
+            teleprogram1 on teleprogram [hand_over & wifi]: Ready => Ready emit op_teleprogram;
+            teleprogram2 on teleprogram [teleoperated & wifi]: Ready => Ready emit op_teleprogram;
+            teleoperate on teleoperate [hand_over & wifi & camera]: Ready => Ready emit op_teleoperate;
+            waypoints on waypoints [teleprogrammed & wifi]: Ready => Ready emit op_waypoints;
+            new_path on new_path [teleprogrammed & wifi]: Ready => Ready emit op_path;
+            arrived on arrived [teleoperated & wifi]: Ready => Ready emit op_goal_reached;
+            gives_up1 on gives_up [hand_over]: Ready => Ready emit refusal;
+            gives_up2 on gives_up [teleprogrammed]: Ready => Ready emit refusal;
+            gives_up3 on gives_up [teleoperated]: Ready => Ready emit refusal;
+        }
+        laws { left_to_checker; }
+    }
+}
