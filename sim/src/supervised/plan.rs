@@ -1,0 +1,147 @@
+//! PANORAMA under the supervisors: which configuration each drive uses, within what is left of the limits.
+//!
+//! Configurations of the adapter are task implementation options (Lambert et al., J. Intell. Robot. Syst. 110, 2024,
+//! Section 4), modules are their hardware. A lost module removes options and the rest of the mission is planned again.
+
+use crate::options::Planner;
+use crate::run::{Cause, NoPlan, PlanMade};
+use crate::solver::{NotFound, Solver};
+use cotama_core::hardware::Units;
+use cotama_core::problem::{Candidate, Problem};
+use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
+use cotama_models::cotama::{Configuration, Modules};
+use cotama_models::mission::Mission;
+use cotama_models::tables::{Activity, Rest};
+
+/// How far a mission has come.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Progress {
+    /// The activity under way, or the next one.
+    pub(super) activity: usize,
+    /// What is left of it; none when it is whole.
+    pub(super) rest: Option<Rest>,
+    /// When, where (mm), and what was used (ms, mJ).
+    pub(super) now: Millis,
+    pub(super) x_mm: u64,
+    pub(super) used: [u64; 2],
+}
+
+/// The plan of a mission under way.
+#[derive(Clone, Debug)]
+pub(super) struct Planning<'m> {
+    mission: &'m Mission,
+    planner: Planner,
+    activities: Vec<Activity<'m>>,
+    /// The configuration of each alternative, for activities that drive.
+    configurations: Vec<Vec<Option<Configuration>>>,
+    choice: Vec<u16>,
+    solver: Solver,
+    pub(super) made: Vec<PlanMade>,
+}
+
+impl<'m> Planning<'m> {
+    pub(super) fn new(mission: &'m Mission, planner: Planner) -> Self {
+        let scenario = mission.scenario();
+        let activities = scenario.activities();
+        let named = |label: &String| {
+            let option = label.split(' ').find_map(|id| mission.tios.iter().find(|tio| tio.id == id))?;
+            option.configuration
+        };
+        let configurations =
+            scenario.activities.iter().map(|it| it.labels.iter().map(named).collect()).collect();
+        let choice = vec![0; activities.len()];
+        Self { mission, planner, activities, configurations, choice, solver: Solver::default(), made: Vec::new() }
+    }
+
+    /// Plans what is left with these modules.
+    pub(super) fn plan(&mut self, cause: Cause, at: Progress, available: Modules) -> Result<(), NoPlan> {
+        let units = self.units(available);
+        let scenario = self.mission.scenario();
+        let first = at.activity;
+        let lists: Vec<Vec<Candidate<2>>> = self.activities[first..]
+            .iter()
+            .enumerate()
+            .map(|(number, activity)| {
+                let rest = at.rest.filter(|_| number == 0);
+                let working = activity.alternatives.iter().zip(0..).filter(|(it, _)| units.covers(it.needs));
+                working.filter_map(|(it, id)| it.candidate(rest.unwrap_or_else(|| activity.whole(it)), id)).collect()
+            })
+            .collect();
+        if let Some(emptied) = lists.iter().position(Vec::is_empty) {
+            return Err(NoPlan::Emptied { activity: first + emptied });
+        }
+        let lists: Vec<&[Candidate<2>]> = lists.iter().map(Vec::as_slice).collect();
+        let left = std::array::from_fn(|axis| scenario.limits[axis].saturating_sub(at.used[axis]));
+        let Ok(problem) = Problem::new(&lists, left, scenario.order) else {
+            return Err(NoPlan::Unknown { steps: 0 });
+        };
+        let found = self.solver.solve(self.planner, &problem).map_err(|none| match none {
+            NotFound::Infeasible { axis, least } => NoPlan::Limit { axis, short: least.saturating_sub(left[axis]) },
+            NotFound::Unknown { steps } => NoPlan::Unknown { steps },
+        })?;
+        let picked: Vec<Candidate<2>> =
+            lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]).collect();
+        let choice: Vec<u16> = picked.iter().map(|it| it.id).collect();
+        self.choice[first..].copy_from_slice(&choice);
+        let margin = |axis: usize| signed(left[axis]) - signed(found.planned.cost[axis]);
+        self.made.push(PlanMade {
+            cause,
+            t_us: at.now.0.saturating_mul(1000),
+            x_mm: at.x_mm,
+            first_activity: first,
+            choice,
+            before: None,
+            after: [margin(0), margin(1)],
+            used: at.used,
+            first_cost: picked.first().map_or([0; 2], |it| it.cost),
+            steps: found.planned.steps,
+            allocator: found.allocator,
+        });
+        Ok(())
+    }
+
+    /// The configuration that is planned for an activity; none for one that does not drive.
+    pub(super) fn configuration(&self, activity: usize) -> Option<Configuration> {
+        self.configurations[activity][usize::from(self.choice[activity])]
+    }
+
+    /// What an activity takes in a configuration: speed and power; the planned alternative when none has it.
+    pub(super) fn pace(
+        &self,
+        activity: usize,
+        configuration: Option<Configuration>,
+    ) -> (MillimetresPerSecond, Milliwatts) {
+        let with = self.configurations[activity].iter().position(|it| it.is_some() && *it == configuration);
+        let at = with.unwrap_or_else(|| usize::from(self.choice[activity]));
+        let alternative = &self.activities[activity].alternatives[at];
+        (alternative.speed, alternative.power)
+    }
+
+    /// The activity of an objective that holds a place of the path.
+    pub(super) fn activity(&self, objective: usize, x_mm: u64) -> usize {
+        let of = |it: &usize| self.mission.scenario().activities[*it].objective == objective;
+        let mut all = (0..self.activities.len()).filter(of);
+        let first = all.next().unwrap_or(0);
+        all.take_while(|&it| self.activities[it].x_start.0 <= x_mm).last().unwrap_or(first)
+    }
+
+    /// How long an activity takes that does not travel.
+    pub(super) fn standing(&self, activity: usize) -> Millis {
+        self.activities[activity].alternatives[usize::from(self.choice[activity])].duration
+    }
+
+    /// Modules as hardware of the mission.
+    fn units(&self, available: Modules) -> Units {
+        let works = |name: &str| available.iter().any(|it| it.name() == name);
+        let kinds = self.mission.hardware.iter().enumerate();
+        kinds.fold(Units::NONE, |all, (kind, it)| {
+            let module = cotama_models::cotama::Module::ALL.iter().any(|module| module.name() == it.name);
+            let count = if module && !works(&it.name) { 0 } else { it.units };
+            all.with(kind, count).unwrap_or(all)
+        })
+    }
+}
+
+fn signed(amount: u64) -> i64 {
+    i64::try_from(amount).unwrap_or(i64::MAX)
+}

@@ -1,0 +1,82 @@
+//! The robot at mission fidelity: how far along the path, and how fast.
+//!
+//! Speeds up and slows down by [`ACCELERATION`]; within a step the speed changes evenly. Lengths are µm, so that a step of a
+//! whole number of ms rounds nothing but the half of an odd sum of speeds.
+
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
+
+/// How fast the speed changes, in mm/s²: the default of the micro-controller (Pioneer 3-DX, acceleration and deceleration).
+pub const ACCELERATION: u64 = 300;
+
+/// Where the robot is on its path, and its speed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Robot {
+    x_um: u64,
+    speed_mm_s: u64,
+}
+
+impl Robot {
+    /// Where it is.
+    pub const fn x(&self) -> Millimetres {
+        Millimetres(self.x_um / 1000)
+    }
+
+    /// How fast it goes.
+    pub const fn speed(&self) -> MillimetresPerSecond {
+        MillimetresPerSecond(self.speed_mm_s)
+    }
+
+    /// Goes on for a time towards a speed, no further than an end: there it stands.
+    pub fn go(&mut self, towards: MillimetresPerSecond, end: Millimetres, time: Millis) {
+        let change = ACCELERATION.saturating_mul(time.0) / 1000;
+        let least = self.speed_mm_s.saturating_sub(change);
+        let most = self.speed_mm_s.saturating_add(change);
+        let after = towards.0.clamp(least, most);
+        let way = (self.speed_mm_s.saturating_add(after)).saturating_mul(time.0) / 2;
+        let end = end.0.saturating_mul(1000).max(self.x_um);
+        self.x_um = self.x_um.saturating_add(way).min(end);
+        self.speed_mm_s = if self.x_um == end { 0 } else { after };
+    }
+
+    /// Stands at once: motors without power on a level floor.
+    pub fn stand(&mut self) {
+        self.speed_mm_s = 0;
+    }
+
+    /// How far it would still go if it braked now.
+    pub const fn braking_distance(&self) -> Millimetres {
+        Millimetres(self.speed_mm_s * self.speed_mm_s / (2 * ACCELERATION))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    const STEP: Millis = Millis(100);
+    const FAR: Millimetres = Millimetres(1_000_000);
+
+    #[test]
+    fn it_reaches_the_speed_of_the_experiment_in_a_second_and_brakes_in_150_mm() {
+        let mut robot = Robot::default();
+        (0..10).for_each(|_| robot.go(MillimetresPerSecond(300), FAR, STEP));
+        assert_eq!((robot.speed(), robot.x()), (MillimetresPerSecond(300), Millimetres(150)));
+        assert_eq!(robot.braking_distance(), Millimetres(150));
+        (0..10).for_each(|_| robot.go(MillimetresPerSecond(0), FAR, STEP));
+        assert_eq!((robot.speed(), robot.x()), (MillimetresPerSecond(0), Millimetres(300)));
+    }
+
+    proptest! {
+        #[test]
+        fn it_brakes_within_its_braking_distance(speeds in prop::collection::vec(0u64..=1200, 1..60)) {
+            let mut robot = Robot::default();
+            speeds.iter().for_each(|&it| robot.go(MillimetresPerSecond(it), FAR, STEP));
+            // One step more, as the last one may brake by less than a whole step.
+            let (from, within) = (robot.x().0, robot.braking_distance().0 + 3 + robot.speed().0 / 20);
+            (0..60).for_each(|_| robot.go(MillimetresPerSecond(0), FAR, STEP));
+            prop_assert_eq!(robot.speed(), MillimetresPerSecond(0));
+            prop_assert!(robot.x().0 - from <= within);
+        }
+    }
+}
