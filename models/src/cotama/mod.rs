@@ -5,11 +5,23 @@
 //! places and transitions are ours.
 
 mod decision_table;
-
+mod health;
+mod label;
+mod members;
+mod module_table;
+mod modules;
+mod ports;
+mod resources;
 mod supervisors;
 mod world;
 
 pub use decision_table::contextual;
+pub use health::{Health, Status, StatusVector};
+pub use label::Label;
+pub use module_table::MODULES;
+pub use modules::{Kind, Module, ModuleFacts, Modules, available};
+pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
+pub use resources::{Resource, Resources};
 pub use supervisors::{global, local, path_following, teleoperation};
 pub use world::environment;
 
