@@ -4,6 +4,7 @@
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
 
+mod configurations;
 mod decision_table;
 mod health;
 mod label;
@@ -15,6 +16,10 @@ mod resources;
 mod supervisors;
 mod world;
 
+pub use configurations::{
+    CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED, Mode,
+    SubObjective,
+};
 pub use decision_table::contextual;
 pub use health::{Health, Status, StatusVector};
 pub use label::Label;
