@@ -1,5 +1,6 @@
 //! The decisional level with names in place of numbers: what the robot tells it, and what it decided.
 
+use super::situation::{Losses, Situation};
 use super::{delivery, faults, global, local, operator, path_following, permit, teleoperation};
 use core::marker::PhantomData;
 use cotama_core::net::{EventId, PlaceId};
@@ -60,14 +61,14 @@ pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, Ca
 ///
 /// ```
 /// use cotama_core::units::Millis;
-/// use cotama_models::cotama::{Cause, DecisionalLevel, Told, global, local};
+/// use cotama_models::cotama::{Cause, DecisionalLevel, Losses, Told, global, local};
 ///
 /// let mut level = DecisionalLevel::default();
 /// assert!(level.permit().is_none());
 /// let _ = level.tell(Millis(0), Told::Mission(global::Event::mission_received), Cause(0), &mut ());
 /// let _ = level.round(Millis(100), &mut ()); // the drive starts: a path is planned
 /// let _ = level.tell(Millis(100), Told::Drive(local::Event::path_ready), Cause(0), &mut ());
-/// assert_eq!(level.local(), local::Place::Following);
+/// assert_eq!(level.situation(Losses::NONE).local, local::State::Following);
 /// assert!(level.permit().is_some());
 /// ```
 pub type DecisionalLevel =
@@ -79,14 +80,14 @@ impl Default for DecisionalLevel {
     }
 }
 
-/// The place of a net that is marked, of these.
+/// The state of a net with one token.
 macro_rules! marked {
-    ($player:expr, $net:ident, $first:ident $(, $place:ident)*) => {{
+    ($player:expr, $net:ident, $module:ident, $first:ident $(, $state:ident)*) => {{
         let tokens = |place| $player.tokens(delivery::at::$net(place));
         match () {
-            $(() if tokens(Place::$place) > 0 => Place::$place,)*
+            $(() if tokens($module::Place::$state) > 0 => $module::State::$state,)*
             // One of them is always marked: an invariant of the net.
-            () => Place::$first,
+            () => $module::State::$first,
         }
     }};
 }
@@ -132,27 +133,15 @@ impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, 
         marked.next().unwrap_or(PlaceId(0))
     }
 
-    /// Where the local supervisor of the drive is.
-    pub fn local(&self) -> local::Place {
-        use local::Place;
-        marked!(self.0, ls, Idle, Planning, Following, HandOver, Teleprogrammed, Teleoperated, End)
-    }
-
-    /// Where the adapter of path following is.
-    pub fn path_following(&self) -> path_following::Place {
-        use path_following::Place;
-        marked!(self.0, pf, Off, Optimal, Reduced, Odometric, Degraded)
-    }
-
-    /// Where the adapter of teleoperation is.
-    pub fn teleoperation(&self) -> teleoperation::Place {
-        use teleoperation::Place;
-        marked!(self.0, to, Off, Full, Degraded)
-    }
-
-    /// The level of particles: 2 for all, 0 for the fewest.
-    pub fn particles(&self) -> u32 {
-        self.0.tokens(delivery::at::pf(path_following::Place::level))
+    /// Where the supervisors of a drive are, with these losses.
+    pub fn situation(&self, lost: Losses) -> Situation {
+        let local = marked!(
+            self.0, ls, local, Idle, Planning, Following, HandOver, Teleprogrammed, Teleoperated, End
+        );
+        let following = marked!(self.0, pf, path_following, Off, Optimal, Reduced, Odometric, Degraded);
+        let teleoperation = marked!(self.0, to, teleoperation, Off, Full, Degraded);
+        let level = self.0.tokens(delivery::at::pf(path_following::Place::level)) as u8;
+        Situation { local, following, teleoperation, level, lost }
     }
 
     /// The player under the names.

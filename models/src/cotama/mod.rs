@@ -4,21 +4,39 @@
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
 
+mod configurations;
 mod decision_table;
 
 mod delivery_system;
 mod level;
 mod robot;
 mod status_vector;
+mod health;
+mod label;
+mod members;
+mod module_table;
+mod modules;
+mod ports;
+mod resources;
 mod supervisors;
 mod surroundings;
 mod world;
 
+pub use configurations::{
+    CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED, Mode,
+    SubObjective,
+};
 pub use decision_table::contextual;
 pub use delivery_system::delivery;
 pub use level::{Cause, DecisionalLevel, Level, Permit, Told, fired};
 pub use robot::permit;
 pub use status_vector::observation;
+pub use health::{Health, Status, StatusVector};
+pub use label::Label;
+pub use module_table::MODULES;
+pub use modules::{Kind, Module, ModuleFacts, Modules, available};
+pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
+pub use resources::{Resource, Resources};
 pub use supervisors::{global, local, path_following, teleoperation};
 pub use surroundings::{faults, operator};
 pub use world::environment;

@@ -1,0 +1,12 @@
+//! How well a fact of the reconstruction is known.
+
+/// Where a fact comes from. No fact of this module is without one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Label {
+    /// Said in a publication: Durand et al., TAROS 2010, where no other work is named.
+    Stated,
+    /// Not said, but needed to make the model executable, and consistent with what is said.
+    Inferred,
+    /// A free choice, mostly of timing and rates.
+    Assumed,
+}
