@@ -5,20 +5,24 @@
 //! operator has to say. So a run is a run of the system that was checked: [`Told`] is its alphabet, and the list of what was
 //! told, a round each, is all that is needed to check that it is one.
 
-use super::effect::{Motion, effect, observable};
-use super::operator::{Answer, Operator, View};
-use super::plan::Planning;
+use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect};
+use super::operator::Operator;
+use super::plan::{Planning, Progress};
 use super::robot::Robot;
-use super::{Conduct, Fired, Injection, Run, Script, When};
+use super::{Conduct, Injection, Run, Script, When};
+use crate::options::Planner;
+use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
 use cotama_core::net::PlaceId;
-use cotama_core::system::{Happening, Offered};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, Configuration, DecisionalLevel, FailureMode, Health, Modules, Report, Told, faults, global, local,
+    Cause, DecisionalLevel, FailureMode, Health, Losses, Modules, Situation, Told, local,
 };
-use cotama_models::mission::{Does, Mission};
+use cotama_models::mission::Mission;
 use std::collections::VecDeque;
+use telling::Objective;
+
+mod telling;
 
 /// The period of the control loop, of rounds, and of the steps of the robot (stated: below 0.1 s a loop).
 pub const PERIOD: Millis = Millis(100);
@@ -27,35 +31,223 @@ pub const PLANNING: Millis = Millis(2_000);
 /// A run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
 
-/// A failure under way.
+/// The most steps of one search for a plan.
+const STEPS: u64 = 100_000;
+
+/// A failure under way; its number is its place in [`Run::conduct`].
 #[derive(Clone, Copy, Debug)]
 struct Failure {
     mode: FailureMode,
     /// For how long its observer has been able to see it.
     seen: Millis,
-    flagged: bool,
+    since: Millis,
+    over: bool,
 }
 
 /// A mission under way.
 pub(super) struct World<'m> {
     mission: &'m Mission,
-    script: Script,
+    waiting: Vec<Injection>,
     level: DecisionalLevel,
     now: Millis,
     robot: Robot,
     operator: Operator,
-    /// What is broken, known or not.
-    broken: Health,
+    failures: Vec<Failure>,
     /// What is diagnosed.
     known: Health,
-    failures: Vec<Failure>,
     /// What the supervisors are still to be told.
     untold: VecDeque<(Told, Cause)>,
     planning: Planning<'m>,
-    /// Since when the local supervisor, and the global one, are where they are.
-    local_since: (local::Place, Millis),
-    global_since: (PlaceId, Millis),
-    conduct: Vec<Conduct>,
-    run: Run,
+    situation: Situation,
+    /// Since when the local supervisor and the global one are where they are, and when each place was first reached.
+    local_since: Millis,
+    global: PlaceId,
+    global_since: Millis,
+    first: Vec<(local::State, Millis)>,
+    permitted: bool,
+    /// The place at which the permit was withdrawn.
+    withdrawn: Option<Millimetres>,
     exposed: Millis,
+    energy_uj: u64,
+    run: Run,
+}
+
+impl<'m> World<'m> {
+    /// A robot at the start of its mission, with its plan.
+    pub(super) fn start(mission: &'m Mission, script: &Script) -> Result<Self, NoPlan> {
+        let mut planning = Planning::new(mission, Planner::PanoramaThenExact { steps: STEPS });
+        let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
+        planning.plan(run::Cause::Start, start, Modules::ALL)?;
+        let level = DecisionalLevel::default();
+        Ok(Self {
+            mission,
+            waiting: script.injections.clone(),
+            situation: level.situation(Losses::NONE),
+            global: level.global(),
+            level,
+            now: Millis(0),
+            robot: Robot::default(),
+            operator: Operator::new(script.answers.iter().copied()),
+            failures: Vec::new(),
+            known: Health::SOUND,
+            untold: VecDeque::new(),
+            planning,
+            local_since: Millis(0),
+            global_since: Millis(0),
+            first: Vec::new(),
+            permitted: false,
+            withdrawn: None,
+            exposed: Millis(0),
+            energy_uj: 0,
+            run: Run::default(),
+        })
+    }
+
+    /// One period; whether the mission is over.
+    pub(super) fn period(&mut self) -> bool {
+        self.fail();
+        self.travel();
+        self.observe();
+        self.take_a_round();
+        self.now.0 += PERIOD.0;
+        let end = match self.objective() {
+            Objective::Done => Some(Outcome::Completed),
+            Objective::Safe if self.robot.speed().0 == 0 => Some(Outcome::Safe),
+            _ if self.now >= LONGEST => Some(Outcome::Failed),
+            _ => None,
+        };
+        if let Some(outcome) = end {
+            self.run.outcome = outcome;
+        }
+        end.is_some()
+    }
+
+    /// The run, when it is over.
+    pub(super) fn into_run(mut self) -> Run {
+        self.run.time = self.now;
+        self.run.x = self.robot.x();
+        self.run.used = self.used();
+        self.run.plans = self.planning.made;
+        self.run
+    }
+
+    /// What is to fail now fails.
+    fn fail(&mut self) {
+        let (now, x, first) = (self.now, self.robot.x(), &self.first);
+        let due = |it: &Injection| match it.when {
+            When::At(at) => now >= at,
+            When::Place(place) => x >= place,
+            When::During(state, after) => {
+                first.iter().any(|(it, since)| *it == state && now.0 >= since.0 + after.0)
+            }
+        };
+        let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it));
+        self.waiting = wait;
+        for Injection { mode, .. } in fail {
+            self.failures.push(Failure { mode, seen: Millis(0), since: now, over: false });
+            self.run.conduct.push(Conduct {
+                mode,
+                injected: now,
+                during: self.situation.local,
+                detected: None,
+                decided: None,
+                answered: None,
+            });
+        }
+        for failure in &mut self.failures {
+            let ended = matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
+            failure.over |= ended;
+        }
+    }
+
+    /// What is broken, known or not.
+    fn broken(&self) -> Health {
+        let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.rule().health());
+        broken.fold(Health::SOUND, Health::union)
+    }
+
+    /// The robot goes on for a period.
+    fn travel(&mut self) {
+        let Objective::Stands(_) | Objective::Drives(_) = self.objective() else {
+            let before = self.robot;
+            self.robot.go(MillimetresPerSecond(0), self.end(), PERIOD);
+            self.run.moved_when_safe |= matches!(self.objective(), Objective::Safe) && before.speed().0 > 0;
+            return;
+        };
+        let activity = self.activity();
+        let (pace, power) = self.planning.pace(activity, self.situation.configuration());
+        // Only who holds a permit may command motion.
+        let command = self.level.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
+        let mut towards = command;
+        let mut blocked = false;
+        for failure in self.failures.iter().filter(|it| !it.over) {
+            match effect(failure.mode).motion {
+                Motion::Free => {}
+                Motion::Blocked => blocked = true,
+                Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
+                Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
+                Motion::Silent if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 => {
+                    towards = MillimetresPerSecond(0);
+                }
+                Motion::Runaway | Motion::Silent => {}
+                Motion::Dead => {
+                    self.robot.stand();
+                    towards = MillimetresPerSecond(0);
+                }
+            }
+        }
+        let end = if blocked && self.situation.local != local::State::Teleoperated {
+            self.robot.x()
+        } else {
+            self.end()
+        };
+        self.robot.go(towards, end, PERIOD);
+        self.energy_uj += power.0 * PERIOD.0;
+        self.measure(command.0 > 0);
+    }
+
+    /// The end of the drive, or where the robot stands.
+    pub(super) fn end(&self) -> Millimetres {
+        match self.objective() {
+            Objective::Drives(it) => self.mission.objectives[it].x_end,
+            _ => self.robot.x().max(Millimetres(self.robot.x().0 + self.robot.braking_distance().0 + 1)),
+        }
+    }
+
+    /// The activity under way.
+    fn activity(&self) -> usize {
+        let last = self.mission.scenario().activities.len() - 1;
+        self.progress().activity.min(last)
+    }
+
+    /// Duration and energy used, in ms and mJ.
+    pub(super) fn used(&self) -> [u64; 2] {
+        [self.now.0, self.energy_uj / 1000]
+    }
+
+    /// How fast the running configuration goes.
+    fn speed(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
+        let limit = self.situation.configuration().map_or(MillimetresPerSecond(0), |it| it.facts().speed);
+        pace.min(limit)
+    }
+
+    /// What must never happen, or not for long.
+    fn measure(&mut self, commanded: bool) {
+        let moving = self.robot.speed().0 > 0 || commanded;
+        let required = self.situation.configuration().map_or(Modules::NONE, |it| it.facts().required);
+        let exposed = moving && !self.broken().available().covers(required);
+        self.exposed = if exposed { Millis(self.exposed.0 + PERIOD.0) } else { Millis(0) };
+        self.run.exposed = self.run.exposed.max(self.exposed);
+        let permitted = self.level.permit().is_some();
+        if self.permitted && !permitted {
+            self.withdrawn = Some(self.robot.x());
+        }
+        if permitted || self.robot.speed().0 == 0 {
+            if let Some(from) = self.withdrawn.take() {
+                let way = Millimetres(self.robot.x().0 - from.0);
+                self.run.braked = self.run.braked.max(way);
+            }
+        }
+        self.permitted = permitted;
+    }
 }

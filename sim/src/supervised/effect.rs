@@ -1,0 +1,91 @@
+//! What a failure does to the robot at mission fidelity, and when it can be seen: assumed, after the rows of the FMECA.
+
+use cotama_core::units::Millis;
+use cotama_models::cotama::{Configuration, FailureMode, Module, Situation, local};
+
+/// What a failure does to motion.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Motion {
+    /// Nothing.
+    Free,
+    /// The robot gets no further along its path, though it moves.
+    Blocked,
+    /// It goes at this speed, in thousandths of what it should.
+    Slowed(u16),
+    /// It goes at full speed, whatever it is told, until motor power is cut.
+    Runaway,
+    /// Motors are without power: it stands.
+    Dead,
+    /// No command arrives: the micro-controller stops the motors by itself after [`FIRMWARE_WATCHDOG`].
+    Silent,
+}
+
+/// How long the micro-controller waits for a command (Pioneer 3-DX).
+pub const FIRMWARE_WATCHDOG: Millis = Millis(2_000);
+
+/// When a failure ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ends {
+    /// Never.
+    Never,
+    /// After a time.
+    After(Millis),
+    /// When the operator has led the robot past it, or given another path.
+    Helped,
+}
+
+/// What a failure does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Effect {
+    /// To motion.
+    pub motion: Motion,
+    /// When it ends.
+    pub ends: Ends,
+}
+
+/// What a failure does.
+pub const fn effect(mode: FailureMode) -> Effect {
+    use FailureMode as F;
+    let motion = match mode {
+        F::Odo1 | F::Mot1 | F::Mot3 | F::Bmp2 | F::Loc2 | F::Hum1 | F::Col1 | F::Loc3 => Motion::Blocked,
+        F::Mot2 => Motion::Slowed(600),
+        F::Whl1 => Motion::Slowed(500),
+        F::Mot4 => Motion::Runaway,
+        F::Est1 | F::Bat2 | F::Bat3 => Motion::Dead,
+        F::Pwr1 | F::P3d1 | F::Sw3 => Motion::Silent,
+        _ => Motion::Free,
+    };
+    let ends = match mode {
+        F::Hum1 => Ends::After(Millis(8_000)),
+        F::Son4 | F::Odo3 | F::Cam2 | F::P3d2 | F::Com2 => Ends::After(Millis(10_000)),
+        F::Rt2 => Ends::After(Millis(100)),
+        F::Com1 => Ends::Never,
+        F::Mot3 | F::Loc2 | F::Col1 | F::Loc3 | F::Ppl1 | F::P3d3 | F::Bmp2 | F::Whl1 => Ends::Helped,
+        _ => Ends::Never,
+    };
+    Effect { motion, ends }
+}
+
+/// Whether the observer of a failure can see it now: what is not used is not observed.
+pub fn observable(mode: FailureMode, situation: Situation, moving: bool, asked: bool) -> bool {
+    use FailureMode as F;
+    let running = situation.configuration();
+    let uses = |module: Module| running.is_some_and(|it| it.facts().required.has(module));
+    match mode {
+        F::Son1 | F::Son3 | F::Odo1 | F::Odo2 | F::Odo3 | F::Odo4 | F::Mot2 => moving,
+        F::Mot1 | F::Mot3 | F::Whl1 | F::Bmp1 | F::Bmp2 => wants_to_move(running),
+        F::Rt1 | F::Loc1 => uses(Module::Mcl),
+        F::Loc2 | F::Hum1 => matches!(situation.local, local::State::Following),
+        F::Loc3 => matches!(running, Some(Configuration::FollowingDegraded)) && wants_to_move(running),
+        F::Col1 => wants_to_move(running),
+        F::Ppl1 => matches!(situation.local, local::State::Planning),
+        F::Opr1 => asked,
+        F::Cam2 => matches!(situation.local, local::State::Teleoperated),
+        _ => true,
+    }
+}
+
+/// Whether a configuration moves the robot.
+fn wants_to_move(running: Option<Configuration>) -> bool {
+    running.is_some_and(|it| it.facts().speed.0 > 0)
+}

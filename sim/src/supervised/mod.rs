@@ -1,0 +1,182 @@
+//! Missions under COTAMA's supervisors (Durand et al., TAROS 2010), at mission fidelity: travel, energy, failures, observers
+//! with their latencies, an operator; no rays.
+//!
+//! ```
+//! use cotama_models::{embedded, mission::Mission};
+//! use cotama_sim::supervised::{Script, Supervised};
+//! use cotama_sim::trace::Outcome;
+//! let delivery = embedded::mission("delivery").unwrap();
+//! let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+//! let run = Supervised::new(&mission).unwrap().run(&Script::default()).unwrap();
+//! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
+//! ```
+
+mod effect;
+pub mod operator;
+mod plan;
+pub mod robot;
+mod world;
+
+pub use effect::{Effect, Ends, Motion, effect};
+pub use operator::Answer;
+pub use world::{LONGEST, PERIOD, PLANNING};
+
+use crate::run::{NoPlan, PlanMade};
+use crate::trace::Outcome;
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::cotama::{Cause, Configuration, Diagnosis, FailureMode, Told, local};
+use cotama_models::mission::Mission;
+
+/// What goes wrong, and what the operator answers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Script {
+    /// Failures, each once.
+    pub injections: Vec<Injection>,
+    /// The operator's answers to requests, in their order; then he has his habits.
+    pub answers: Vec<Answer>,
+}
+
+/// A failure that is to happen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Injection {
+    /// When.
+    pub when: When,
+    /// What fails.
+    pub mode: FailureMode,
+}
+
+/// When something is to fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// So long after the start.
+    At(Millis),
+    /// Where the robot has come so far along the path.
+    Place(Millimetres),
+    /// So long after the local supervisor has come to a place for the first time.
+    During(local::State, Millis),
+}
+
+/// A transition of a supervisor that fired.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fired {
+    /// When.
+    pub at: Millis,
+    /// The net, as `ls`.
+    pub net: &'static str,
+    /// The transition, as `l5`.
+    pub transition: &'static str,
+    /// What it goes back to: 0, or the number of a failure in [`Run::conduct`], from 1.
+    pub cause: Cause,
+}
+
+/// What became of a failure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Conduct {
+    /// What failed.
+    pub mode: FailureMode,
+    /// When.
+    pub injected: Millis,
+    /// Where the local supervisor was then.
+    pub during: local::State,
+    /// When its flags were raised, and what they were taken for.
+    pub detected: Option<(Millis, Diagnosis)>,
+    /// When the contextual supervisor had decided, and what.
+    pub decided: Option<(Millis, Decided)>,
+    /// When a supervisor first acted on it.
+    pub answered: Option<Millis>,
+}
+
+/// What the contextual supervisor made of a report.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Decided {
+    /// It is recorded.
+    Record,
+    /// An adapter changes parameters or modules.
+    Adapter,
+    /// The local supervisor asks the operator.
+    Local,
+    /// The global supervisor ends the mission.
+    Global,
+}
+
+impl From<&str> for Decided {
+    /// From the output of [`contextual`](cotama_models::cotama::contextual).
+    fn from(output: &str) -> Self {
+        match output {
+            "global_event" => Self::Global,
+            "local_event" => Self::Local,
+            _ => Self::Adapter,
+        }
+    }
+}
+
+/// What a supervised run comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Run {
+    /// How it ended: completed, safe (the global supervisor gave up and the robot stands), or failed.
+    pub outcome: Outcome,
+    /// When.
+    pub time: Millis,
+    /// Where.
+    pub x: Millimetres,
+    /// Duration and energy used, in ms and mJ.
+    pub used: [u64; 2],
+    /// How often the operator was asked by the supervisors.
+    pub operator_requests: u64,
+    /// What the supervisors were told, with the number of the round after which.
+    pub told: Vec<(u64, Told)>,
+    /// How many rounds there were.
+    pub rounds: u64,
+    /// What fired.
+    pub fired: Vec<Fired>,
+    /// What became of each failure, in the order of their happening.
+    pub conduct: Vec<Conduct>,
+    /// Which configuration ran from when on; none while none did.
+    pub configurations: Vec<(Millis, Option<Configuration>)>,
+    /// The plans of PANORAMA.
+    pub plans: Vec<PlanMade>,
+    /// The longest time that the robot moved while a module was broken that its configuration requires.
+    pub exposed: Millis,
+    /// The longest way that it went on after the permit to move was gone.
+    pub braked: Millimetres,
+    /// Whether it moved after it was safe: never, or a supervisor is wrong.
+    pub moved_when_safe: bool,
+}
+
+/// A supervised mission, ready to be run.
+#[derive(Clone, Copy, Debug)]
+pub struct Supervised<'m> {
+    mission: &'m Mission,
+}
+
+/// The mission has no supervisors: its file says nothing of them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unsupervised;
+
+impl std::fmt::Display for Unsupervised {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("the mission is not supervised: it has no [supervision] table")
+    }
+}
+
+impl std::error::Error for Unsupervised {}
+
+impl<'m> Supervised<'m> {
+    /// Makes a mission ready.
+    ///
+    /// # Errors
+    /// When its file names no supervision.
+    pub fn new(mission: &'m Mission) -> Result<Self, Unsupervised> {
+        mission.supervisor().map(|_| Self { mission }).ok_or(Unsupervised)
+    }
+
+    /// Runs it.
+    ///
+    /// # Errors
+    /// When there is no plan at the start; nothing is run then.
+    pub fn run(&self, script: &Script) -> Result<Run, NoPlan> {
+        let mut world = world::World::start(self.mission, script)?;
+        while !world.period() {}
+        Ok(world.into_run())
+    }
+}
