@@ -5,6 +5,7 @@
 //! places and transitions are ours.
 
 mod configurations;
+
 mod decision_table;
 mod health;
 mod label;
@@ -12,7 +13,10 @@ mod members;
 mod module_table;
 mod modules;
 mod ports;
+mod report;
 mod resources;
+mod severity;
+mod situation;
 mod supervisors;
 mod world;
 
@@ -26,7 +30,10 @@ pub use label::Label;
 pub use module_table::MODULES;
 pub use modules::{Kind, Module, ModuleFacts, Modules, available};
 pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
+pub use report::{Class, Decision, Report, Reports, decide, lost_after};
 pub use resources::{Resource, Resources};
+pub use severity::{Severity, by_availability, by_rules, by_severity, is_settled, judge, severity};
+pub use situation::{Loss, Losses, Situation};
 pub use supervisors::{global, local, path_following, teleoperation};
 pub use world::environment;
 
