@@ -7,6 +7,9 @@
 mod configurations;
 
 mod decision_table;
+mod flags;
+mod fmeca;
+mod fmeca_table;
 mod health;
 mod label;
 mod members;
@@ -25,6 +28,9 @@ pub use configurations::{
     SubObjective,
 };
 pub use decision_table::contextual;
+pub use flags::{Flag, Flags};
+pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
+pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
 pub use health::{Health, Status, StatusVector};
 pub use label::Label;
 pub use module_table::MODULES;

@@ -52,6 +52,16 @@ impl Class {
     pub const fn worse(self, other: Self) -> Self {
         if self as u8 >= other as u8 { self } else { other }
     }
+
+    /// Its name in the FMECA: the supervisor that its event goes to.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Record => "record",
+            Self::Adapter => "adapter",
+            Self::Local => "local",
+            Self::Global => "global",
+        }
+    }
 }
 
 /// The answer to a report: which event goes to which supervisor.
