@@ -1,0 +1,143 @@
+//! Where the robot is when a report comes: what the contextual supervisor looks at.
+
+use super::configurations::{Configuration, Mode};
+use super::health::Health;
+use super::members::members;
+use super::modules::{Module, Modules};
+use super::resources::Resource;
+use super::{local, path_following, teleoperation};
+
+members! {
+    /// A permanent loss, as far as the supervisors tell losses apart.
+    Loss,
+    /// Losses.
+    Losses(u8) {
+        /// Monte Carlo localisation.
+        Mcl = "mcl",
+        /// The sonars.
+        Sonar = "sonar",
+        /// The camera.
+        Camera = "camera",
+        /// The link to the operator.
+        Wifi = "wifi",
+        /// Power, micro-controller or motors.
+        Vital = "vital",
+    }
+}
+
+/// The places of the supervisors, the particles, and what is lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Situation {
+    /// The place of the local supervisor.
+    pub local: local::State,
+    /// The place of the adapter of path following.
+    pub following: path_following::State,
+    /// The place of the adapter of teleoperation.
+    pub teleoperation: teleoperation::State,
+    /// The particle level of [`path_following`]: 2 full, 1 fewer, 0 the floor.
+    pub level: u8,
+    /// What is lost.
+    pub lost: Losses,
+}
+
+impl Situation {
+    /// No drive, nothing lost.
+    pub const AT_REST: Self = Self {
+        local: local::State::Idle,
+        following: path_following::State::Off,
+        teleoperation: teleoperation::State::Off,
+        level: 2,
+        lost: Losses::NONE,
+    };
+
+    /// Whether the places fit together, as they do at the end of every round (invariants AS1, LS1): an adapter is on exactly
+    /// where its sub-objective runs, and the particles are fewer than full exactly in the reduced set.
+    pub const fn is_consistent(self) -> bool {
+        use path_following::State as Following;
+        let following = !matches!(self.following, Following::Off);
+        let teleoperation = !matches!(self.teleoperation, teleoperation::State::Off);
+        following == matches!(self.local, local::State::Following)
+            && teleoperation == matches!(self.local, local::State::Teleoperated)
+            && matches!(self.following, Following::Reduced) == (self.level < 2)
+            && self.level <= 2
+    }
+
+    /// The autonomy mode: a function of the place of the local supervisor.
+    pub const fn mode(self) -> Mode {
+        match self.local {
+            local::State::Idle | local::State::End => Mode::Rest,
+            local::State::Planning | local::State::Following => Mode::Autonomous,
+            local::State::HandOver => Mode::HandOver,
+            local::State::Teleprogrammed => Mode::Teleprogrammed,
+            local::State::Teleoperated => Mode::Teleoperated,
+        }
+    }
+
+    /// The running configuration; none without a drive, in the hand-over, or where the places do not fit together.
+    pub const fn configuration(self) -> Option<Configuration> {
+        use path_following::State as Following;
+        match (self.local, self.following, self.teleoperation) {
+            (local::State::Planning, _, _) => Some(Configuration::Planning),
+            (local::State::Following, Following::Optimal, _) => Some(Configuration::FollowingOptimal),
+            (local::State::Following, Following::Reduced, _) => Some(Configuration::FollowingReduced),
+            (local::State::Following, Following::Odometric, _) => Some(Configuration::FollowingOdometric),
+            (local::State::Following, Following::Degraded, _) => Some(Configuration::FollowingDegraded),
+            (local::State::Teleprogrammed, _, _) => Some(Configuration::Teleprogramming),
+            (local::State::Teleoperated, _, teleoperation::State::Full) => {
+                Some(Configuration::TeleoperationFull)
+            }
+            (local::State::Teleoperated, _, teleoperation::State::Degraded) => {
+                Some(Configuration::TeleoperationDegraded)
+            }
+            _ => None,
+        }
+    }
+}
+
+impl Losses {
+    /// What the losses mean for modules and resources.
+    pub const fn health(self) -> Health {
+        let mut health = Health::SOUND;
+        if self.has(Loss::Mcl) {
+            health.faulty = health.faulty.with(Module::Mcl);
+        }
+        if self.has(Loss::Sonar) {
+            health.lost = health.lost.with(Resource::SonarArrays);
+        }
+        if self.has(Loss::Camera) {
+            health.lost = health.lost.with(Resource::Camera);
+        }
+        if self.has(Loss::Wifi) {
+            health.lost = health.lost.with(Resource::WifiCard);
+        }
+        if self.has(Loss::Vital) {
+            health.lost = health.lost.with(Resource::Electronics);
+        }
+        health
+    }
+
+    /// The modules that are left.
+    #[must_use]
+    pub const fn available(self) -> Modules {
+        self.health().available()
+    }
+}
+
+impl From<Health> for Losses {
+    /// What the supervisors see of a state of health. Losses are independent: lost sonars are no lost localisation.
+    fn from(health: Health) -> Self {
+        let Health { faulty, lost, .. } = health;
+        let following = Configuration::FollowingDegraded.facts().required;
+        let gone = [
+            (Loss::Mcl, faulty.has(Module::Mcl) || lost.has(Resource::Map)),
+            (
+                Loss::Sonar,
+                lost.has(Resource::SonarArrays) || faulty.has(Module::Ust) || faulty.has(Module::Sim),
+            ),
+            (Loss::Camera, faulty.has(Module::Cam) || lost.has(Resource::Camera)),
+            (Loss::Wifi, !health.available().has(Module::Lan)),
+            (Loss::Vital, !health.available().covers(following)),
+        ];
+        gone.into_iter().filter(|it| it.1).fold(Self::NONE, |set, it| set.with(it.0))
+    }
+}
