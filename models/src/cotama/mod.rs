@@ -4,8 +4,11 @@
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
 
+pub mod configurations;
 mod decision_table;
-
+pub mod failure_modes;
+#[cfg(feature = "std")]
+pub mod mission_net;
 mod supervisors;
 mod world;
 
