@@ -6,6 +6,10 @@ use crate::reader::{self, Entry, Fields, Sink, ids};
 use cotama_core::hardware::MAX_UNITS;
 use cotama_core::units::{Millimetres, Millis};
 
+mod incidents;
+
+pub use incidents::{Answer, Incident, IncidentKind};
+
 /// The format that a file of faults must name.
 pub const FORMAT: &str = "panorama-faults/1";
 
@@ -36,6 +40,9 @@ pub struct Faults {
     pub events: Vec<Event>,
     /// What happens anywhere.
     pub random: Vec<RandomEvent>,
+    /// What the supervisors of a supervised mission have to deal with, sorted by place; in files these are events of
+    /// the kinds `failure` and `operator`. A plan, and a run without supervisors, knows nothing of them.
+    pub incidents: Vec<Incident>,
 }
 
 /// By how much the real power differs from the modelled one inside a zone, whatever the robot does there.
@@ -117,7 +124,8 @@ impl Faults {
         let zones: Vec<_> = mission.zones.iter().map(zone).collect();
         let kind = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
         let hardware: Vec<_> = mission.hardware.iter().map(kind).collect();
-        let names = Names { path_length: Some(mission.path_length), zones: &zones, hardware: &hardware };
+        let (path_length, supervised) = (Some(mission.path_length), Some(mission.supervision.is_some()));
+        let names = Names { path_length, zones: &zones, hardware: &hardware, supervised };
         let faults = reader::document(text, &sink, FORMAT, |mut root| {
             let faults = read(&mut root, &names);
             root.finish();
@@ -135,6 +143,8 @@ pub(crate) struct Names<'n> {
     pub(crate) path_length: Option<Millimetres>,
     pub(crate) zones: &'n [Entry<Zone>],
     pub(crate) hardware: &'n [Entry<Hardware>],
+    /// Whether the mission is supervised; `None` when that could not be read.
+    pub(crate) supervised: Option<bool>,
 }
 
 /// Reads `[run]`; its absence is a run in which nothing goes wrong.
@@ -149,7 +159,7 @@ pub(crate) fn read_run(run: Option<Fields<'_>>, names: &Names<'_>) -> Option<Run
 
 fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
     let power_errors = power_errors(fields, names);
-    let events = fields.tables("event", false).map(|tables| {
+    let events_read = fields.tables("event", false).map(|tables| {
         let events: Vec<_> = tables.into_iter().map(|table| event(table, names)).collect();
         events.into_iter().collect::<Option<Vec<_>>>()
     });
@@ -158,9 +168,16 @@ fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
         let random: Vec<_> = tables.into_iter().map(|table| random_event(table, &mut seen)).collect();
         random.into_iter().collect::<Option<Vec<_>>>()
     });
-    let mut events = events??;
+    let (mut events, mut incidents) = (Vec::new(), Vec::new());
+    for happening in events_read?? {
+        match happening {
+            Scripted::Event(event) => events.push(event),
+            Scripted::Incident(incident) => incidents.push(incident),
+        }
+    }
     events.sort_by_key(|event| event.x);
-    Some(Faults { power_errors: power_errors?, events, random: random?? })
+    incidents.sort_by_key(|incident| incident.x);
+    Some(Faults { power_errors: power_errors?, events, random: random??, incidents })
 }
 
 fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerError>> {
@@ -198,12 +215,25 @@ fn units(fields: &mut Fields<'_>, key: &'static str, names: &Names<'_>) -> Optio
     Some((hardware, units))
 }
 
-fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Event> {
+/// An entry of a script.
+enum Scripted {
+    Event(Event),
+    Incident(Incident),
+}
+
+fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
     let x = fields.integer("x_mm", 0..=MAX_QUANTITY).map(Millimetres);
-    let Some(kind) = fields.choice("kind", "event", &["obstacle", "fault", "repair", "odometry"]) else {
+    let kinds = [&["obstacle", "fault", "repair", "odometry"], &incidents::KINDS[..]].concat();
+    let Some(kind) = fields.choice("kind", "event", &kinds) else {
         fields.abandon();
         return None;
     };
+    if incidents::KINDS.contains(&kind) {
+        let found = incidents::incident(&mut fields, kind, names);
+        on_the_path(&fields, x, names);
+        fields.finish();
+        return Some(Scripted::Incident(Incident { x: x?, kind: found? }));
+    }
     let kind = match kind {
         "obstacle" => delay(&mut fields),
         "odometry" => extra(&mut fields),
@@ -216,6 +246,12 @@ fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Event> {
             back.map(|(hardware, units)| EventKind::Repair { hardware, units })
         }
     };
+    on_the_path(&fields, x, names);
+    fields.finish();
+    Some(Scripted::Event(Event { x: x?, kind: kind? }))
+}
+
+fn on_the_path(fields: &Fields<'_>, x: Option<Millimetres>, names: &Names<'_>) {
     if let (Some(x), Some(end)) = (x, names.path_length)
         && x > end
     {
@@ -223,8 +259,6 @@ fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Event> {
         let help = format!("place it between 0 and {}", end.0);
         fields.report(Diagnostic::new(fields.span_of("x_mm"), message, "not on the path").help(help));
     }
-    fields.finish();
-    Some(Event { x: x?, kind: kind? })
 }
 
 fn random_event(mut fields: Fields<'_>, seen: &mut Vec<String>) -> Option<RandomEvent> {

@@ -1,15 +1,22 @@
 //! A mission: what a `panorama-mission/1` file says, with units, checked as a whole.
 
-use crate::diagnostic::{MissionErrors, Spanned};
+use crate::cotama::Configuration;
+use crate::diagnostic::{Diagnostic, MissionErrors, Spanned};
 use crate::faults::Run;
 use crate::reader::{self, Sink};
 use crate::scenario::{Constraint, Scenario};
 use cotama_core::hardware::Units;
+use cotama_core::net::owned::OwnedNet;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::{Deref, Range};
 
 mod path;
 mod read;
+mod supervised;
+mod supervision;
+
+pub use supervised::MAX_SUPERVISED_OBJECTIVES;
+pub use supervision::{Does, Supervision};
 
 /// The format that a mission file must name.
 pub const FORMAT: &str = "panorama-mission/1";
@@ -27,11 +34,20 @@ pub enum Task {
     Detect,
     /// `LOC`: localise, along with another task.
     Localise,
+    /// `RCV`: receive an object, standing.
+    Receive,
+    /// `DLV`: hand an object over, standing.
+    Deliver,
+    /// `WAI`: wait, standing.
+    Wait,
 }
 
 impl Task {
     /// The names of the tasks in mission files, in the order of the enum.
-    pub const NAMES: [&str; 4] = ["MOV", "TUR", "DET", "LOC"];
+    pub const NAMES: [&str; 7] = ["MOV", "TUR", "DET", "LOC", "RCV", "DLV", "WAI"];
+
+    const ALL: [Self; 7] =
+        [Self::Move, Self::Turn, Self::Detect, Self::Localise, Self::Receive, Self::Deliver, Self::Wait];
 
     /// Its name in mission files.
     pub const fn name(self) -> &'static str {
@@ -39,7 +55,7 @@ impl Task {
     }
 
     fn from_name(name: &str) -> Option<Self> {
-        [Self::Move, Self::Turn, Self::Detect, Self::Localise].into_iter().find(|task| task.name() == name)
+        Self::ALL.into_iter().find(|task| task.name() == name)
     }
 
     /// Whether it decides how long an objective takes. Every objective has exactly one such task.
@@ -139,6 +155,8 @@ pub struct Tio {
     pub quality: u32,
     /// What it takes standing; none for tasks that travel or run along.
     pub standing: Option<Standing>,
+    /// The modules that it runs: one for each moving option of a supervised mission, none for other options.
+    pub configuration: Option<Configuration>,
 }
 
 /// An objective: tasks that run at the same time on a part of the path.
@@ -154,6 +172,8 @@ pub struct Objective {
     pub x_end: Millimetres,
     /// Its tasks: exactly one that leads, [`Task::Move`] if and only if it travels.
     pub tasks: Vec<Task>,
+    /// What its supervisor takes it for; there in a supervised mission only.
+    pub does: Option<Spanned<Does>>,
 }
 
 impl Objective {
@@ -214,6 +234,8 @@ pub struct Definition {
     pub objectives: Vec<Objective>,
     /// The zones; they may overlap.
     pub zones: Vec<Zone>,
+    /// Who decides while it runs; none for a plain mission, which only plans again.
+    pub supervision: Option<Supervision>,
     /// How the mission is run by a simulator.
     pub run: Run,
 }
@@ -234,12 +256,14 @@ impl Definition {
 
 /// A mission: a [`Definition`] that was checked, and the [`Scenario`] it unfolds to.
 ///
-/// *Invariant:* the scenario is that of the definition, and none of its activities is without alternatives.
+/// *Invariant:* the scenario is that of the definition, and none of its activities is without alternatives; the
+/// supervisor of a supervised mission is made from its objectives, and checked.
 /// The definition is therefore read only; its fields are those of the mission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mission {
     definition: Definition,
     scenario: Scenario,
+    supervisor: Option<OwnedNet>,
 }
 
 impl Deref for Mission {
@@ -260,12 +284,33 @@ impl Mission {
         let definition = reader::document(text, &sink, FORMAT, read::definition).filter(|_| sink.is_empty());
         let mut errors = sink.into_diagnostics();
         if let Some(definition) = definition {
-            match Scenario::generate(&definition) {
-                Ok(scenario) => return Ok(Self { definition, scenario }),
+            match Self::checked(definition) {
+                Ok(mission) => return Ok(mission),
                 Err(found) => errors.extend(found),
             }
         }
         Err(MissionErrors::new(source_name, text, errors))
+    }
+
+    /// The whole of a definition, or what is wrong with it as a whole.
+    fn checked(definition: Definition) -> Result<Self, Vec<Diagnostic>> {
+        let scenario = Scenario::generate(&definition)?;
+        let supervisor = supervised::supervisor(&definition, &scenario)?;
+        Ok(Self { definition, scenario, supervisor })
+    }
+
+    /// The global supervisor made from the objectives of a supervised mission.
+    ///
+    /// ```
+    /// use cotama_models::{embedded, mission::Mission};
+    /// let delivery = embedded::mission("delivery").unwrap();
+    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// let places = &mission.supervisor().unwrap().places;
+    /// let names: Vec<_> = places.iter().map(|place| place.name.as_str()).collect();
+    /// assert_eq!(names, ["Wait", "DriveA", "Receive", "DriveB", "Deliver", "Done", "Security", "Safe"]);
+    /// ```
+    pub fn supervisor(&self) -> Option<&OwnedNet> {
+        self.supervisor.as_ref()
     }
 
     /// The activities and their alternatives.
@@ -286,7 +331,8 @@ impl Mission {
         Self::again(definition)
     }
 
-    /// The mission without an objective; `None` when there is no such objective, or nothing would be left.
+    /// The mission without an objective; `None` when there is no such objective, or nothing would be left, or what
+    /// is left breaks a rule of supervised missions (an object delivered that was not received).
     ///
     /// An objective that does not travel is left out. One that travels cannot be left out alone, since the
     /// robot would not get to the next: the mission then ends where the objective starts, without all that
@@ -298,6 +344,7 @@ impl Mission {
             definition.path_length = dropped.x_start;
             definition.objectives.truncate(objective);
             definition.run.faults.events.retain(|event| event.x <= definition.path_length);
+            definition.run.faults.incidents.retain(|incident| incident.x <= definition.path_length);
         } else {
             definition.objectives.remove(objective);
         }
@@ -305,7 +352,6 @@ impl Mission {
     }
 
     fn again(definition: Definition) -> Option<Self> {
-        let scenario = Scenario::generate(&definition).ok()?;
-        Some(Self { definition, scenario })
+        Self::checked(definition).ok()
     }
 }

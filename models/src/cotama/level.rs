@@ -136,7 +136,16 @@ impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, 
     /// Where the supervisors of a drive are, with these losses.
     pub fn situation(&self, lost: Losses) -> Situation {
         let local = marked!(
-            self.0, ls, local, Idle, Planning, Following, HandOver, Teleprogrammed, Teleoperated, End
+            self.0,
+            ls,
+            local,
+            Idle,
+            Planning,
+            Following,
+            HandOver,
+            Teleprogrammed,
+            Teleoperated,
+            End
         );
         let following = marked!(self.0, pf, path_following, Off, Optimal, Reduced, Odometric, Degraded);
         let teleoperation = marked!(self.0, to, teleoperation, Off, Full, Degraded);

@@ -21,6 +21,11 @@ macro_rules! members {
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$member => $name,)+ }
             }
+
+            /// The one of this name.
+            pub fn named(name: &str) -> Option<Self> {
+                Self::ALL.iter().copied().find(|it| it.name() == name)
+            }
         }
 
         $(#[$many])*

@@ -5,26 +5,26 @@
 //! places and transitions are ours.
 
 mod configurations;
-
 mod decision_table;
-
 mod delivery_system;
-mod level;
-mod robot;
-mod status_vector;
 mod flags;
 mod fmeca;
 mod fmeca_table;
 mod health;
 mod label;
+mod level;
 mod members;
+#[cfg(feature = "std")]
+pub mod mission_net;
 mod module_table;
 mod modules;
 mod ports;
 mod report;
 mod resources;
+mod robot;
 mod severity;
 mod situation;
+mod status_vector;
 mod supervisors;
 mod surroundings;
 mod world;
@@ -35,21 +35,21 @@ pub use configurations::{
 };
 pub use decision_table::contextual;
 pub use delivery_system::delivery;
-pub use level::{Cause, DecisionalLevel, Level, Permit, Told, fired};
-pub use robot::permit;
-pub use status_vector::observation;
 pub use flags::{Flag, Flags};
 pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
 pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
 pub use health::{Health, Status, StatusVector};
 pub use label::Label;
+pub use level::{Cause, DecisionalLevel, Level, Permit, Told, fired};
 pub use module_table::MODULES;
 pub use modules::{Kind, Module, ModuleFacts, Modules, available};
 pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
 pub use report::{Class, Decision, Report, Reports, decide, lost_after};
 pub use resources::{Resource, Resources};
+pub use robot::permit;
 pub use severity::{Severity, by_availability, by_rules, by_severity, is_settled, judge, severity};
 pub use situation::{Loss, Losses, Situation};
+pub use status_vector::observation;
 pub use supervisors::{global, local, path_following, teleoperation};
 pub use surroundings::{faults, operator};
 pub use world::environment;

@@ -1,6 +1,7 @@
 //! Reading what lies along the path: zones and objectives.
 
 use super::read::{AT_LEAST_ZERO, SPEEDS, task};
+use super::supervision::{self, Does, Supervised};
 use super::{Hardware, HardwareRequirement, Objective, Task, Tio, Zone};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::reader::{Entry, Fields, Reported, ids};
@@ -68,25 +69,36 @@ fn required_hardware(
     Ok(Some(Spanned { value, span: name.span }))
 }
 
-pub(super) fn objective(mut fields: Fields<'_>, tios: &[Entry<Tio>]) -> Entry<Objective> {
+pub(super) fn objective(
+    mut fields: Fields<'_>,
+    tios: &[Entry<Tio>],
+    supervised: &Supervised,
+) -> Entry<Objective> {
     let id = fields.id("id");
+    let does = supervision::does(&mut fields, supervised);
     let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
     let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
-    let travels = x_start.zip(x_end).map(|(start, end)| start < end);
-    let tasks = fields.texts("tasks").and_then(|names| tasks(&fields, &names, travels, tios));
+    let doing = does.as_ref().map(|does| does.as_ref().map(|does| does.value));
+    let way = x_start.zip(x_end);
+    let tasks = fields.texts("tasks").and_then(|names| {
+        let found = tasks(&fields, &names, tios)?;
+        let suit = match (way?, doing) {
+            (way, Ok(None)) => suit_the_way(&fields, &found, way),
+            (way, Ok(Some(does))) => suit_what_it_does(&fields, &found, way, does),
+            (_, Err(Reported)) => false,
+        };
+        suit.then_some(found)
+    });
     fields.finish();
     let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
-    let complete =
-        || Some(Objective { id: id.clone(), span, x_start: x_start?, x_end: x_end?, tasks: tasks? });
+    let complete = || {
+        let (x_start, x_end) = way?;
+        Some(Objective { id: id.clone(), span, x_start, x_end, tasks: tasks?, does: does.ok()? })
+    };
     Entry { item: complete(), id }
 }
 
-fn tasks(
-    fields: &Fields<'_>,
-    names: &[Spanned<String>],
-    travels: Option<bool>,
-    tios: &[Entry<Tio>],
-) -> Option<Vec<Task>> {
+fn tasks(fields: &Fields<'_>, names: &[Spanned<String>], tios: &[Entry<Tio>]) -> Option<Vec<Task>> {
     let found: Vec<_> = names.iter().map(|name| task(fields, name)).collect();
     let found: Vec<Task> = found.into_iter().collect::<Option<_>>()?;
     for (place, (task, name)) in found.iter().zip(names).enumerate() {
@@ -102,15 +114,60 @@ fn tasks(
             fields.report(Diagnostic::new(name.span.clone(), message, "without an option").help(help));
         }
     }
-    let leads: Vec<Task> = found.iter().copied().filter(|task| task.leads()).collect();
-    let wrong = match (travels?, &leads[..]) {
-        (true, [Task::Move]) | (false, [Task::Turn | Task::Detect]) => return Some(found),
-        (true, _) => "an objective that travels needs `MOV`, and neither `TUR` nor `DET`",
-        (false, _) => "an objective that stays at one place needs either `TUR` or `DET`, and not `MOV`",
+    Some(found)
+}
+
+/// The tasks that decide how long an objective takes.
+fn leads(tasks: &[Task]) -> Vec<Task> {
+    tasks.iter().copied().filter(|task| task.leads()).collect()
+}
+
+/// Whether the tasks of an objective are right for one that travels, or stands; reports it if not.
+fn suit_the_way(fields: &Fields<'_>, tasks: &[Task], (x_start, x_end): (Millimetres, Millimetres)) -> bool {
+    let wrong = match (x_start < x_end, &leads(tasks)[..]) {
+        (true, [Task::Move]) => return true,
+        (false, [lead]) if *lead != Task::Move => return true,
+        (true, _) => "an objective that travels needs `MOV`, and no other task but `LOC`",
+        (false, _) => {
+            "an objective that stays at one place needs one of `TUR`, `DET`, `RCV`, `DLV`, `WAI`, and not `MOV`"
+        }
     };
     let help = "change its tasks, or its `x_start_mm` and `x_end_mm`";
     fields.report(Diagnostic::new(fields.span_of("tasks"), wrong, "these tasks").help(help));
-    None
+    false
+}
+
+/// Whether the way and the tasks of a supervised objective are right for what it does; reports it if not.
+fn suit_what_it_does(
+    fields: &Fields<'_>,
+    tasks: &[Task],
+    (x_start, x_end): (Millimetres, Millimetres),
+    does: Does,
+) -> bool {
+    let drives = does == Does::Drive;
+    if drives != (x_start < x_end) {
+        let (message, label) = if !drives {
+            let message =
+                format!("this objective goes from {x_start} to {x_end}, but only one that drives travels");
+            (message, "not where it starts")
+        } else if x_start == x_end {
+            (format!("this drive leads nowhere: it starts and ends at {x_start}"), "not behind the start")
+        } else {
+            (format!("this drive leads back, from {x_start} to {x_end}"), "not behind the start")
+        };
+        let help = if drives { "let it end behind its start" } else { "let it end where it starts" };
+        fields.report(Diagnostic::new(fields.span_of("x_end_mm"), message, label).help(help));
+        return false;
+    }
+    let task = does.task().name();
+    if leads(tasks) != [does.task()] {
+        let message =
+            format!("an objective that does `{}` needs `{task}`, and no other task but `LOC`", does.name());
+        let help = format!("write tasks = [\"{task}\"], or change what it does");
+        fields.report(Diagnostic::new(fields.span_of("tasks"), message, "these tasks").help(help));
+        return false;
+    }
+    true
 }
 
 /// Objectives must follow each other from the start of the path to its end.

@@ -1,10 +1,11 @@
 //! Reading a mission file, section by section.
 
 use super::path::{objective, one_after_the_other, zone};
+use super::supervision::{self, Supervised};
 use super::{AXES, Definition, Hardware, MotionPower, Robot, Standing, Task, Tio, harmless_speed};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::faults::{self, MAX_QUANTITY};
-use crate::reader::{Entry, Fields, ids, quoted};
+use crate::reader::{Entry, Fields, Reported, ids, quoted};
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS, Units};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::{Range, RangeInclusive};
@@ -25,6 +26,7 @@ const ROUNDINGS: [(&str, &str); 2] = [
 
 pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     let name = name(&mut root);
+    let supervised = supervision::read(&mut root);
     let path_length = root.integer("path_length_mm", POSITIVE).map(Millimetres);
     let limits = root.table("limits").and_then(limits);
     if let Ok(Some(table)) = root.optional_table("rounding") {
@@ -33,12 +35,13 @@ pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     let robot = root.table("robot").and_then(robot);
     let motion_power = root.table("motion_power").and_then(motion_power);
     let hardware = root.table("hardware").and_then(hardware).unwrap_or_else(|| vec![Entry::unreadable()]);
-    let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware));
+    let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, &supervised));
     standing(&mut root, &mut tios);
     let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
-    let objectives = all(root.tables("objective", true), |table| objective(table, &tios));
+    let objectives = all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
     one_after_the_other(&root, path_length, &objectives);
-    let names = faults::Names { path_length, zones: &zones, hardware: &hardware };
+    let names =
+        faults::Names { path_length, zones: &zones, hardware: &hardware, supervised: supervised.known() };
     let run = root.optional_table("run").ok().and_then(|run| faults::read_run(run, &names));
     unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
     unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));
@@ -56,6 +59,7 @@ pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
         tios: complete(tios)?,
         objectives: complete(objectives)?,
         zones: complete(zones)?,
+        supervision: supervised.get().ok()?,
         run: run?,
     })
 }
@@ -207,13 +211,15 @@ pub(super) fn task(fields: &Fields<'_>, name: &Spanned<String>) -> Option<Task> 
     Task::from_name(&name.value)
 }
 
-fn tio(mut fields: Fields<'_>, hardware: &[Entry<Hardware>]) -> Entry<Tio> {
+fn tio(mut fields: Fields<'_>, hardware: &[Entry<Hardware>], supervised: &Supervised) -> Entry<Tio> {
     let id = fields.id("id");
     let task = fields.text("task").and_then(|name| task(&fields, &name));
     let needs = needs(&mut fields, hardware);
     let speed_max = fields.optional_integer("speed_max_mm_s", SPEEDS);
     let quality_per_dm = fields.optional_integer("quality_per_dm", QUALITIES);
     let quality = fields.optional_integer("quality", QUALITIES);
+    let standing = own_standing(&mut fields, task);
+    let configuration = supervision::configuration(&mut fields, supervised, task, hardware, needs);
     fields.finish();
     let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
     let complete = || {
@@ -225,10 +231,22 @@ fn tio(mut fields: Fields<'_>, hardware: &[Entry<Hardware>]) -> Entry<Tio> {
             speed_max: speed_max.ok()?.map(MillimetresPerSecond),
             quality_per_dm: quality_per_dm.ok()?.unwrap_or(0),
             quality: quality.ok()?.unwrap_or(0),
-            standing: None,
+            standing: standing.ok()?,
+            configuration: configuration.ok()?,
         })
     };
     Entry { item: complete(), id }
+}
+
+/// What an option takes that says so itself: one that receives, delivers or waits.
+fn own_standing(fields: &mut Fields<'_>, task: Option<Task>) -> Result<Option<Standing>, Reported> {
+    if !matches!(task, Some(Task::Receive | Task::Deliver | Task::Wait)) {
+        return Ok(None);
+    }
+    let duration = fields.integer("duration_ms", POSITIVE).map(Millis);
+    let power = fields.integer("power_mw", AT_LEAST_ZERO).map(Milliwatts);
+    let (duration, power) = duration.zip(power).ok_or(Reported)?;
+    Ok(Some(Standing { duration, power }))
 }
 
 fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Units> {

@@ -1,0 +1,161 @@
+//! What happens during a run that only supervisors can deal with: failures that observers have to find, and what the
+//! operator answers when the robot asks.
+
+use super::{MAX_QUANTITY, Names};
+use crate::cotama::{Configuration, FailureMode, Module};
+use crate::diagnostic::{Diagnostic, Spanned};
+use crate::reader::Fields;
+use cotama_core::units::{Millimetres, Millis};
+
+/// Something that happens once, at a place, to a supervised mission.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Incident {
+    /// Where, by the path.
+    pub x: Millimetres,
+    /// What.
+    pub kind: IncidentKind,
+}
+
+/// What happens.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum IncidentKind {
+    /// Something fails; what that does to the signals is the business of who simulates it.
+    Failure(FailureMode),
+    /// The operator answers the next request of the robot from there on.
+    Operator {
+        /// The answers, one after the other: see [`Answer`].
+        answers: Vec<Answer>,
+        /// The time before each of them.
+        delay: Millis,
+    },
+}
+
+/// What the operator can do (Durand et al., TAROS 2010, Fig. 3). Asked, he drives or edits the path or gives up; driving,
+/// he reaches the goal, or goes over to editing, or gives up; editing, he gives way-points or a path, or gives up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Answer {
+    /// He drives.
+    Teleoperate,
+    /// He edits way-points or a path.
+    Teleprogram,
+    /// He gives way-points: a path is planned again.
+    Waypoints,
+    /// He gives a path: it is followed.
+    Path,
+    /// He has driven the robot to the goal.
+    Goal,
+    /// He gives up.
+    GiveUp,
+}
+
+impl Answer {
+    /// The names in mission files, in the order of the enum.
+    pub const NAMES: [&str; 6] = ["teleoperate", "teleprogram", "waypoints", "path", "goal", "give_up"];
+
+    const ALL: [Self; 6] =
+        [Self::Teleoperate, Self::Teleprogram, Self::Waypoints, Self::Path, Self::Goal, Self::GiveUp];
+
+    /// Its name in mission files.
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+
+    /// What can follow it; nothing when the robot goes on, or stops, with it.
+    pub const fn next(self) -> &'static [Self] {
+        match self {
+            Self::Teleoperate => &[Self::Goal, Self::Teleprogram, Self::GiveUp],
+            Self::Teleprogram => &[Self::Waypoints, Self::Path, Self::GiveUp],
+            Self::Waypoints | Self::Path | Self::Goal | Self::GiveUp => &[],
+        }
+    }
+
+    /// What can come first.
+    pub const FIRST: &[Self] = &[Self::Teleoperate, Self::Teleprogram, Self::GiveUp];
+
+    const fn needs(self) -> Option<Configuration> {
+        match self {
+            Self::Teleoperate => Some(Configuration::TeleoperationDegraded),
+            Self::Teleprogram => Some(Configuration::Teleprogramming),
+            _ => None,
+        }
+    }
+}
+
+/// The kinds of incidents in mission files.
+pub(super) const KINDS: [&str; 2] = ["failure", "operator"];
+
+/// Reads what is left of an incident of this kind.
+pub(super) fn incident(fields: &mut Fields<'_>, kind: &str, names: &Names<'_>) -> Option<IncidentKind> {
+    if names.supervised == Some(false) {
+        let message = format!("events of the kind `{kind}` are for missions that are supervised");
+        let help = "leave it out, or add [supervision] with decides = \"cotama\"";
+        fields.report(Diagnostic::new(fields.span_of("kind"), message, "not supervised").help(help));
+    }
+    if kind == "failure" {
+        let mode = fields.text("mode")?;
+        fields.index_of(&mode, "failure mode", FailureMode::ALL.iter().map(|it| it.name()))?;
+        return FailureMode::named(&mode.value).map(IncidentKind::Failure);
+    }
+    let delay = fields.integer("delay_ms", 0..=MAX_QUANTITY).map(Millis);
+    let found = fields.texts("answers");
+    let answers = found.and_then(|found| {
+        let known = found.iter().map(|name| {
+            let index = fields.index_of(name, "answer", Answer::NAMES.into_iter())?;
+            Answer::ALL.get(index).copied()
+        });
+        let answers = known.collect::<Vec<_>>().into_iter().collect::<Option<Vec<_>>>()?;
+        (follow(fields, &answers, &found) & can(fields, &answers, &found, names)).then_some(answers)
+    });
+    Some(IncidentKind::Operator { answers: answers?, delay: delay? })
+}
+
+/// Whether each answer can follow the one before, and the last one ends it; reports it if not.
+fn follow(fields: &Fields<'_>, answers: &[Answer], names: &[Spanned<String>]) -> bool {
+    let said = |answers: &[Answer]| {
+        let names: Vec<_> = answers.iter().map(|answer| format!("`{}`", answer.name())).collect();
+        names.join(", ")
+    };
+    let (mut possible, mut before) = (Answer::FIRST, "a request".to_owned());
+    for (answer, name) in answers.iter().zip(names) {
+        if !possible.contains(answer) {
+            let message = format!("after {before} the operator cannot answer `{}`", answer.name());
+            let help = if possible.is_empty() {
+                "leave it out: the robot asks again when it needs him again".to_owned()
+            } else {
+                format!("possible: {}", said(possible))
+            };
+            fields.report(Diagnostic::new(name.span.clone(), message, "not possible").help(help));
+            return false;
+        }
+        (possible, before) = (answer.next(), format!("`{}`", answer.name()));
+    }
+    if !possible.is_empty() {
+        let message = format!("the operator's answers end with {before}, and the robot would wait for ever");
+        let help = format!("add one of: {}", said(possible));
+        fields.report(Diagnostic::new(fields.span_of("answers"), message, "not the end").help(help));
+    }
+    possible.is_empty()
+}
+
+/// Whether the robot has the modules for the answers; reports it if not.
+fn can(fields: &Fields<'_>, answers: &[Answer], found: &[Spanned<String>], names: &Names<'_>) -> bool {
+    if names.hardware.iter().any(|kind| kind.id.is_empty()) {
+        return true;
+    }
+    let mut can = true;
+    for (answer, name) in answers.iter().zip(found) {
+        let Some(configuration) = answer.needs() else { continue };
+        let has = |module: &Module| names.hardware.iter().any(|kind| kind.id == module.name());
+        if let Some(lacking) = configuration.facts().required.iter().find(|module| !has(module)) {
+            let (id, lacking) = (configuration.name(), lacking.name());
+            let message = format!(
+                "the operator cannot `{}`: `{id}` runs the module {lacking}, which the robot does not have",
+                answer.name()
+            );
+            let help = format!("add [hardware.{lacking}], or another answer");
+            fields.report(Diagnostic::new(name.span.clone(), message, "not possible").help(help));
+            can = false;
+        }
+    }
+    can
+}
