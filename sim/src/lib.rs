@@ -16,5 +16,6 @@ pub mod run;
 pub mod setup;
 mod solver;
 pub mod streams;
+pub mod supervised;
 pub mod trace;
 pub mod world;

@@ -18,13 +18,14 @@ pub mod robot;
 mod world;
 
 pub use effect::{Effect, Ends, Motion, effect};
-pub use operator::Answer;
+pub use operator::Answers;
 pub use world::{LONGEST, PERIOD, PLANNING};
 
 use crate::run::{NoPlan, PlanMade};
 use crate::trace::Outcome;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Cause, Configuration, Diagnosis, FailureMode, Told, local};
+use cotama_models::cotama::{Cause, Configuration, Diagnosis, FailureMode, Module, Told, local};
+use cotama_models::faults::{Faults, IncidentKind};
 use cotama_models::mission::Mission;
 
 /// What goes wrong, and what the operator answers.
@@ -32,8 +33,27 @@ use cotama_models::mission::Mission;
 pub struct Script {
     /// Failures, each once.
     pub injections: Vec<Injection>,
-    /// The operator's answers to requests, in their order; then he has his habits.
-    pub answers: Vec<Answer>,
+    /// The operator's answers to requests, in their order; where there is none he has his habits.
+    pub answers: Vec<Answers>,
+}
+
+impl From<&Faults> for Script {
+    /// The failures and answers of a mission's own script.
+    fn from(faults: &Faults) -> Self {
+        let mut script = Self::default();
+        for incident in &faults.incidents {
+            match &incident.kind {
+                IncidentKind::Failure(mode) => {
+                    script.injections.push(Injection::new(When::Place(incident.x), *mode));
+                }
+                IncidentKind::Operator { answers, delay } => {
+                    let (answers, delay) = (answers.clone(), *delay);
+                    script.answers.push(Answers { x: incident.x, answers, delay });
+                }
+            }
+        }
+        script
+    }
 }
 
 /// A failure that is to happen.
@@ -43,6 +63,15 @@ pub struct Injection {
     pub when: When,
     /// What fails.
     pub mode: FailureMode,
+    /// Which module, if the failure is one of a module, whichever it is.
+    pub part: Module,
+}
+
+impl Injection {
+    /// A failure; if it is one of a module, whichever it is, then of avoidance.
+    pub const fn new(when: When, mode: FailureMode) -> Self {
+        Self { when, mode, part: Module::Smz }
+    }
 }
 
 /// When something is to fail.

@@ -38,6 +38,7 @@ const STEPS: u64 = 100_000;
 #[derive(Clone, Copy, Debug)]
 struct Failure {
     mode: FailureMode,
+    part: Modules,
     /// For how long its observer has been able to see it.
     seen: Millis,
     since: Millis,
@@ -87,7 +88,7 @@ impl<'m> World<'m> {
             level,
             now: Millis(0),
             robot: Robot::default(),
-            operator: Operator::new(script.answers.iter().copied()),
+            operator: Operator::new(script.answers.iter().cloned()),
             failures: Vec::new(),
             known: Health::SOUND,
             untold: VecDeque::new(),
@@ -143,8 +144,9 @@ impl<'m> World<'m> {
         };
         let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it));
         self.waiting = wait;
-        for Injection { mode, .. } in fail {
-            self.failures.push(Failure { mode, seen: Millis(0), since: now, over: false });
+        for Injection { mode, part, .. } in fail {
+            let part = Modules::of(&[part]);
+            self.failures.push(Failure { mode, part, seen: Millis(0), since: now, over: false });
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
@@ -162,8 +164,8 @@ impl<'m> World<'m> {
 
     /// What is broken, known or not.
     fn broken(&self) -> Health {
-        let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.rule().health());
-        broken.fold(Health::SOUND, Health::union)
+        let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.health(it.part));
+        broken.fold(Health::SOUND, |all, it| all.union(it))
     }
 
     /// The robot goes on for a period.

@@ -9,7 +9,7 @@ use crate::supervised::{Decided, Fired, PERIOD, PLANNING};
 use cotama_core::system::{Happening, Offered};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, Flags, Health, Loss, Losses, Module, Report, Told, delivery, diagnose,
+    Cause, Configuration, Diagnosis, Flags, Loss, Losses, Module, Modules, Report, Told, delivery, diagnose,
     faults, global, local,
 };
 use cotama_models::mission::Does;
@@ -58,13 +58,13 @@ impl World<'_> {
                 continue;
             }
             failure.seen.0 += PERIOD.0;
-            if failure.seen >= failure.mode.rule().latency {
-                raised = raised.union(failure.mode.rule().flags);
+            if failure.seen >= Millis(u64::from(failure.mode.rule().latency_ms)) {
+                raised = raised.union(failure.mode.rule().signature.always);
                 seen.push(number);
             }
         }
         let Some(&first) = seen.first() else { return };
-        let diagnosis = diagnose(raised);
+        let diagnosis = diagnose(raised, self.known.available());
         for &number in &seen {
             self.run.conduct[number].detected = Some((self.now, diagnosis));
         }
@@ -74,13 +74,12 @@ impl World<'_> {
     /// What follows from a diagnosis: what is lost is planned around, and reported.
     fn conclude(&mut self, diagnosis: Diagnosis, cause: Cause) {
         let before = Losses::from(self.known);
+        let part = usize::from(cause.0).checked_sub(1).and_then(|it| self.failures.get(it));
+        self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
         let report = match diagnosis {
             Diagnosis::None => return,
-            Diagnosis::Unique(mode) => {
-                self.known = self.known.union(mode.rule().health());
-                mode.rule().report(self.situation.mode())
-            }
-            Diagnosis::Ambiguous(_) => Some(Report::Ambiguous),
+            Diagnosis::Unique(mode) => mode.rule().report,
+            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => Some(Report::Ambiguous),
         };
         let lost = Losses::from(self.known).without(before);
         for loss in lost.iter() {
@@ -262,13 +261,14 @@ impl World<'_> {
     fn view(&self, at_goal: bool) -> View {
         let left = self.broken().available();
         let asked_about = self.run.conduct.iter().rfind(|it| it.answered.is_some());
-        let report = asked_about.and_then(|it| it.mode.rule().report(cotama_models::cotama::Mode::Autonomous));
+        let report = asked_about.and_then(|it| it.mode.rule().report);
         View {
             place: self.situation.local,
+            x: self.robot.x(),
             link: left.has(Module::Lan),
             camera: left.has(Module::Cam),
             planner_failed: report == Some(Report::Planner),
-            path_is_good: report != Some(Report::Ambiguous),
+            can_go_on: left.covers(Configuration::FollowingOdometric.facts().required),
             at_goal,
         }
     }
