@@ -7,6 +7,7 @@
 mod configurations;
 mod decision_table;
 mod delivery_system;
+mod diagnosis;
 mod flags;
 mod fmeca;
 mod fmeca_table;
@@ -35,6 +36,9 @@ pub use configurations::{
 };
 pub use decision_table::contextual;
 pub use delivery_system::delivery;
+pub use diagnosis::{
+    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, diagnose, is_detectable, undetectable,
+};
 pub use flags::{Flag, Flags};
 pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
 pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};

@@ -21,7 +21,7 @@ pub enum Motion {
 }
 
 /// How long the micro-controller waits for a command (Pioneer 3-DX).
-pub const FIRMWARE_WATCHDOG: Millis = Millis(2_000);
+pub(super) const FIRMWARE_WATCHDOG: Millis = Millis(2_000);
 
 /// When a failure ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,7 +67,7 @@ pub const fn effect(mode: FailureMode) -> Effect {
 }
 
 /// Whether the observer of a failure can see it now: what is not used is not observed.
-pub fn observable(mode: FailureMode, situation: Situation, moving: bool, asked: bool) -> bool {
+pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool, asked: bool) -> bool {
     use FailureMode as F;
     let running = situation.configuration();
     let uses = |module: Module| running.is_some_and(|it| it.facts().required.has(module));

@@ -50,7 +50,15 @@ impl<'m> Planning<'m> {
         let configurations =
             scenario.activities.iter().map(|it| it.labels.iter().map(named).collect()).collect();
         let choice = vec![0; activities.len()];
-        Self { mission, planner, activities, configurations, choice, solver: Solver::default(), made: Vec::new() }
+        Self {
+            mission,
+            planner,
+            activities,
+            configurations,
+            choice,
+            solver: Solver::default(),
+            made: Vec::new(),
+        }
     }
 
     /// Plans what is left with these modules.
@@ -64,7 +72,9 @@ impl<'m> Planning<'m> {
             .map(|(number, activity)| {
                 let rest = at.rest.filter(|_| number == 0);
                 let working = activity.alternatives.iter().zip(0..).filter(|(it, _)| units.covers(it.needs));
-                working.filter_map(|(it, id)| it.candidate(rest.unwrap_or_else(|| activity.whole(it)), id)).collect()
+                working
+                    .filter_map(|(it, id)| it.candidate(rest.unwrap_or_else(|| activity.whole(it)), id))
+                    .collect()
             })
             .collect();
         if let Some(emptied) = lists.iter().position(Vec::is_empty) {
@@ -76,7 +86,9 @@ impl<'m> Planning<'m> {
             return Err(NoPlan::Unknown { steps: 0 });
         };
         let found = self.solver.solve(self.planner, &problem).map_err(|none| match none {
-            NotFound::Infeasible { axis, least } => NoPlan::Limit { axis, short: least.saturating_sub(left[axis]) },
+            NotFound::Infeasible { axis, least } => {
+                NoPlan::Limit { axis, short: least.saturating_sub(left[axis]) }
+            }
             NotFound::Unknown { steps } => NoPlan::Unknown { steps },
         })?;
         let picked: Vec<Candidate<2>> =

@@ -100,7 +100,22 @@ impl<'m> World<'m> {
             withdrawn: None,
             exposed: Millis(0),
             energy_uj: 0,
-            run: Run::default(),
+            run: Run {
+                outcome: Outcome::Failed,
+                time: Millis(0),
+                x: Millimetres(0),
+                used: [0; 2],
+                operator_requests: 0,
+                told: Vec::new(),
+                rounds: 0,
+                fired: Vec::new(),
+                conduct: Vec::new(),
+                configurations: Vec::new(),
+                plans: Vec::new(),
+                exposed: Millis(0),
+                braked: Millimetres(0),
+                moved_when_safe: false,
+            },
         })
     }
 
@@ -157,7 +172,8 @@ impl<'m> World<'m> {
             });
         }
         for failure in &mut self.failures {
-            let ended = matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
+            let ended =
+                matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
             failure.over |= ended;
         }
     }
@@ -170,7 +186,7 @@ impl<'m> World<'m> {
 
     /// The robot goes on for a period.
     fn travel(&mut self) {
-        let Objective::Stands(_) | Objective::Drives(_) = self.objective() else {
+        let (Objective::Stands(_) | Objective::Drives(_)) = self.objective() else {
             let before = self.robot;
             self.robot.go(MillimetresPerSecond(0), self.end(), PERIOD);
             self.run.moved_when_safe |= matches!(self.objective(), Objective::Safe) && before.speed().0 > 0;

@@ -161,10 +161,17 @@ impl World<'_> {
                     return;
                 }
                 self.run.fired.push(Fired { at, net, transition: transition.name, cause: carries });
-                if net == "ls" && transition.emits.iter().any(|it| component.net.outputs[it.0 as usize].name == "op_request") {
+                if net == "ls"
+                    && transition
+                        .emits
+                        .iter()
+                        .any(|it| component.net.outputs[it.0 as usize].name == "op_request")
+                {
                     self.run.operator_requests += 1;
                 }
-                let Some(conduct) = conduct(carries).and_then(|it| self.run.conduct.get_mut(it)) else { return };
+                let Some(conduct) = conduct(carries).and_then(|it| self.run.conduct.get_mut(it)) else {
+                    return;
+                };
                 let said = transition.emits.first().and_then(|it| component.net.outputs.get(it.0 as usize));
                 match (net, said) {
                     ("cs", Some(said)) => {
@@ -177,7 +184,8 @@ impl World<'_> {
                 }
             }
             Happening::Ignored { event, carries } => {
-                let contextual = system.components.get(usize::from(event.component)).is_some_and(|it| it.name == "cs");
+                let contextual =
+                    system.components.get(usize::from(event.component)).is_some_and(|it| it.name == "cs");
                 if let (true, Some(at)) = (contextual, conduct(carries)) {
                     let now = self.now;
                     if let Some(conduct) = self.run.conduct.get_mut(at) {
