@@ -26,7 +26,8 @@ system! {
             gs.halt => permit.halt now;
             ls.ended => ls.tick mail 1;
             ls.drive_done => gs.drive_done mail 1;
-            ls.pf_start => pf.pf_start & permit.grant now;
+            ls.run_pp => gom.settle now;
+            ls.pf_start => pf.pf_start & permit.grant & gom.settle now;
             ls.pf_stop => pf.pf_stop & permit.revoke now;
             ls.to_start => to.to_start & permit.grant now;
             ls.to_stop => to.to_stop & permit.revoke now;
@@ -59,8 +60,8 @@ system! {
             faults.deadline_flag => gom.deadline_flag mail 1;
             operator.op_teleprogram => ls.op_teleprogram now;
             operator.op_teleoperate => ls.op_teleoperate now;
-            operator.op_waypoints => ls.op_waypoints & gom.answered now;
-            operator.op_path => ls.op_path & gom.answered now;
+            operator.op_waypoints => ls.op_waypoints now;
+            operator.op_path => ls.op_path now;
             operator.op_goal_reached => ls.op_goal_reached now;
             operator.refusal => cs.refusal mail 1;
         }
@@ -71,13 +72,13 @@ system! {
             pf.mcl & cs.mcl = gom.mcl;
             operator.camera = faults.camera;
             operator.wifi = faults.wifi;
-            cs.planning & faults.planning = ls.Planning;
-            cs.following & faults.following = ls.Following;
+            cs.planning = ls.Planning;
+            cs.following = ls.Following;
             cs.hand_over & operator.hand_over = ls.HandOver;
             cs.teleprogrammed & operator.teleprogrammed = ls.Teleprogrammed;
-            cs.teleoperated & faults.teleoperated & operator.teleoperated = ls.Teleoperated;
-            cs.optimal & faults.optimal = pf.Optimal;
-            cs.reduced & faults.reduced = pf.Reduced;
+            cs.teleoperated & operator.teleoperated = ls.Teleoperated;
+            cs.optimal = pf.Optimal;
+            cs.reduced = pf.Reduced;
             cs.odometric = pf.Odometric;
             cs.degraded = pf.Degraded;
             cs.avoiding = to.Full;

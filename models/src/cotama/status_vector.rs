@@ -7,7 +7,7 @@ net! {
     /// vector, and reports what is new. A flag that tells nothing new is ignored.
     ///
     /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation by particles along; a
-    /// diagnosis that is not unique makes its candidates suspect until the operator has answered, and is reported once.
+    /// diagnosis that is not unique makes its candidates suspect until the robot sets out again, and is reported once.
     pub mod observation {
         places {
             /// It diagnoses at once.
@@ -24,7 +24,7 @@ net! {
             wifi: true,
             /// Power, micro-controller and effectors are.
             vital: true,
-            /// Several faults are possible, and the operator has not yet told which.
+            /// Several faults are possible, and it is not settled which.
             suspected: false,
         }
         events {
@@ -38,8 +38,8 @@ net! {
             hard_flag,
             /// Localisation misses its deadline persistently.
             deadline_flag,
-            /// The operator gives a path or way-points: what was suspected is settled.
-            answered,
+            /// A path is planned or followed anew: what was suspected is settled, and may be suspected again.
+            settle,
         }
         outputs { vital, wifi_lost, camera, sonar_lost, mcl_lost, ambiguous, collision, planner, hard, slow }
         transitions {
@@ -54,7 +54,7 @@ net! {
             planner on planner_flag: Watching => Watching emit planner;
             hard on hard_flag: Watching => Watching emit hard;
             slow on deadline_flag: Watching => Watching emit slow;
-            settled on answered [suspected]: Watching => Watching do suspected = false;
+            settled on settle [suspected]: Watching => Watching do suspected = false;
         }
         laws {
             invariant(Watching = 1);

@@ -21,7 +21,6 @@ net! {
             /// Power, micro-controller and effectors work.
             vital: true,
         }
-        shared { planning, following, teleoperated, optimal, reduced }
         events {
             lose_vital, lose_wifi, lose_camera, lose_sonar, lose_mcl,
             /// Odometry and localisation drift apart; why is not known.
@@ -41,17 +40,11 @@ net! {
             camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
             sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
             mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
-            drift1 on drift [planning]: Ready => Ready emit drift_flag;
-            drift2 on drift [following]: Ready => Ready emit drift_flag;
-            drift3 on drift [teleoperated]: Ready => Ready emit drift_flag;
-            bump1 on bump [following]: Ready => Ready emit bumper_flag;
-            bump2 on bump [teleoperated]: Ready => Ready emit bumper_flag;
-            no_path on no_path [planning]: Ready => Ready emit planner_flag;
-            hard1 on fail_hard [planning]: Ready => Ready emit hard_flag;
-            hard2 on fail_hard [following]: Ready => Ready emit hard_flag;
-            hard3 on fail_hard [teleoperated]: Ready => Ready emit hard_flag;
-            slow1 on overload [optimal]: Ready => Ready emit deadline_flag;
-            slow2 on overload [reduced]: Ready => Ready emit deadline_flag;
+            drift on drift: Ready => Ready emit drift_flag;
+            bump on bump: Ready => Ready emit bumper_flag;
+            no_path on no_path: Ready => Ready emit planner_flag;
+            hard on fail_hard: Ready => Ready emit hard_flag;
+            slow on overload: Ready => Ready emit deadline_flag;
         }
         laws { left_to_checker; }
     }

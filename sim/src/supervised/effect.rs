@@ -16,8 +16,10 @@ pub enum Motion {
     Runaway,
     /// Motors are without power: it stands.
     Dead,
-    /// No command arrives: the micro-controller stops the motors by itself after [`FIRMWARE_WATCHDOG`].
+    /// No command arrives: the micro-controller stops the motors by itself after two seconds.
     Silent,
+    /// The same, since the laptop is down: nothing is observed or decided any more.
+    Mindless,
 }
 
 /// How long the micro-controller waits for a command (Pioneer 3-DX).
@@ -47,27 +49,28 @@ pub struct Effect {
 pub const fn effect(mode: FailureMode) -> Effect {
     use FailureMode as F;
     let motion = match mode {
-        F::Odo1 | F::Mot1 | F::Mot3 | F::Bmp2 | F::Loc2 | F::Hum1 | F::Col1 | F::Loc3 => Motion::Blocked,
+        F::Mot1 | F::Mot3 | F::Bmp2 | F::Loc2 | F::Hum1 | F::Col1 | F::Loc3 => Motion::Blocked,
         F::Mot2 => Motion::Slowed(600),
         F::Whl1 => Motion::Slowed(500),
         F::Mot4 => Motion::Runaway,
         F::Est1 | F::Bat2 | F::Bat3 => Motion::Dead,
-        F::Pwr1 | F::P3d1 | F::Sw3 => Motion::Silent,
+        F::P3d1 => Motion::Silent,
+        F::Pwr1 | F::Sw3 => Motion::Mindless,
         _ => Motion::Free,
     };
     let ends = match mode {
         F::Hum1 => Ends::After(Millis(8_000)),
         F::Son4 | F::Odo3 | F::Cam2 | F::P3d2 | F::Com2 => Ends::After(Millis(10_000)),
         F::Rt2 => Ends::After(Millis(100)),
-        F::Com1 => Ends::Never,
-        F::Mot3 | F::Loc2 | F::Col1 | F::Loc3 | F::Ppl1 | F::P3d3 | F::Bmp2 | F::Whl1 => Ends::Helped,
+        F::Col1 => Ends::After(Millis(5_000)),
+        F::Mot3 | F::Loc1 | F::Loc2 | F::Loc3 | F::Ppl1 | F::P3d3 | F::Bmp2 | F::Whl1 => Ends::Helped,
         _ => Ends::Never,
     };
     Effect { motion, ends }
 }
 
 /// Whether the observer of a failure can see it now: what is not used is not observed.
-pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool, asked: bool) -> bool {
+pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool) -> bool {
     use FailureMode as F;
     let running = situation.configuration();
     let uses = |module: Module| running.is_some_and(|it| it.facts().required.has(module));
@@ -79,7 +82,7 @@ pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool, 
         F::Loc3 => matches!(running, Some(Configuration::FollowingDegraded)) && wants_to_move(running),
         F::Col1 => wants_to_move(running),
         F::Ppl1 => matches!(situation.local, local::State::Planning),
-        F::Opr1 => asked,
+        F::Opr1 => false, // the patience of the robot is the operator's side of the simulation
         F::Cam2 => matches!(situation.local, local::State::Teleoperated),
         _ => true,
     }

@@ -5,12 +5,12 @@
 //! operator has to say. So a run is a run of the system that was checked: [`Told`] is its alphabet, and the list of what was
 //! told, a round each, is all that is needed to check that it is one.
 
-use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect};
+use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
 use super::{Conduct, Injection, Run, Script, When};
-use crate::options::Planner;
+use crate::options::{Aim, Planner};
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
 use cotama_core::net::PlaceId;
@@ -56,6 +56,8 @@ pub(super) struct World<'m> {
     failures: Vec<Failure>,
     /// What is diagnosed.
     known: Health,
+    /// What the supervisors take for lost: what is diagnosed, and what the plan does without.
+    lost: Losses,
     /// What the supervisors are still to be told.
     untold: VecDeque<(Told, Cause)>,
     planning: Planning<'m>,
@@ -76,11 +78,11 @@ pub(super) struct World<'m> {
 impl<'m> World<'m> {
     /// A robot at the start of its mission, with its plan.
     pub(super) fn start(mission: &'m Mission, script: &Script) -> Result<Self, NoPlan> {
-        let mut planning = Planning::new(mission, Planner::PanoramaThenExact { steps: STEPS });
+        let mut planning = Planning::new(mission, Planner::Exact { aim: Aim::Quality, steps: STEPS });
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(run::Cause::Start, start, Modules::ALL)?;
         let level = DecisionalLevel::default();
-        Ok(Self {
+        let mut world = Self {
             mission,
             waiting: script.injections.clone(),
             situation: level.situation(Losses::NONE),
@@ -91,6 +93,7 @@ impl<'m> World<'m> {
             operator: Operator::new(script.answers.iter().cloned()),
             failures: Vec::new(),
             known: Health::SOUND,
+            lost: Losses::NONE,
             untold: VecDeque::new(),
             planning,
             local_since: Millis(0),
@@ -116,18 +119,24 @@ impl<'m> World<'m> {
                 braked: Millimetres(0),
                 moved_when_safe: false,
             },
-        })
+        };
+        world.do_without(Cause(0));
+        Ok(world)
     }
 
     /// One period; whether the mission is over.
     pub(super) fn period(&mut self) -> bool {
         self.fail();
         self.travel();
-        self.observe();
-        self.take_a_round();
+        if self.thinks() {
+            self.observe();
+            self.take_a_round();
+        }
         self.now.0 += PERIOD.0;
         let end = match self.objective() {
-            Objective::Done => Some(Outcome::Completed),
+            Objective::Done => Some(self.accomplished()),
+            // The micro-controller has stopped it: safe by itself.
+            _ if !self.thinks() && self.robot.speed().0 == 0 => Some(Outcome::Safe),
             Objective::Safe if self.robot.speed().0 == 0 => Some(Outcome::Safe),
             _ if self.now >= LONGEST => Some(Outcome::Failed),
             _ => None,
@@ -145,6 +154,18 @@ impl<'m> World<'m> {
         self.run.used = self.used();
         self.run.plans = self.planning.made;
         self.run
+    }
+
+    /// Whether the laptop is up.
+    fn thinks(&self) -> bool {
+        !self.failures.iter().any(|it| effect(it.mode).motion == Motion::Mindless)
+    }
+
+    /// How a mission ends whose objectives are done.
+    fn accomplished(&self) -> Outcome {
+        let limits = self.mission.scenario().limits;
+        let within = self.used().iter().zip(limits).all(|(used, limit)| *used <= limit);
+        if within { Outcome::Completed } else { Outcome::Failed }
     }
 
     /// What is to fail now fails.
@@ -201,13 +222,13 @@ impl<'m> World<'m> {
         for failure in self.failures.iter().filter(|it| !it.over) {
             match effect(failure.mode).motion {
                 Motion::Free => {}
-                Motion::Blocked => blocked = true,
+                Motion::Blocked => blocked |= observable(failure.mode, self.situation, true),
                 Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
                 Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
-                Motion::Silent if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 => {
+                Motion::Silent | Motion::Mindless if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 => {
                     towards = MillimetresPerSecond(0);
                 }
-                Motion::Runaway | Motion::Silent => {}
+                Motion::Runaway | Motion::Silent | Motion::Mindless => {}
                 Motion::Dead => {
                     self.robot.stand();
                     towards = MillimetresPerSecond(0);
@@ -221,7 +242,7 @@ impl<'m> World<'m> {
         };
         self.robot.go(towards, end, PERIOD);
         self.energy_uj += power.0 * PERIOD.0;
-        self.measure(command.0 > 0);
+        self.measure();
     }
 
     /// The end of the drive, or where the robot stands.
@@ -250,8 +271,8 @@ impl<'m> World<'m> {
     }
 
     /// What must never happen, or not for long.
-    fn measure(&mut self, commanded: bool) {
-        let moving = self.robot.speed().0 > 0 || commanded;
+    fn measure(&mut self) {
+        let moving = self.robot.speed().0 > 0;
         let required = self.situation.configuration().map_or(Modules::NONE, |it| it.facts().required);
         let exposed = moving && !self.broken().available().covers(required);
         self.exposed = if exposed { Millis(self.exposed.0 + PERIOD.0) } else { Millis(0) };

@@ -67,7 +67,8 @@ fn each_failure_is_diagnosed_and_answered_as_published() {
     assert_eq!(conduct, expected);
     // From the flags to the decision one round, to the reaction another one.
     for it in &run.conduct {
-        let (detected, decided, answered) = (it.detected.unwrap().0, it.decided.unwrap().0, it.answered.unwrap());
+        let (detected, decided, answered) =
+            (it.detected.unwrap().0, it.decided.unwrap().0, it.answered.unwrap());
         assert_eq!((decided.0 - detected.0, answered.0 - decided.0), (100, 100), "{it:?}");
     }
 }
@@ -76,7 +77,7 @@ fn each_failure_is_diagnosed_and_answered_as_published() {
 fn the_object_is_delivered_after_two_requests() {
     let run = run();
     assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 2));
-    assert_eq!((run.x, run.time), (Millimetres(80_000), Millis(551_300)));
+    assert_eq!((run.x, run.time), (Millimetres(80_000), Millis(546_300)));
     assert!(!run.moved_when_safe);
 }
 

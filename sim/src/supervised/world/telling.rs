@@ -1,16 +1,19 @@
 //! What the supervisors are told, and what they make of it.
 
 use super::World;
-use crate::run;
+use crate::run::{self, NoPlan};
 use crate::supervised::effect::{Ends, effect, observable};
 use crate::supervised::operator::View;
 use crate::supervised::plan::Progress;
 use crate::supervised::{Decided, Fired, PERIOD, PLANNING};
+
+/// How long the planner may take beyond what it usually does (FMECA, row PPL1).
+const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
 use cotama_core::system::{Happening, Offered};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, Flags, Loss, Losses, Module, Modules, Report, Told, delivery, diagnose,
-    faults, global, local,
+    Cause, Configuration, Diagnosis, FailureMode, Flags, Loss, Losses, Mode, Module, Modules, Report,
+    Severity, Told, decide, delivery, diagnose, faults, global, judge, local, operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
@@ -49,12 +52,11 @@ impl World<'_> {
     /// Observers look; what they newly see is diagnosed.
     pub(super) fn observe(&mut self) {
         let moving = self.robot.speed().0 > 0;
-        let asked = self.situation.local == local::State::HandOver;
         let mut raised = Flags::NONE;
         let mut seen = Vec::new();
         for (number, failure) in self.failures.iter_mut().enumerate() {
             let found = self.run.conduct[number].detected.is_some();
-            if failure.over || found || !observable(failure.mode, self.situation, moving, asked) {
+            if failure.over || found || !observable(failure.mode, self.situation, moving) {
                 continue;
             }
             failure.seen.0 += PERIOD.0;
@@ -73,40 +75,80 @@ impl World<'_> {
 
     /// What follows from a diagnosis: what is lost is planned around, and reported.
     fn conclude(&mut self, diagnosis: Diagnosis, cause: Cause) {
-        let before = Losses::from(self.known);
+        let before = self.known.available();
         let part = usize::from(cause.0).checked_sub(1).and_then(|it| self.failures.get(it));
         self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
-        let report = match diagnosis {
+        let left = self.known.available();
+        self.lose(Losses::from(self.known), cause);
+        let (report, severity) = match diagnosis {
             Diagnosis::None => return,
-            Diagnosis::Unique(mode) => mode.rule().report,
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => Some(Report::Ambiguous),
+            Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
+            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => (Some(Report::Ambiguous), Severity::Hard),
         };
-        let lost = Losses::from(self.known).without(before);
-        for loss in lost.iter() {
-            self.untold.push_back((Told::Failure(lost_event(loss)), cause));
-        }
-        if let Some(event) = report.and_then(passing_event) {
-            self.untold.push_back((Told::Failure(event), cause));
-        }
-        if !lost.is_empty() {
-            self.plan_again(lost, cause);
+        let Some(report) = report else {
+            // It is recorded, and nobody has to decide.
+            let conduct = usize::from(cause.0).checked_sub(1).and_then(|it| self.run.conduct.get_mut(it));
+            conduct.into_iter().for_each(|it| it.decided = Some((self.now, Decided::Record)));
+            return;
+        };
+        // A failure that is worse here than the event of its report says asks for the operator by itself.
+        let situation = self.level.situation(self.lost);
+        let (by_report, by_row) = (decide(report, situation), judge(report, severity, situation));
+        let event = match passing_event(report) {
+            Some(event) if by_report.class() >= by_row.class() => Some(event),
+            _ if by_report.class() < by_row.class() => Some(faults::Event::fail_hard),
+            other => other,
+        };
+        self.untold.extend(event.map(|it| (Told::Failure(it), cause)));
+        if left != before && self.plan_again(before.without(left), cause).is_err() {
+            // The adapter has nothing to switch to: the operator is asked.
+            self.untold.push_back((Told::Failure(faults::Event::fail_hard), cause));
         }
     }
 
-    /// Plans the rest of the mission with the modules that are left. Without a plan the adapter has nothing to switch to.
-    fn plan_again(&mut self, lost: Losses, cause: Cause) {
-        if lost.has(Loss::Vital) {
-            return; // the mission is given up
+    /// How severe a failure is where the robot is.
+    fn severity(&self, mode: FailureMode) -> Severity {
+        match self.situation.mode() {
+            Mode::Rest | Mode::Autonomous => mode.rule().autonomous,
+            Mode::HandOver | Mode::Teleprogrammed | Mode::Teleoperated => mode.rule().operator,
         }
-        let module = lost.first().map_or(Module::P3d, module_of);
-        let hardware = self.mission.hardware.iter().position(|it| it.name == module.name()).unwrap_or(0);
-        let why = run::Cause::Hardware { hardware, units: 1 };
+    }
+
+    /// The supervisors learn of losses.
+    fn lose(&mut self, lost: Losses, cause: Cause) {
+        let new = lost.without(self.lost);
+        self.lost = self.lost.union(new);
+        // The most severe first; without vital parts nothing else matters.
+        let mut new: Vec<Loss> = new.iter().collect();
+        new.reverse();
+        new.truncate(if new.first() == Some(&Loss::Vital) { 1 } else { new.len() });
+        self.untold.extend(new.into_iter().map(|it| (Told::Failure(lost_event(it)), cause)));
+    }
+
+    /// Plans the rest of the mission with the modules that are left.
+    fn plan_again(&mut self, gone: Modules, cause: Cause) -> Result<(), NoPlan> {
         let at = self.progress();
-        if at.activity < self.mission.scenario().activities.len()
-            && self.planning.plan(why, at, self.known.available()).is_err()
-        {
-            self.untold.push_back((Told::Failure(faults::Event::fail_hard), cause));
+        if self.lost.has(Loss::Vital) || at.activity >= self.mission.scenario().activities.len() {
+            return Ok(()); // nothing is left to be planned
         }
+        let named = |it: &Module| self.mission.hardware.iter().position(|kind| kind.name == it.name());
+        let Some(hardware) = gone.iter().find_map(|it| named(&it)) else { return Ok(()) };
+        self.planning.plan(run::Cause::Hardware { hardware, units: 1 }, at, self.known.available())?;
+        self.do_without(cause);
+        Ok(())
+    }
+
+    /// What the plan does without is withdrawn, so that the adapter comes to the configuration that is planned.
+    pub(super) fn do_without(&mut self, cause: Cause) {
+        let at = self.progress();
+        let drives = (at.activity..self.mission.scenario().activities.len())
+            .find_map(|it| self.planning.configuration(it));
+        let unused = match drives {
+            Some(Configuration::FollowingOdometric) => Losses::of(&[Loss::Mcl]),
+            Some(Configuration::FollowingDegraded) => Losses::of(&[Loss::Mcl, Loss::Sonar]),
+            _ => Losses::NONE,
+        };
+        self.lose(unused, cause);
     }
 
     /// How far the mission has come.
@@ -200,7 +242,7 @@ impl World<'_> {
     /// Where the supervisors have come to.
     fn arrive_at_places(&mut self) {
         let before = (self.situation.local, self.situation.configuration());
-        self.situation = self.level.situation(Losses::from(self.known));
+        self.situation = self.level.situation(self.lost);
         let after = (self.situation.local, self.situation.configuration());
         if after.0 != before.0 {
             self.local_since = self.now;
@@ -251,13 +293,29 @@ impl World<'_> {
             local::State::Planning if waited(self.local_since) >= PLANNING.0 && self.can_plan() => {
                 Some((Told::Drive(local::Event::path_ready), none))
             }
+            local::State::Planning if waited(self.local_since) >= PLANNING.0 + PATIENCE_WITH_PLANNER.0 => {
+                self.local_since = self.now;
+                Some((Told::Failure(faults::Event::no_path), none))
+            }
             local::State::Following if at_goal => Some((Told::Drive(local::Event::goal_reached), none)),
             local::State::HandOver | local::State::Teleprogrammed | local::State::Teleoperated => {
                 let view = self.view(at_goal);
-                self.operator.says(self.now, view).map(|it| (Told::Operator(it), none))
+                let said = self.operator.says(self.now, view)?;
+                let cause = if said == operator::Event::gives_up { self.silence() } else { none };
+                Some((Told::Operator(said), cause))
             }
             _ => None,
         }
+    }
+
+    /// The operator's silence, if that is a failure under way: it is found when the patience of the robot ends.
+    fn silence(&mut self) -> Cause {
+        let Some(at) = self.failures.iter().position(|it| it.mode == FailureMode::Opr1) else {
+            return Cause(0);
+        };
+        let diagnosis = Diagnosis::Unique(FailureMode::Opr1);
+        self.run.conduct[at].detected.get_or_insert((self.now, diagnosis));
+        Cause(at as u16 + 1)
     }
 
     /// Whether a path can be planned: the planner works.
@@ -273,7 +331,7 @@ impl World<'_> {
         View {
             place: self.situation.local,
             x: self.robot.x(),
-            link: left.has(Module::Lan),
+            link: left.has(Module::Lan) && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
             camera: left.has(Module::Cam),
             planner_failed: report == Some(Report::Planner),
             can_go_on: left.covers(Configuration::FollowingOdometric.facts().required),
@@ -290,17 +348,6 @@ const fn lost_event(loss: Loss) -> faults::Event {
         Loss::Camera => faults::Event::lose_camera,
         Loss::Wifi => faults::Event::lose_wifi,
         Loss::Vital => faults::Event::lose_vital,
-    }
-}
-
-/// A module that a loss takes away.
-const fn module_of(loss: Loss) -> Module {
-    match loss {
-        Loss::Mcl => Module::Mcl,
-        Loss::Sonar => Module::Ust,
-        Loss::Camera => Module::Cam,
-        Loss::Wifi => Module::Lan,
-        Loss::Vital => Module::P3d,
     }
 }
 

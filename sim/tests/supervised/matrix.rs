@@ -1,0 +1,94 @@
+//! Every row of the FMECA, alone, in every place of the local supervisor.
+
+use super::{delivery, golden};
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
+use cotama_models::mission::Mission;
+use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
+use cotama_sim::trace::Outcome;
+use std::fmt::Write;
+
+const PLACES: [local::State; 5] = [
+    local::State::Planning,
+    local::State::Following,
+    local::State::HandOver,
+    local::State::Teleoperated,
+    local::State::Teleprogrammed,
+];
+
+/// The modules that may be the one of a failure of any module.
+const PARTS: [Module; 9] = [
+    Module::Mcl,
+    Module::Smz,
+    Module::Ust,
+    Module::Nav,
+    Module::Ppl,
+    Module::Gui,
+    Module::Dvz,
+    Module::Lan,
+    Module::Cam,
+];
+
+/// A run in which a row is injected half a second after a place is reached; an uncharted obstacle brings the operator in.
+fn run(mission: &Mission, mode: FailureMode, part: Module, place: local::State) -> Run {
+    let autonomous = matches!(place, local::State::Planning | local::State::Following);
+    let obstacle = Injection::new(When::Place(Millimetres(6_000)), FailureMode::Loc2);
+    let row = Injection { part, ..Injection::new(When::During(place, Millis(500)), mode) };
+    let injections = if autonomous { vec![row] } else { vec![obstacle, row] };
+    Supervised::new(mission).unwrap().run(&Script { injections, answers: Vec::new() }).unwrap()
+}
+
+/// How long the robot may move while a module is broken that it requires: until it is detected, decided and answered, a round
+/// each, and until it stands.
+fn bound(mode: FailureMode) -> u64 {
+    let stops = 1_000; // 0.3 m/s at 0.3 m/s2
+    u64::from(mode.rule().latency_ms).max(2_000) + 2 * 100 + stops
+}
+
+fn line(run: &Run, mode: FailureMode, part: Module, place: local::State) -> String {
+    let it = run.conduct.iter().rfind(|it| it.during == place && it.mode == mode).unwrap();
+    let after = |at: Millis| at.0 - it.injected.0;
+    let detected = it.detected.map_or("-".into(), |(at, diagnosis)| {
+        let what = match diagnosis {
+            Diagnosis::Unique(mode) => mode.name().to_owned(),
+            Diagnosis::Ambiguous(modes) => format!("one of {modes}"),
+            other => format!("{other:?}"),
+        };
+        format!("{} ms {what}", after(at))
+    });
+    let decided = it.decided.map_or("-".into(), |(at, what)| format!("{} ms {what:?}", after(at)));
+    let answered = it.answered.map_or("-".into(), |at| format!("{} ms", after(at)));
+    let part = if mode.rule().one_module { format!(" {}", part.name()) } else { String::new() };
+    format!(
+        "{}{part} | {place:?} | {detected} | {decided} | {answered} | {:?} after {} s, {} requests | {} ms",
+        mode.name(),
+        run.outcome,
+        run.time.0 / 1000,
+        run.operator_requests,
+        run.exposed.0
+    )
+}
+
+/// 37 rows in five places, and the three of any module for nine modules: each run ends, none moves when it is safe, and none
+/// moves for long without a module that it requires.
+#[test]
+fn every_row_in_every_place() {
+    let mission = delivery();
+    let mut table = String::from(
+        "row | place | detected | decided | answered | outcome | moved without a required module\n",
+    );
+    let mut too_long = Vec::new();
+    for &mode in FailureMode::ALL {
+        let parts = if mode.rule().one_module { &PARTS[..] } else { &PARTS[..1] };
+        for (&part, place) in parts.iter().flat_map(|part| PLACES.map(|place| (part, place))) {
+            let run = run(&mission, mode, part, place);
+            let line = line(&run, mode, part, place);
+            if run.outcome == Outcome::Failed || run.moved_when_safe || run.exposed.0 > bound(mode) {
+                too_long.push(line.clone());
+            }
+            writeln!(table, "{line}").unwrap();
+        }
+    }
+    golden("fmeca_matrix.txt", &table);
+    assert!(too_long.is_empty(), "{}", too_long.join("\n"));
+}
