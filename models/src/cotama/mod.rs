@@ -4,9 +4,11 @@
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
 
+mod causes;
 mod configurations;
 
 mod decision_table;
+mod diagnosis;
 mod flags;
 mod fmeca;
 mod fmeca_table;
@@ -23,11 +25,15 @@ mod situation;
 mod supervisors;
 mod world;
 
+pub use causes::{Rib, functions, ribs};
 pub use configurations::{
     CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED, Mode,
     SubObjective,
 };
 pub use decision_table::contextual;
+pub use diagnosis::{
+    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, diagnose, is_detectable, undetectable,
+};
 pub use flags::{Flag, Flags};
 pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
 pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
