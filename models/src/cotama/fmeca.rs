@@ -27,7 +27,7 @@ pub enum Persistence {
     Intermittent,
 }
 
-/// How a failure mode shows: it is possible while the flags raised are all of `always` and some of `sometimes`.
+/// How a failure mode shows (inferred from its detection and its effect): it is possible while the flags raised are all of `always` and some of `sometimes`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Signature {
     /// Flags that it always raises; none when nothing of the architecture sees it.

@@ -3,6 +3,11 @@
 //!
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
+//!
+//! Beside the nets stands what they rest on, as data without heap: modules and resources with the closure that says what is
+//! [`available`], [`Configuration`]s, the decision as a function ([`decide`]) and the two rules behind it ([`by_rules`]), the
+//! FMECA ([`RULES`], [`TEXTS`]) and the diagnosis of flags ([`diagnose`]). Every fact says whether it is stated, inferred or assumed, by
+//! its [`Label`] or in its documentation.
 
 mod causes;
 mod configurations;
