@@ -20,9 +20,9 @@ members! {
         FreeAhead = "free ahead",
         /// O-SEN: no camera frame.
         NoFrame = "no frame",
-        /// O-COM: camera frames come late.
+        /// O-COM or O-SEN: camera frames come late.
         OldFrame = "old frame",
-        /// O-SEN, for any module: a value out of its interval.
+        /// O-SEN, O-LOC or O-PF, for any module: a value out of its interval.
         ValueOutside = "value outside",
         /// O-EFF: the filter's residual says that wheel and encoder disagree.
         WheelResidual = "wheel residual",
@@ -32,7 +32,7 @@ members! {
         WheelDisobeys = "wheel disobeys",
         /// O-EFF: the estimated gain of an actuator is low.
         WheelGain = "wheel gain",
-        /// O-EFF: speed above the limit, or against the command.
+        /// O-EFF or P3D: speed above the limit, or against the command.
         Runaway = "runaway",
         /// O-LOC: odometric and MCL pose are far apart.
         PoseDistance = "pose distance",
@@ -90,28 +90,29 @@ members! {
 }
 
 impl Flag {
-    /// The module that raises it (stated for the observers, Durand et al., TAROS 2010, Section III; one observer a flag is
-    /// inferred); none for what a supervisor's timer or the operator's side sees.
-    pub const fn observer(self) -> Option<Module> {
-        Some(match self {
+    /// The modules of which each one can raise it (stated for the observers, Durand et al., TAROS 2010, Section III; who raises
+    /// which flag is inferred); none for what a supervisor's timer or the operator's side sees.
+    #[must_use]
+    pub const fn observers(self) -> Modules {
+        Modules::of(match self {
             Self::SonarFar
             | Self::SonarSilent
             | Self::SonarNear
             | Self::SonarOutliers
             | Self::FreeAhead
-            | Self::NoFrame
-            | Self::ValueOutside => Module::OSen,
-            Self::WheelResidual | Self::WheelPeak | Self::WheelDisobeys | Self::WheelGain | Self::Runaway => {
-                Module::OEff
-            }
+            | Self::NoFrame => &[Module::OSen],
+            Self::OldFrame => &[Module::OCom, Module::OSen],
+            Self::ValueOutside => &[Module::OSen, Module::OLoc, Module::OPf],
+            Self::WheelResidual | Self::WheelPeak | Self::WheelDisobeys | Self::WheelGain => &[Module::OEff],
+            Self::Runaway => &[Module::OEff, Module::P3d],
             Self::PoseDistance
             | Self::PoseGrowth
             | Self::PosePeak
             | Self::SlowDrift
             | Self::PoseJump
-            | Self::Spread => Module::OLoc,
-            Self::Backward | Self::NoConvergence | Self::NoProgress => Module::OPf,
-            Self::LinkDown | Self::LinkPoor | Self::OldFrame => Module::OCom,
+            | Self::Spread => &[Module::OLoc],
+            Self::Backward | Self::NoConvergence | Self::NoProgress => &[Module::OPf],
+            Self::LinkDown | Self::LinkPoor => &[Module::OCom],
             Self::Bumper
             | Self::Stall
             | Self::EmergencyStop
@@ -119,10 +120,10 @@ impl Flag {
             | Self::BatteryCritical
             | Self::PacketSilence
             | Self::PacketErrors
-            | Self::SequenceRestart => Module::P3d,
-            Self::MclLate | Self::OneLate | Self::ModuleLate | Self::ModuleSilent => Module::Sch,
-            Self::PlanFailed => Module::Ppl,
-            Self::OperatorSilent | Self::RobotSilent => return None,
+            | Self::SequenceRestart => &[Module::P3d],
+            Self::MclLate | Self::OneLate | Self::ModuleLate | Self::ModuleSilent => &[Module::Sch],
+            Self::PlanFailed => &[Module::Ppl],
+            Self::OperatorSilent | Self::RobotSilent => &[],
         })
     }
 }
@@ -133,11 +134,8 @@ impl Flags {
     pub const fn seen_by(available: Modules) -> Self {
         let (mut seen, mut at) = (Self::NONE, 0);
         while at < Flag::ALL.len() {
-            let raised = match Flag::ALL[at].observer() {
-                Some(observer) => available.has(observer),
-                None => true,
-            };
-            if raised {
+            let observers = Flag::ALL[at].observers();
+            if observers.is_empty() || !observers.common(available).is_empty() {
                 seen = seen.with(Flag::ALL[at]);
             }
             at += 1;

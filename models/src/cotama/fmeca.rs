@@ -27,14 +27,14 @@ pub enum Persistence {
     Intermittent,
 }
 
-/// How a failure mode shows: it is possible while the flags raised are all of `always` and some of `sometimes`.
+/// How a failure mode shows (inferred from its detection and its effect): it is possible while the flags raised are all of `always` and some of `sometimes`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Signature {
     /// Flags that it always raises; none when nothing of the architecture sees it.
     pub always: Flags,
     /// Flags that it may raise too: effects that depend on the place, and detections of which one is enough.
     pub sometimes: Flags,
-    /// It can only happen while these modules are available.
+    /// It can only happen, or only matters, while these modules are available.
     pub present: Modules,
     /// It can only happen while these modules are not.
     pub absent: Modules,
@@ -120,7 +120,8 @@ impl FailureMode {
         Health { faulty, lost: rule.lost, suspected: Modules::NONE }
     }
 
-    /// Its class by the two rules of [`by_rules`](super::by_rules): the worse of severity and what is left available.
+    /// Its class by the two rules of [`by_rules`](super::by_rules): the worse of severity and what is left available,
+    /// and global where the operator is needed and cannot be reached.
     ///
     /// ```
     /// use cotama_models::cotama::{Class, FailureMode, Modules, Situation, local, path_following};
@@ -139,7 +140,11 @@ impl FailureMode {
         let severity =
             if matches!(situation.mode(), Autonomous | Rest) { rule.autonomous } else { rule.operator };
         let left = situation.lost.health().union(self.health(part)).available();
-        severity.class().worse(by_availability(situation, left, left.has(Module::Lan)))
+        let operator = left.has(Module::Lan);
+        match severity.class().worse(by_availability(situation, left, operator)) {
+            Class::Local if !operator => Class::Global,
+            class => class,
+        }
     }
 }
 

@@ -109,7 +109,7 @@ rows! {
         cause "broken transducer or cable", effect "obstacle not seen in one sector; MCL weights biased";
         severity Medium Medium, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
-        seen "O-SEN" "range = 5 m for more than T_stuck while the robot moves more than d_min (seed rule)" 5_000 (flags [SonarFar]);
+        seen "O-SEN" "range = 5 m for more than T_stuck while the robot moves more than d_min (seed rule)" 5_000 (flags [SonarFar] with Ust);
         answer Sonar "degraded path following without avoidance and MCL, lower speed; teleoperation without avoidance";
         rate 400_000 Assumed "assumed", injection "sonar[i]=5.0 from t on";
     }
@@ -117,7 +117,7 @@ rows! {
         cause "array power or serial board lost", effect "no range data";
         severity Medium Medium, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
-        seen "O-SEN" "no fresh range for 3 firing cycles (timing check)" 1_000 (flags [SonarSilent] sometimes [SonarFar]);
+        seen "O-SEN" "no fresh range for 3 firing cycles (timing check)" 1_000 (flags [SonarSilent] sometimes [SonarFar] with Ust);
         answer Sonar "as SON1";
         rate 800_000 Assumed "assumed", injection "all sonars 5.0 or no update";
     }
@@ -125,7 +125,7 @@ rows! {
         cause "dirt, damaged foil, cross-talk", effect "phantom obstacle; robot stops or turns back";
         severity Medium Weak, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
-        seen "O-SEN; O-PF" "range constant within 1 cm while robot moves more than 1 m; backward motion too long" 4_000 (flags [SonarNear] sometimes [Backward]);
+        seen "O-SEN; O-PF" "range constant within 1 cm while robot moves more than 1 m; backward motion too long" 4_000 (flags [SonarNear] sometimes [Backward] with Ust);
         answer Sonar "as SON1";
         rate 600_000 Assumed "assumed", injection "sonar[i]=0.3 from t on";
     }
@@ -133,7 +133,7 @@ rows! {
         cause "acoustics, other robot, smooth walls", effect "noisy map matching";
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
-        seen "O-SEN" "share of rejected readings above threshold over 2 s" 2_000 (flags [SonarOutliers]);
+        seen "O-SEN" "share of rejected readings above threshold over 2 s" 2_000 (flags [SonarOutliers] with Ust);
         answer - "raise the rejection threshold or fewer weights in MCL";
         rate 10_000 Assumed "assumed", injection "with p replace a reading by U(0.1,5)";
     }
@@ -141,7 +141,7 @@ rows! {
         cause "cable, encoder disc, connector", effect "odometry turns falsely; heading lost";
         severity Hard Medium, class Local, Permanent;
         lost "NAV ODO" [Nav, Odo] [Encoders];
-        seen "O-EFF; O-LOC" "multiple-model Kalman filter residual; odometry-MCL distance" 1_500 (flags [WheelResidual, PoseDistance]);
+        seen "O-EFF; O-LOC" "multiple-model Kalman filter residual; odometry-MCL distance" 1_500 (flags [WheelResidual, PoseDistance] with Odo);
         answer Vital "stop, ask the operator; degraded teleoperation";
         rate 700_000 Assumed "assumed", injection "ticks_l=0";
     }
@@ -149,7 +149,7 @@ rows! {
         cause "loose disc, electrical noise", effect "drift";
         severity Medium Weak, class Adapter, Intermittent;
         lost "ODO" [Odo] [];
-        seen "O-LOC; O-EFF" "odometry-MCL distance growth above rate limit" 6_000 (flags [PoseGrowth] sometimes [WheelResidual, Backward]);
+        seen "O-LOC; O-EFF" "odometry-MCL distance growth above rate limit" 6_000 (flags [PoseGrowth] sometimes [WheelResidual, Backward] with Odo);
         answer - "use MCL pose, inflate odometry noise";
         rate 300_000 Assumed "assumed", injection "ticks*=1-u, u in 0.05..0.3";
     }
@@ -189,7 +189,7 @@ rows! {
         cause "USB, power, driver", effect "operator blind";
         severity Weak Hard, class Adapter, Permanent;
         lost "CAM" [Cam] [Camera];
-        seen "O-SEN" "no frame for 1 s" 1_000 (flags [NoFrame] sometimes [OldFrame]);
+        seen "O-SEN" "no frame for 1 s" 1_000 (flags [NoFrame] sometimes [OldFrame] with Cam);
         answer Camera "record; in teleoperation back to the hand-over";
         rate 500_000 Assumed "assumed", injection "camera=off";
     }
@@ -197,7 +197,7 @@ rows! {
         cause "bandwidth, driver", effect "operator acts on old images";
         severity Weak Medium, class Adapter, Transient;
         lost "CAM" [Cam] [];
-        seen "O-COM; O-SEN" "frame age above 0.5 s" 500 (flags [OldFrame] sometimes [LinkPoor]);
+        seen "O-COM; O-SEN" "frame age above 0.5 s" 500 (flags [OldFrame] sometimes [LinkPoor] with Cam);
         answer - "lower frame rate and speed limit";
         rate 20_000 Assumed "assumed; limited bandwidth for video is a listed common cause in Carlson & Murphy 2005", injection "frame age += 0.5..3 s";
     }
@@ -381,7 +381,7 @@ rows! {
         cause "blocked, Lazy PRM too sparse", effect "no motion";
         severity Hard Weak, class Local, Transient;
         lost "PPL" [Ppl] [];
-        seen "PPL" "planner returns failure or time-out" 5_000 (flags [PlanFailed]);
+        seen "PPL" "planner returns failure or time-out" 5_000 (flags [PlanFailed] with Ppl);
         answer Planner "operator gives way-points";
         rate 10_000 Assumed "assumed", injection "planner fails with p";
     }
@@ -405,7 +405,7 @@ rows! {
         cause "range, access point", effect "no help possible";
         severity Weak Fatal, class Adapter, Transient;
         lost "LAN CAM" [Lan, Cam] [WifiCard];
-        seen "O-COM" "link flag, no heartbeat for 2 s" 2_000 (flags [LinkDown] sometimes [LinkPoor, NoFrame, OldFrame]);
+        seen "O-COM" "link flag, no heartbeat for 2 s" 2_000 (flags [LinkDown] sometimes [LinkPoor, NoFrame, OldFrame] with Lan);
         answer Wifi "go on alone; fatal as soon as help is needed";
         rate 5_000 Assumed "assumed; limited WiFi range is a listed common cause in Carlson & Murphy 2005", injection "lan=off for 5..120 s or for ever";
     }
@@ -413,7 +413,7 @@ rows! {
         cause "range, load", effect "slow teleoperation";
         severity Weak Medium, class Adapter, Transient;
         lost "-" [] [];
-        seen "O-COM" "level or noise out of interval" 1_000 (flags [LinkPoor] sometimes [OldFrame]);
+        seen "O-COM" "level or noise out of interval" 1_000 (flags [LinkPoor] sometimes [OldFrame] with Lan);
         answer - "lower image rate and speed limit";
         rate 1_000 Assumed "assumed", injection "delay 0.2..2 s, loss 1..30 %";
     }

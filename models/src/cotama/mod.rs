@@ -3,7 +3,13 @@
 //!
 //! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
 //! places and transitions are ours.
+//!
+//! Beside the nets stands what they rest on, as data without heap: modules and resources with the closure that says what is
+//! [`available`], [`Configuration`]s, the decision as a function ([`decide`]) and the two rules behind it ([`by_rules`]), the
+//! FMECA ([`RULES`], [`TEXTS`]) and the diagnosis of flags ([`diagnose`]). Every fact says whether it is stated, inferred or assumed, by
+//! its [`Label`] or in its documentation.
 
+mod causes;
 mod configurations;
 mod decision_table;
 mod delivery_system;
@@ -30,6 +36,7 @@ mod supervisors;
 mod surroundings;
 mod world;
 
+pub use causes::{Rib, functions, ribs};
 pub use configurations::{
     CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED, Mode,
     SubObjective,

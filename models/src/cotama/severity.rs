@@ -73,25 +73,16 @@ pub const fn by_severity(report: Report, situation: Situation) -> Class {
 
 /// The class by what is available (inferred). The running configuration is: nothing to do. Else another of its sub-objective
 /// and mode: the adapter switches. Else one of another mode, and the operator can be reached: the local supervisor asks. Else
-/// the mission ends. The hand-over waits for a configuration of the operator's.
+/// the mission ends. The hand-over, where nothing
+/// runs, waits for one of another mode.
 pub const fn by_availability(situation: Situation, available: Modules, operator: bool) -> Class {
-    let operators = {
-        let (mut any, mut at) = (false, 0);
-        while at < Configuration::ALL.len() {
-            let it = Configuration::ALL[at];
-            let other = matches!(it.facts().mode, Mode::Teleprogrammed | Mode::Teleoperated)
-                && it.facts().mode as u8 != situation.mode() as u8;
-            any |= other && it.runs_on(available);
-            at += 1;
-        }
-        any && operator
-    };
+    let other_mode = operator && has_other_mode(situation.mode(), available);
     match (situation.mode(), situation.configuration()) {
-        (Mode::HandOver, _) if !operators => Class::Global,
+        (Mode::HandOver, _) if !other_mode => Class::Global,
         (_, None) => Class::Record,
         (_, Some(running)) if running.runs_on(available) => Class::Record,
         (_, Some(running)) if has_substitute(running, available) => Class::Adapter,
-        _ if operators || has_autonomous(situation, available, operator) => Class::Local,
+        _ if other_mode => Class::Local,
         _ => Class::Global,
     }
 }
@@ -109,11 +100,18 @@ const fn has_substitute(running: Configuration, available: Modules) -> bool {
     false
 }
 
-/// Whether the operator, when he decides now, can give the drive back to the robot.
-const fn has_autonomous(situation: Situation, available: Modules, operator: bool) -> bool {
-    operator
-        && matches!(situation.mode(), Mode::Teleprogrammed | Mode::Teleoperated)
-        && Configuration::FollowingDegraded.runs_on(available)
+/// Whether a configuration of another autonomy mode runs.
+const fn has_other_mode(mode: Mode, available: Modules) -> bool {
+    let mut at = 0;
+    while at < Configuration::ALL.len() {
+        let it = Configuration::ALL[at];
+        let other = it.facts().mode as u8 != mode as u8 && !matches!(it.facts().mode, Mode::Rest);
+        if other && it.runs_on(available) {
+            return true;
+        }
+        at += 1;
+    }
+    false
 }
 
 /// The decision by the two rules, for a report of a given severity: the worse class wins (inferred), and what it becomes.

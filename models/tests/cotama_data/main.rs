@@ -3,3 +3,5 @@
 
 mod availability;
 mod decisions;
+mod diagnoses;
+mod fmeca;

@@ -1,0 +1,143 @@
+//! The FMECA against its printed form, the modules and the rules.
+
+use cotama_models::cotama::{
+    Class, Decision, FMECA_COLUMNS, FailureMode, FmecaCsv, Label, Losses, Module, Modules, Persistence,
+    RULES, Severity, Situation, TEXTS, decide, functions, local, path_following, ribs,
+};
+
+const DRIVING: Situation = Situation {
+    local: local::State::Following,
+    following: path_following::State::Optimal,
+    ..Situation::AT_REST
+};
+
+#[test]
+fn the_printed_table_is_the_golden_one() {
+    let printed = FmecaCsv.to_string();
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/fmeca.csv");
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::write(path, &printed).unwrap();
+    }
+    assert_eq!(printed, std::fs::read_to_string(path).unwrap());
+    assert_eq!(printed.lines().count(), 41);
+    assert_eq!(FMECA_COLUMNS.split(',').count(), 18);
+}
+
+/// The modules that a row names in words are gone when its typed losses are, and whoever is faulty is named.
+#[test]
+fn words_and_sets_of_a_row_say_the_same() {
+    for &mode in FailureMode::ALL {
+        let words = mode.description().modules;
+        let gone = Modules::ALL.without(mode.health(Modules::NONE).available());
+        let named: Modules = words
+            .split(' ')
+            .filter_map(|word| Module::ALL.iter().find(|it| it.name() == word))
+            .fold(Modules::NONE, |set, &it| set.with(it));
+        assert!(gone.covers(named), "{}: {words}, but {gone} are gone", mode.name());
+        if words.ends_with("all") {
+            assert_eq!(gone, Modules::ALL, "{}", mode.name());
+        } else {
+            assert!(named.covers(mode.rule().faulty), "{}", mode.name());
+        }
+        assert_eq!(mode.rule().one_module, words == "that module", "{}", mode.name());
+    }
+}
+
+#[test]
+fn two_rows_are_invisible_and_say_why() {
+    let silent: Vec<_> =
+        FailureMode::ALL.iter().filter(|it| it.description().silent.is_some()).map(|it| it.name()).collect();
+    assert_eq!(silent, ["PWR1", "SW3"]);
+}
+
+#[test]
+fn one_rate_is_from_a_data_sheet_and_the_rest_assumed() {
+    let stated: Vec<_> = FailureMode::ALL
+        .iter()
+        .filter(|it| it.description().rate_label == Label::Stated)
+        .map(|it| it.name())
+        .collect();
+    assert_eq!(stated, ["BAT1"]);
+    assert!(TEXTS.iter().all(|it| it.rate_label == Label::Stated || it.rate.starts_with("assumed")));
+}
+
+/// Where the printed class of a row is not that of the two rules, on the optimal path following.
+#[test]
+fn rows_whose_class_the_rules_make_worse() {
+    let worse: Vec<_> = FailureMode::ALL
+        .iter()
+        .filter(|it| it.effective(Modules::NONE, DRIVING) != it.rule().class)
+        .map(|it| (it.name(), it.rule().class, it.effective(Modules::NONE, DRIVING)))
+        .collect();
+    // The encoders feed NAV, and every configuration but security needs NAV: there is nothing to ask the operator for.
+    assert_eq!(worse, [("ODO1", Class::Local, Class::Global)]);
+    for mode in [FailureMode::Rt3, FailureMode::Sw1, FailureMode::Sw2] {
+        let fatal: Vec<_> = Module::ALL
+            .iter()
+            .filter(|&&it| mode.effective(Modules::of(&[it]), DRIVING) != Class::Local)
+            .map(|it| it.name())
+            .collect();
+        assert_eq!(fatal, ["SCH", "P3D", "NAV", "LAN"], "{}", mode.name());
+    }
+}
+
+/// What the decision on a row's report is, where its class is not the printed one: on the optimal path following, but for the
+/// planner and the operator, who fail while planning and in the hand-over.
+#[test]
+fn rows_whose_report_is_answered_otherwise_than_printed() {
+    let other: Vec<_> = FailureMode::ALL
+        .iter()
+        .filter_map(|it| {
+            let rule = it.rule();
+            let place = match it {
+                FailureMode::Ppl1 => Situation { local: local::State::Planning, ..Situation::AT_REST },
+                FailureMode::Opr1 => Situation { local: local::State::HandOver, ..Situation::AT_REST },
+                _ => DRIVING,
+            };
+            let situation = Situation { lost: Losses::from(it.health(Modules::NONE)), ..place };
+            let decision = rule.report.map_or(Decision::Record, |report| decide(report, situation));
+            (decision.class() != rule.class)
+                .then(|| format!("{} {}: {decision:?}", it.name(), rule.class.name()))
+        })
+        .collect();
+    let (recorded, others): (Vec<_>, Vec<_>) =
+        other.iter().map(String::as_str).partition(|it| it.ends_with("adapter: Record"));
+    // The adapters of the figures have no transition for these; their reactions are settings of one module, or none.
+    let names: Vec<_> = recorded.iter().map(|it| it.split(' ').next().unwrap()).collect();
+    assert_eq!(
+        names,
+        ["SON4", "ODO2", "ODO3", "ODO4", "CAM1", "CAM2", "MOT2", "P3D2", "RT2", "HUM1", "COM1", "COM2"]
+    );
+    assert_eq!(
+        others,
+        [
+            "ODO1 local: Global",   // every configuration needs NAV
+            "PWR1 global: Record",  // nobody is left to report it
+            "SW3 global: Record",   // the same
+            "LOC1 local: AdaptMcl", // a unique diagnosis knows that the filter is the cause, and odometry takes over
+            "OPR1 local: Global",   // the operator who does not answer cannot be asked
+        ]
+    );
+}
+
+#[test]
+fn the_rows_counted() {
+    let with = |persistence| RULES.iter().filter(|it| it.persistence == persistence).count();
+    assert_eq!(
+        [Persistence::Permanent, Persistence::Transient, Persistence::Intermittent].map(with),
+        [26, 13, 1]
+    );
+    let severe = |severity| RULES.iter().filter(|it| it.autonomous == severity).count();
+    assert_eq!(
+        [Severity::Weak, Severity::Medium, Severity::Hard, Severity::Fatal].map(severe),
+        [10, 8, 14, 8]
+    );
+}
+
+#[test]
+fn every_failure_mode_is_on_one_rib() {
+    let all: Vec<_> = functions().flat_map(ribs).collect();
+    assert_eq!((functions().count(), all.len()), (15, 29));
+    assert_eq!(all.iter().map(|rib| rib.modes.len()).sum::<usize>(), 40);
+    assert_eq!(ribs("fly").count(), 0);
+}
