@@ -123,6 +123,38 @@ impl Losses {
     }
 }
 
+impl Losses {
+    /// What the shipped supervisors are told when only these modules are left: closed under the needs of modules, and so that
+    /// no configuration they can choose lacks a module for long. Avoidance is one loss for the robot and for the operator,
+    /// whichever module of it is gone (inferred).
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Losses, Modules, Module::{Dvz, Gui}};
+    /// assert_eq!(Losses::lacking(Modules::ALL.without(Modules::of(&[Dvz]))).to_string(), "mcl sonar");
+    /// assert_eq!(Losses::lacking(Modules::ALL.without(Modules::of(&[Gui]))).to_string(), "-");
+    /// ```
+    #[must_use]
+    pub const fn lacking(left: Modules) -> Self {
+        let mut lost = Self::NONE;
+        if !Configuration::FollowingOptimal.runs_on(left) {
+            lost = lost.with(Loss::Mcl);
+        }
+        if !Configuration::FollowingOdometric.runs_on(left) || !left.has(Module::Dvz) {
+            lost = lost.with(Loss::Sonar).with(Loss::Mcl);
+        }
+        if !left.has(Module::Cam) {
+            lost = lost.with(Loss::Camera);
+        }
+        if !left.has(Module::Lan) {
+            lost = lost.with(Loss::Wifi);
+        }
+        if !left.has(Module::P3d) || !left.has(Module::Nav) {
+            lost = lost.with(Loss::Vital);
+        }
+        lost
+    }
+}
+
 impl From<Health> for Losses {
     /// What the supervisors see of a state of health. Losses are independent: lost sonars are no lost localisation.
     fn from(health: Health) -> Self {

@@ -68,7 +68,7 @@ impl Operator {
         }
         let waited = now.0.saturating_sub(self.since.0);
         // That he is silent is noticed on the robot, whether he hears of it or not.
-        if waited >= PATIENCE.0 && view.place != Place::Teleoperated {
+        if waited >= PATIENCE.0 && (view.place != Place::Teleoperated || !view.link) {
             return Some(operator::Event::gives_up);
         }
         let goes = view.place == Place::Teleoperated && self.next.front() == Some(&Answer::Goal);

@@ -79,7 +79,7 @@ impl World<'_> {
         let part = usize::from(cause.0).checked_sub(1).and_then(|it| self.failures.get(it));
         self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
         let left = self.known.available();
-        self.lose(Losses::from(self.known), cause);
+        self.lose(Losses::lacking(left), cause);
         let (report, severity) = match diagnosis {
             Diagnosis::None => return,
             Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
