@@ -46,6 +46,8 @@ mod mailbox;
 mod response;
 mod scheduler;
 mod task;
+#[cfg(test)]
+mod tests;
 
 pub use mailbox::{Mailbox, Publication};
 pub use response::{ITERATIONS, Overruns, Unschedulable};
