@@ -180,7 +180,8 @@ impl<const N: usize> Executive<N> {
 
     /// The task that has the processor: the most urgent one with a job under way and processor time left.
     pub fn running(&self) -> Option<usize> {
-        self.tasks.iter().zip(&self.modules).position(|(task, module)| module.wants_processor(task))
+        let wants = |of: &(usize, &Task, &Module)| of.2.wants_processor(of.1);
+        self.numbered().find(wants).map(|(at, ..)| at)
     }
 
     /// When something happens next by itself.
@@ -257,11 +258,16 @@ impl<const N: usize> Executive<N> {
         Some(Happening { at: self.now, task, what: What::Acknowledged })
     }
 
+    /// All tasks and their modules, by number. A range, as the compiler sees that it does not overflow.
+    fn numbered(&self) -> impl Iterator<Item = (usize, &Task, &Module)> {
+        (0..N).zip(&self.tasks).zip(&self.modules).map(|((at, task), module)| (at, task, module))
+    }
+
     /// What is due next: the earliest, of these the first kind, of these the most urgent task.
     fn due(&self) -> Option<(Micros, usize, Due)> {
         let running = self.running();
         let mut first: Option<(Micros, usize, Due)> = None;
-        for (at, (task, module)) in self.tasks.iter().zip(&self.modules).enumerate() {
+        for (at, task, module) in self.numbered() {
             let exhausted = (running == Some(at))
                 .then(|| self.now.checked_add(Micros(task.budget().0.saturating_sub(module.used.0))))
                 .flatten();
@@ -269,8 +275,13 @@ impl<const N: usize> Executive<N> {
                 (module.stage == Stage::Run).then(|| module.released.checked_add(task.deadline)).flatten();
             let end = Micros(task.deadline.0.saturating_add(task.extra.0)); // fits, in a task that makes sense
             let extra = (module.stage == Stage::Extra).then(|| module.released.checked_add(end)).flatten();
-            let kinds = [Due::Exhausted, Due::Deadline, Due::ExtraOver, Due::Release];
-            for (kind, when) in kinds.into_iter().zip([exhausted, deadline, extra, module.release]) {
+            let dues = [
+                (Due::Exhausted, exhausted),
+                (Due::Deadline, deadline),
+                (Due::ExtraOver, extra),
+                (Due::Release, module.release),
+            ];
+            for &(kind, when) in &dues {
                 if let Some(when) = when
                     && first.is_none_or(|(least, _, of)| (when, kind) < (least, of))
                 {
