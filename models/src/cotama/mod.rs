@@ -5,6 +5,7 @@
 //! places and transitions are ours.
 
 mod decision_table;
+pub mod load;
 
 mod supervisors;
 mod world;
