@@ -16,6 +16,7 @@
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
 //! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling, and their player |
 //! | [`mod@system`] | several nets that work together |
+//! | [`executive`] | periodic modules on one processor: their scheduler, its watchdog, and proofs that they are in time |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs are 32 bits and
@@ -30,6 +31,7 @@ extern crate std;
 
 pub mod allocation;
 pub mod exact;
+pub mod executive;
 pub mod front;
 #[doc = include_str!("guide.md")]
 pub mod guide {}

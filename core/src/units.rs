@@ -59,6 +59,11 @@ quantity!(
     "ms"
 );
 quantity!(
+    /// A duration or a point in time, in microseconds.
+    Micros,
+    "us"
+);
+quantity!(
     /// An energy, in millijoules.
     Millijoules,
     "mJ"
@@ -109,6 +114,17 @@ impl Millis {
     }
 }
 
+impl Micros {
+    /// The same duration in microseconds, or `None` when it does not fit.
+    #[must_use]
+    pub const fn from_millis(duration: Millis) -> Option<Self> {
+        match duration.0.checked_mul(1000) {
+            Some(us) => Some(Self(us)),
+            None => None,
+        }
+    }
+}
+
 impl Millijoules {
     /// The energy that `power` takes in `duration`, rounded half up; `None` when it does not fit.
     #[must_use]
@@ -141,6 +157,8 @@ mod tests {
     #[test]
     fn sums_that_do_not_fit_are_refused() {
         assert_eq!(Millis(u64::MAX).checked_add(Millis(1)), None);
+        assert_eq!(Micros::from_millis(Millis(u64::MAX)), None);
+        assert_eq!(Micros::from_millis(Millis(7)), Some(Micros(7_000)));
         assert_eq!(Millijoules(1).checked_sub(Millijoules(2)), None);
     }
 }

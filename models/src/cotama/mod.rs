@@ -32,6 +32,8 @@ mod robot;
 mod severity;
 mod situation;
 mod status_vector;
+pub mod load;
+
 mod supervisors;
 mod surroundings;
 mod world;

@@ -1,6 +1,7 @@
 //! The shipped nets against the textbook: every reachable marking, every event, every small mistake.
 #![cfg(feature = "std")]
 
+mod executive;
 mod families;
 mod golden;
 mod laws;

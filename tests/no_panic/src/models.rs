@@ -88,6 +88,7 @@ macro_rules! roots {
 roots! {
     machine door: cotama_models::nets::door;
     machine watchdog: cotama_models::nets::watchdog;
+    machine loop_watchdog: cotama_models::cotama::load::loop_watchdog;
     machine charger: cotama_models::nets::charger;
     net crossing: cotama_models::nets::crossing;
     machine ace_request: cotama_models::nets::ace::request;

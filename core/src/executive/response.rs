@@ -1,0 +1,179 @@
+//! Response times: whether each task of a set is in time, whatever happens.
+
+use super::task::{Task, TaskSet};
+use crate::units::Micros;
+
+/// The most iterations for one response time, where nothing else is said. Each lengthens it by at least one microsecond, most
+/// by a whole job; a set of twenty tasks rarely needs fifty.
+pub const ITERATIONS: u32 = 10_000;
+
+/// Which modules run into their extra time, in each of their periods.
+///
+/// One that does is not asked to be in time itself, the others are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Overruns {
+    /// None: each job is done within its cost.
+    None,
+    /// Any one, but one alone: the worst of all choices.
+    One,
+    /// All that are more urgent than the task looked at.
+    All,
+}
+
+/// Why a set is not known to be in time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unschedulable {
+    /// A job of this task can miss its deadline.
+    Late {
+        /// The most urgent one that can.
+        task: usize,
+        /// Its worst response time is so long at least.
+        at_least: Micros,
+        /// Its deadline.
+        deadline: Micros,
+    },
+    /// The limit of iterations was reached: it may be in time or not.
+    Unknown {
+        /// The most urgent one of which it is not known.
+        task: usize,
+        /// Its worst response time is so long at least.
+        at_least: Micros,
+    },
+}
+
+impl core::fmt::Display for Unschedulable {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Late { task, at_least, deadline } => {
+                write!(f, "task {task} can miss its deadline, {deadline}: it may take {at_least} or more")
+            }
+            Self::Unknown { task, at_least } => {
+                write!(f, "task {task} may take {at_least} or more; allow more iterations to know")
+            }
+        }
+    }
+}
+
+impl core::error::Error for Unschedulable {}
+
+impl TaskSet<'_> {
+    /// The worst response time of each task, the most urgent first; or that it can be late.
+    ///
+    /// The least *R* with *R = `C_i` + sum over the more urgent j of ceil(R / `T_j`) `C_j`* (Joseph and Pandya, "Finding response times
+    /// in a real-time system", 1986; Audsley et al., "Applying new scheduling theory to static priority pre-emptive scheduling",
+    /// 1993), where a task that overruns has its [budget](Task::budget) in place of its cost. It is the time from release to
+    /// end of a job released together with one of each more urgent task, the worst of all cases, so it is exact whatever the
+    /// offsets may be; of given offsets it is a bound from above. With overruns it is exact if the overrunning
+    /// module can use all its extra time before that ends, else a bound from above.
+    ///
+    /// Cost: iterations times tasks each, for [`Overruns::One`] times tasks again.
+    pub fn response_times(&self, overruns: Overruns) -> impl Iterator<Item = Result<Micros, Unschedulable>> {
+        (0..self.tasks().len()).map(move |task| self.worst(task, overruns, None))
+    }
+
+    /// Whether every job of every task is in time.
+    ///
+    /// # Errors
+    /// [`Unschedulable`] for the most urgent task that is not known to be.
+    pub fn schedulable(&self, overruns: Overruns) -> Result<(), Unschedulable> {
+        self.response_times(overruns).try_for_each(|response| response.map(drop))
+    }
+
+    /// The largest cost of a task at which every task is in time; `None` when there is none, or no such task.
+    ///
+    /// Exact, as more cost never makes a response time shorter: the interval from one microsecond to the deadline is halved
+    /// until one is left.
+    ///
+    /// # Errors
+    /// [`Unschedulable::Unknown`] when the limit of iterations was reached on the way.
+    pub fn most_cost(&self, task: usize, overruns: Overruns) -> Result<Option<Micros>, Unschedulable> {
+        let Some(of) = self.tasks().get(task) else { return Ok(None) };
+        // Invariant: in time with `good`, zero standing for none; not in time with `bad`.
+        let (mut good, mut bad) = (0, of.deadline.0.saturating_add(1));
+        while bad.saturating_sub(good) > 1 {
+            let middle = good.midpoint(bad);
+            match self.schedulable_at(overruns, (task, Micros(middle))) {
+                Ok(()) => good = middle,
+                Err(Unschedulable::Late { .. }) => bad = middle,
+                Err(unknown @ Unschedulable::Unknown { .. }) => return Err(unknown),
+            }
+        }
+        Ok((good > 0).then_some(Micros(good)))
+    }
+
+    /// Whether every task is in time when one has another cost.
+    fn schedulable_at(&self, overruns: Overruns, changed: (usize, Micros)) -> Result<(), Unschedulable> {
+        (0..self.tasks().len()).try_for_each(|task| self.worst(task, overruns, Some(changed)).map(drop))
+    }
+
+    /// The worst response time of a task over all choices of overruns.
+    fn worst(
+        &self,
+        task: usize,
+        overruns: Overruns,
+        changed: Option<(usize, Micros)>,
+    ) -> Result<Micros, Unschedulable> {
+        let plain = |at: usize, of: &Task| match changed {
+            Some((changed, cost)) if changed == at => cost.0,
+            _ => of.cost.0,
+        };
+        let full = |at, of: &Task| plain(at, of).checked_add(of.extra.0);
+        match overruns {
+            Overruns::None => self.response(task, |at, of| Some(plain(at, of))),
+            Overruns::All => {
+                self.response(task, |at, of| if at == task { Some(plain(at, of)) } else { full(at, of) })
+            }
+            Overruns::One => {
+                let mut worst = self.response(task, |at, of| Some(plain(at, of)))?;
+                for one in 0..task {
+                    let with_one =
+                        self.response(
+                            task,
+                            |at, of| if at == one { full(at, of) } else { Some(plain(at, of)) },
+                        )?;
+                    worst = worst.max(with_one);
+                }
+                Ok(worst)
+            }
+        }
+    }
+
+    /// The response time of a task at given costs; a cost that does not fit is beyond any deadline.
+    fn response(
+        &self,
+        task: usize,
+        cost: impl Fn(usize, &Task) -> Option<u64>,
+    ) -> Result<Micros, Unschedulable> {
+        let deadline = self.tasks().get(task).map_or(Micros::ZERO, |of| of.deadline);
+        let mut response = Micros::ZERO;
+        for _ in 0..self.iterations {
+            let demand = self.tasks().iter().enumerate().take(task.saturating_add(1)).try_fold(
+                0_u64,
+                |sum, (at, of)| {
+                    let jobs = if at == task { 1 } else { jobs(response, of.period) };
+                    sum.checked_add(jobs.checked_mul(cost(at, of)?)?)
+                },
+            );
+            let next = match demand {
+                Some(next) if next <= deadline.0 => Micros(next),
+                // What does not fit is beyond any deadline.
+                _ => {
+                    let at_least = Micros(demand.unwrap_or(u64::MAX));
+                    return Err(Unschedulable::Late { task, at_least, deadline });
+                }
+            };
+            if next == response {
+                return Ok(response);
+            }
+            response = next;
+        }
+        Err(Unschedulable::Unknown { task, at_least: response })
+    }
+}
+
+/// How many jobs are released in a window that begins with a release; at least that one.
+fn jobs(window: Micros, period: Micros) -> u64 {
+    let whole = window.0.checked_div(period.0).unwrap_or(u64::MAX); // no period of a set is zero
+    let begun = window.0.checked_rem(period.0).is_some_and(|rest| rest > 0);
+    whole.saturating_add(u64::from(begun)).max(1)
+}

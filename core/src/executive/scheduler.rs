@@ -1,0 +1,358 @@
+//! The scheduler and its watchdogs, as a state machine that is told the time.
+
+use super::mailbox::Publication;
+use super::task::{Task, TaskError, TaskSet};
+use crate::units::Micros;
+
+/// Where the watchdog of a module is: the places of its net.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// No job is under way.
+    Idle,
+    /// A job is, and its deadline is ahead.
+    Run,
+    /// A job goes on in its extra time.
+    Extra,
+    /// The fault was reported; the module stands still until the supervisor has reacted.
+    Fault,
+}
+
+/// What happened to a module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum What {
+    /// A job was released.
+    Released,
+    /// A release was refused: a job is under way, or the module is in fault.
+    Refused,
+    /// Its job has used up its cost and its extra time, and gets the processor no more.
+    Exhausted,
+    /// Its job missed its deadline, and gets extra time.
+    DeadlineMissed,
+    /// Its job is done in time.
+    Done,
+    /// Its job is done within its extra time.
+    DoneLate {
+        /// Whether this is a real-time fault, for the supervisor.
+        rt_fault: bool,
+    },
+    /// Its extra time is over: its job is stopped, and publishes nothing.
+    Skipped {
+        /// Whether this is a real-time fault, for the supervisor.
+        rt_fault: bool,
+    },
+    /// The supervisor has reacted to the fault.
+    Acknowledged,
+}
+
+/// What happened to which module, when.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[must_use = "a fault may have happened"]
+pub struct Happening {
+    /// When.
+    pub at: Micros,
+    /// The place of the module in the set.
+    pub task: usize,
+    /// What.
+    pub what: What,
+}
+
+impl Happening {
+    /// The right to publish what the job made, when it is done, late or not.
+    pub const fn publication(&self) -> Option<Publication> {
+        match self.what {
+            What::Done | What::DoneLate { .. } => Some(Publication { at: self.at }),
+            _ => None,
+        }
+    }
+
+    /// Whether it is a real-time fault.
+    pub const fn rt_fault(&self) -> bool {
+        matches!(self.what, What::DoneLate { rt_fault: true } | What::Skipped { rt_fault: true })
+    }
+}
+
+/// Why a job cannot be done.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NotRunning {
+    /// This task does not have the processor; the one that has it, if any.
+    Running(Option<usize>),
+    /// Something was due before: [`Executive::step`] until this instant first.
+    Behind(Micros),
+}
+
+impl core::fmt::Display for NotRunning {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Running(Some(task)) => write!(f, "not this task has the processor, task {task} has it"),
+            Self::Running(None) => f.write_str("no task has the processor"),
+            Self::Behind(due) => write!(f, "something is due at {due} already; step until then first"),
+        }
+    }
+}
+
+impl core::error::Error for NotRunning {}
+
+/// The watchdog and the job of one module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Module {
+    stage: Stage,
+    /// Deadlines missed in a row; at most the patience of the task.
+    misses: u8,
+    /// Of the job under way.
+    released: Micros,
+    /// Processor time of the job under way; at most the budget of the task.
+    used: Micros,
+    /// The next release; `None` when there is none in 64 bits.
+    release: Option<Micros>,
+}
+
+/// The scheduler of `N` periodic modules and their watchdogs.
+///
+/// It is told the time: [`step`](Self::step) hands out what has happened up to it, one happening after the other, and
+/// [`wake_at`](Self::wake_at) says when it wants to be told. [`running`](Self::running) says which task has the processor, and
+/// [`complete`](Self::complete) that its job is done. The same machine schedules a robot and, with execution times as an
+/// argument, a simulation ([`simulate`](Self::simulate)).
+///
+/// ```
+/// use cotama_core::executive::{Executive, Task, What};
+/// use cotama_core::units::Micros;
+///
+/// let ms = |ms: u64| Micros(ms * 1_000);
+/// let task = |cost: u64| Task { deadline: ms(80), extra: ms(20), ..Task::new(ms(100), ms(cost)) };
+/// let mut executive = Executive::new([task(10), task(50)]).unwrap();
+/// let mut said = Vec::new();
+/// while let Some(happening) = executive.simulate(ms(300), &[ms(10), ms(75)]) {
+///     said.push((happening.at.0 / 1_000, happening.task, happening.what));
+/// }
+/// let late = |rt_fault| What::Skipped { rt_fault };
+/// assert_eq!(said[..6], [(0, 0, What::Released), (0, 1, What::Released), (10, 0, What::Done),
+///     (80, 1, What::Exhausted), (80, 1, What::DeadlineMissed), (100, 1, late(false))]);
+/// assert!(said.contains(&(300, 1, late(true)))); // the third in a row
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Executive<const N: usize> {
+    tasks: [Task; N],
+    modules: [Module; N],
+    now: Micros,
+}
+
+impl<const N: usize> Executive<N> {
+    /// At time zero, with nothing released yet; the most urgent task first.
+    ///
+    /// # Errors
+    /// [`TaskError`] for the first task that makes no sense.
+    pub fn new(tasks: [Task; N]) -> Result<Self, TaskError> {
+        TaskSet::new(&tasks)?;
+        let modules = tasks.map(|task| Module {
+            stage: Stage::Idle,
+            misses: 0,
+            released: Micros::ZERO,
+            used: Micros::ZERO,
+            release: Some(task.offset),
+        });
+        Ok(Self { tasks, modules, now: Micros::ZERO })
+    }
+
+    /// The time it was last told.
+    pub const fn now(&self) -> Micros {
+        self.now
+    }
+
+    /// The tasks, the most urgent first.
+    pub const fn tasks(&self) -> &[Task; N] {
+        &self.tasks
+    }
+
+    /// Where the watchdog of a module is; `None` of a task that is not there.
+    pub fn stage(&self, task: usize) -> Option<Stage> {
+        self.modules.get(task).map(|module| module.stage)
+    }
+
+    /// How many deadlines in a row a module has missed; `None` of a task that is not there.
+    pub fn misses(&self, task: usize) -> Option<u8> {
+        self.modules.get(task).map(|module| module.misses)
+    }
+
+    /// How much processor time the job under way has had; `None` when there is none.
+    pub fn used(&self, task: usize) -> Option<Micros> {
+        self.modules.get(task).filter(|module| module.is_at_work()).map(|module| module.used)
+    }
+
+    /// The task that has the processor: the most urgent one with a job under way and processor time left.
+    pub fn running(&self) -> Option<usize> {
+        let wants = |of: &(usize, &Task, &Module)| of.2.wants_processor(of.1);
+        self.numbered().find(wants).map(|(at, ..)| at)
+    }
+
+    /// When something happens next by itself.
+    pub fn wake_at(&self) -> Option<Micros> {
+        self.due().map(|(at, ..)| at)
+    }
+
+    /// What happened next, if that was at `now` or before; `None` when all has, and the time is `now`. A time before the last
+    /// one counts as the last one.
+    pub fn step(&mut self, now: Micros) -> Option<Happening> {
+        match self.due() {
+            Some((at, task, due)) if at <= now => {
+                self.pass(at);
+                Some(self.happen(task, due))
+            }
+            _ => {
+                self.pass(now);
+                None
+            }
+        }
+    }
+
+    /// The job of this task is done. The instant belongs to the job, so its deadline, when it is now, is met.
+    ///
+    /// # Errors
+    /// [`NotRunning`] when the task does not have the processor, or the executive was not told the time so far.
+    pub fn complete(&mut self, task: usize, now: Micros) -> Result<Happening, NotRunning> {
+        if let Some((due, ..)) = self.due()
+            && due < now
+        {
+            return Err(NotRunning::Behind(due));
+        }
+        let running = self.running();
+        if running != Some(task) {
+            return Err(NotRunning::Running(running));
+        }
+        self.pass(now);
+        let at = self.now;
+        let (Some(of), Some(module)) = (self.tasks.get(task), self.modules.get_mut(task)) else {
+            return Err(NotRunning::Running(running));
+        };
+        let what = if module.stage == Stage::Run {
+            *module = Module { stage: Stage::Idle, misses: 0, ..*module };
+            What::Done
+        } else {
+            What::DoneLate { rt_fault: module.end(of) }
+        };
+        Ok(Happening { at, task, what })
+    }
+
+    /// As [`step`](Self::step), with jobs that are done when they have had so much of the processor, the one under way of each
+    /// task: for simulations.
+    pub fn simulate(&mut self, now: Micros, needs: &[Micros; N]) -> Option<Happening> {
+        if let Some(task) = self.running()
+            && let (Some(need), Some(module)) = (needs.get(task), self.modules.get(task))
+            && let Some(end) = self.now.checked_add(Micros(need.0.saturating_sub(module.used.0)))
+            && end <= now
+            && self.wake_at().is_none_or(|due| end <= due)
+        {
+            return self.complete(task, end).ok();
+        }
+        self.step(now)
+    }
+
+    /// The supervisor has reacted to the fault of a module; `None`, and nothing changes, when it has none now, or something
+    /// was due before.
+    pub fn acknowledge(&mut self, task: usize, now: Micros) -> Option<Happening> {
+        if self.wake_at().is_some_and(|due| due < now) {
+            return None;
+        }
+        self.pass(now);
+        let module = self.modules.get_mut(task).filter(|module| module.stage == Stage::Fault)?;
+        *module = Module { stage: Stage::Idle, misses: 0, ..*module };
+        Some(Happening { at: self.now, task, what: What::Acknowledged })
+    }
+
+    /// All tasks and their modules, by number. A range, as the compiler sees that it does not overflow.
+    fn numbered(&self) -> impl Iterator<Item = (usize, &Task, &Module)> {
+        (0..N).zip(&self.tasks).zip(&self.modules).map(|((at, task), module)| (at, task, module))
+    }
+
+    /// What is due next: the earliest, of these the first kind, of these the most urgent task.
+    fn due(&self) -> Option<(Micros, usize, Due)> {
+        let running = self.running();
+        let mut first: Option<(Micros, usize, Due)> = None;
+        for (at, task, module) in self.numbered() {
+            let exhausted = (running == Some(at))
+                .then(|| self.now.checked_add(Micros(task.budget().0.saturating_sub(module.used.0))))
+                .flatten();
+            let deadline =
+                (module.stage == Stage::Run).then(|| module.released.checked_add(task.deadline)).flatten();
+            let end = Micros(task.deadline.0.saturating_add(task.extra.0)); // fits, in a task that makes sense
+            let extra = (module.stage == Stage::Extra).then(|| module.released.checked_add(end)).flatten();
+            let dues = [
+                (Due::Exhausted, exhausted),
+                (Due::Deadline, deadline),
+                (Due::ExtraOver, extra),
+                (Due::Release, module.release),
+            ];
+            for &(kind, when) in &dues {
+                if let Some(when) = when
+                    && first.is_none_or(|(least, _, of)| (when, kind) < (least, of))
+                {
+                    first = Some((when, at, kind));
+                }
+            }
+        }
+        // What was due before it was told: an acknowledgement or an end came later.
+        first.map(|(when, at, kind)| (when.max(self.now), at, kind))
+    }
+
+    /// Lets what is due happen now.
+    fn happen(&mut self, task: usize, due: Due) -> Happening {
+        let now = self.now;
+        let mut what = What::Exhausted;
+        if let (Some(of), Some(module)) = (self.tasks.get(task), self.modules.get_mut(task)) {
+            what = match due {
+                Due::Exhausted => What::Exhausted,
+                Due::Deadline => {
+                    module.stage = Stage::Extra;
+                    module.misses = module.misses.saturating_add(1).min(of.patience); // is below it outside `Fault`
+                    What::DeadlineMissed
+                }
+                Due::ExtraOver => What::Skipped { rt_fault: module.end(of) },
+                Due::Release => {
+                    module.release = module.release.and_then(|at| at.checked_add(of.period));
+                    if module.stage == Stage::Idle {
+                        *module = Module { stage: Stage::Run, released: now, used: Micros::ZERO, ..*module };
+                        What::Released
+                    } else {
+                        What::Refused
+                    }
+                }
+            };
+        }
+        Happening { at: now, task, what }
+    }
+
+    /// Lets time pass, during which nothing is due: the job that has the processor uses it.
+    fn pass(&mut self, now: Micros) {
+        let passed = now.0.saturating_sub(self.now.0);
+        let running = self.running().and_then(|task| self.modules.get_mut(task));
+        if let Some(module) = running {
+            module.used = Micros(module.used.0.saturating_add(passed)); // no more than is left of the budget
+        }
+        self.now = self.now.max(now);
+    }
+}
+
+impl Module {
+    const fn is_at_work(&self) -> bool {
+        matches!(self.stage, Stage::Run | Stage::Extra)
+    }
+
+    const fn wants_processor(&self, task: &Task) -> bool {
+        self.is_at_work() && self.used.0 < task.budget().0
+    }
+
+    /// Ends a late job; whether that is a fault.
+    const fn end(&mut self, task: &Task) -> bool {
+        let rt_fault = self.misses >= task.patience;
+        self.stage = if rt_fault { Stage::Fault } else { Stage::Idle };
+        rt_fault
+    }
+}
+
+/// What can be due, in the order in which it happens at one instant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Due {
+    Exhausted,
+    Deadline,
+    ExtraOver,
+    Release,
+}

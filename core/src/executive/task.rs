@@ -1,0 +1,162 @@
+//! A periodic module as the scheduler sees it, and sets of them that make sense.
+
+use super::response::ITERATIONS;
+use crate::units::Micros;
+
+/// A periodic module. Of two tasks of a set the earlier one is the more urgent.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Task {
+    /// From one release to the next.
+    pub period: Micros,
+    /// From a release until its job must be done; at most the period.
+    pub deadline: Micros,
+    /// When the first job is released.
+    pub offset: Micros,
+    /// The most processor time that a job needs: its worst-case execution time.
+    pub cost: Micros,
+    /// How long after its deadline a late job may still go on, and how much processor time beyond its cost a job gets.
+    pub extra: Micros,
+    /// So many misses in a row are a fault; at least one.
+    pub patience: u8,
+}
+
+impl Task {
+    /// Misses in a row that are a fault, where nothing else is said; assumed, COTAMA's paper says "several".
+    pub const PATIENCE: u8 = 3;
+
+    /// A task that must be done before its next release, first released at the start, without extra time.
+    #[must_use]
+    pub const fn new(period: Micros, cost: Micros) -> Self {
+        Self {
+            period,
+            deadline: period,
+            offset: Micros::ZERO,
+            cost,
+            extra: Micros::ZERO,
+            patience: Self::PATIENCE,
+        }
+    }
+
+    /// The most processor time that a job gets: cost and extra time. It fits in a task that makes sense.
+    #[must_use]
+    pub const fn budget(&self) -> Micros {
+        Micros(self.cost.0.saturating_add(self.extra.0))
+    }
+
+    /// Why it makes no sense, if it does not.
+    const fn flaw(&self) -> Option<Senseless> {
+        let Some(end) = self.deadline.checked_add(self.extra) else { return Some(Senseless::TooLong) };
+        if self.period.0 == 0 {
+            Some(Senseless::NoPeriod)
+        } else if self.cost.0 == 0 {
+            Some(Senseless::NoCost)
+        } else if self.patience == 0 {
+            Some(Senseless::NoPatience)
+        } else if self.deadline.0 > self.period.0 {
+            Some(Senseless::DeadlineAfterPeriod { deadline: self.deadline, period: self.period })
+        } else if self.cost.0 > end.0 {
+            Some(Senseless::NeverDone { cost: self.cost, end })
+        } else if self.cost.checked_add(self.extra).is_none() {
+            Some(Senseless::TooLong)
+        } else {
+            None
+        }
+    }
+}
+
+/// Why a task makes no sense.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Senseless {
+    /// Its period is zero.
+    NoPeriod,
+    /// Its cost is zero.
+    NoCost,
+    /// No number of misses would not be a fault.
+    NoPatience,
+    /// Its deadline comes after its next release.
+    DeadlineAfterPeriod {
+        /// The deadline.
+        deadline: Micros,
+        /// The period.
+        period: Micros,
+    },
+    /// A job with the processor for itself would be skipped: its cost is beyond deadline and extra time.
+    NeverDone {
+        /// The cost.
+        cost: Micros,
+        /// Deadline and extra time.
+        end: Micros,
+    },
+    /// Deadline or cost, and extra time, do not fit 64 bits.
+    TooLong,
+}
+
+/// A task that makes no sense, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct TaskError {
+    /// Its place in the set.
+    pub task: usize,
+    /// Why.
+    pub why: Senseless,
+}
+
+impl core::fmt::Display for TaskError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        write!(f, "task {}: ", self.task)?;
+        match self.why {
+            Senseless::NoPeriod => f.write_str("its period is zero; give the time from release to release"),
+            Senseless::NoCost => f.write_str("its cost is zero; give its worst-case execution time"),
+            Senseless::NoPatience => f.write_str("zero misses in a row are no fault; give at least one"),
+            Senseless::DeadlineAfterPeriod { deadline, period } => {
+                write!(
+                    f,
+                    "its deadline, {deadline}, is after its period, {period}; at most the period is meant"
+                )
+            }
+            Senseless::NeverDone { cost, end } => {
+                write!(
+                    f,
+                    "its cost, {cost}, is above deadline and extra time, {end}; no job would ever be done"
+                )
+            }
+            Senseless::TooLong => {
+                f.write_str("deadline or cost, with the extra time, does not fit 64 bits of microseconds")
+            }
+        }
+    }
+}
+
+impl core::error::Error for TaskError {}
+
+/// Tasks that make sense, the most urgent first.
+#[derive(Clone, Copy, Debug)]
+pub struct TaskSet<'t> {
+    tasks: &'t [Task],
+    pub(super) iterations: u32,
+}
+
+impl<'t> TaskSet<'t> {
+    /// These tasks, the most urgent first.
+    ///
+    /// # Errors
+    /// [`TaskError`] for the first one that makes no sense.
+    pub fn new(tasks: &'t [Task]) -> Result<Self, TaskError> {
+        match tasks.iter().enumerate().find_map(|(at, task)| Some((at, task.flaw()?))) {
+            Some((task, why)) => Err(TaskError { task, why }),
+            None => Ok(Self { tasks, iterations: ITERATIONS }),
+        }
+    }
+
+    /// The same, with another limit of iterations for each response time; see [`ITERATIONS`].
+    #[must_use]
+    pub const fn with_iterations(mut self, iterations: u32) -> Self {
+        self.iterations = iterations;
+        self
+    }
+
+    /// The tasks.
+    #[must_use]
+    pub const fn tasks(&self) -> &'t [Task] {
+        self.tasks
+    }
+}

@@ -1,0 +1,75 @@
+//! The roots of the executive level: scheduler, watchdogs, response times and mailboxes, for any tasks.
+//!
+//! An executive comes as its caller can leave it at worst: at any time, with any jobs under way.
+
+use cotama_core::executive::{
+    Executive, Happening, Mailbox, NotRunning, Overruns, Task, TaskError, TaskSet, Unschedulable,
+};
+use cotama_core::units::Micros;
+use cotama_models::cotama::load::{self, Load, LoadError};
+
+/// Modules of a control loop.
+const N: usize = 8;
+
+#[unsafe(no_mangle)]
+fn root_executive_new(tasks: [Task; N]) -> Result<Executive<N>, TaskError> {
+    Executive::new(tasks)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_step(executive: &mut Executive<N>, now: Micros) -> Option<Happening> {
+    executive.step(now)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_complete(
+    executive: &mut Executive<N>,
+    task: usize,
+    now: Micros,
+) -> Result<Happening, NotRunning> {
+    executive.complete(task, now)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_simulate(
+    executive: &mut Executive<N>,
+    now: Micros,
+    needs: &[Micros; N],
+) -> Option<Happening> {
+    executive.simulate(now, needs)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_acknowledge(executive: &mut Executive<N>, task: usize, now: Micros) -> Option<Happening> {
+    executive.acknowledge(task, now)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_wake_at(executive: &Executive<N>) -> (Option<Micros>, Option<usize>) {
+    (executive.wake_at(), executive.running())
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_mailbox(mailbox: &mut Mailbox<u32>, done: &Happening, now: Micros) -> Option<Micros> {
+    mailbox.publish(done.publication()?, 1);
+    mailbox.read(now).map(|(_, age)| age)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_schedulable(tasks: &[Task], overruns: Overruns) -> Option<Result<(), Unschedulable>> {
+    Some(TaskSet::new(tasks).ok()?.schedulable(overruns))
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_most_cost(tasks: &[Task], task: usize) -> Option<Result<Option<Micros>, Unschedulable>> {
+    Some(TaskSet::new(tasks).ok()?.most_cost(task, Overruns::One))
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_most_particles<'n>(
+    modules: &[&'n str],
+    load: Load,
+    memory: &mut [Task],
+) -> Result<Option<u32>, LoadError<'n>> {
+    load::most_particles(modules, load, memory)
+}
