@@ -1,6 +1,6 @@
 //! Faults as the text of a `panorama-faults/1` file, which reads back to the same faults.
 
-use cotama_models::faults::{EventKind, FORMAT, Faults};
+use cotama_models::faults::{EventKind, FORMAT, Faults, IncidentKind};
 use cotama_models::mission::Definition;
 use std::fmt::Write;
 
@@ -13,6 +13,11 @@ use std::fmt::Write;
 /// use cotama_sim::faults_text::faults_text;
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let text = faults_text(&mission.run.faults, &mission);
+/// assert_eq!(Faults::parse("script", &text, &mission).unwrap(), mission.run.faults);
+///
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
 /// let text = faults_text(&mission.run.faults, &mission);
 /// assert_eq!(Faults::parse("script", &text, &mission).unwrap(), mission.run.faults);
 /// ```
@@ -33,6 +38,17 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "\n[[event]]\nx_mm = {}", event.x.0);
         kind(&mut text, event.kind, mission);
+    }
+    for incident in &faults.incidents {
+        let _ = writeln!(text, "\n[[event]]\nx_mm = {}", incident.x.0);
+        let _ = match &incident.kind {
+            IncidentKind::Failure(mode) => writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.id()),
+            IncidentKind::Operator { answers, delay } => {
+                let answers: Vec<_> = answers.iter().map(|answer| format!("\"{}\"", answer.name())).collect();
+                let answers = answers.join(", ");
+                writeln!(text, "kind = \"operator\"\nanswers = [{answers}]\ndelay_ms = {}", delay.0)
+            }
+        };
     }
     for random in &faults.random {
         let _ = writeln!(text, "\n[[random]]\nname = \"{}\"\nper_km = {}", random.name, random.per_km);

@@ -107,20 +107,11 @@ fn object(objectives: &[Objective]) -> Vec<Diagnostic> {
     errors
 }
 
-/// A mission does not end with waiting, and it drives.
-fn last(objectives: &[Objective]) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
-    if let Some(last) = objectives.last().filter(|it| what(it) == Some(Does::Wait)) {
-        let message = format!("the mission ends with `{}`, which waits for nothing", last.id);
-        errors.push(wrong(last, message, "nothing follows", "leave it out"));
-    }
-    if let Some(first) =
-        objectives.first().filter(|_| objectives.iter().all(|it| what(it) != Some(Does::Drive)))
-    {
-        let message = "no objective of the mission drives".to_owned();
-        errors.push(wrong(first, message, "and none after it", "add an objective that does `drive`"));
-    }
-    errors
+/// A mission does not end with waiting.
+fn last(objectives: &[Objective]) -> Option<Diagnostic> {
+    let last = objectives.last().filter(|it| what(it) == Some(Does::Wait))?;
+    let message = format!("the mission ends with `{}`, which waits for nothing", last.id);
+    Some(wrong(last, message, "nothing follows", "leave it out"))
 }
 
 fn of(scenario: &Scenario, objective: usize) -> impl Iterator<Item = &PlannedActivity> {
@@ -152,30 +143,31 @@ fn too_long(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
 }
 
 /// An objective that one lost module would leave without any configuration, and the operator without the means to
-/// drive; modules that everything needs are not counted: without them the robot stops, as it should.
+/// drive; modules that every way to drive needs are not counted: without them the robot stops, as it should.
 fn could_block(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
     let has = |module: &str| definition.hardware.iter().any(|it| it.name == module);
     let operator = TELEOPERATION.required.iter().all(|module| has(module));
+    let rescued = |module: &str| operator && !TELEOPERATION.required.contains(&module);
     let mut errors = Vec::new();
     for (index, objective) in definition.objectives.iter().enumerate() {
         let drives = what(objective) == Some(Does::Drive);
-        for (kind, module) in definition.hardware.iter().enumerate() {
-            if is_vital(&module.name) {
-                continue;
-            }
-            let rescue = drives && operator && !TELEOPERATION.required.contains(&module.name.as_str());
-            let all_need = |it: &&PlannedActivity| it.alternatives.iter().all(|it| it.needs.of(kind) > 0);
-            let Some(activity) = of(scenario, index).find(all_need).filter(|_| !rescue) else { continue };
-            let (id, name, from) = (&objective.id, &module.name, activity.x_start);
-            let options = activity.labels.join(", ");
-            let left = if drives { ", and no teleoperation without CAM and LAN" } else { "" };
-            let message = format!(
-                "`{id}` could block at {from}: without {name} none of its options is left ({options}){left}"
-            );
-            let help = format!("add an option that does not need {name}");
-            let help = if drives { format!("{help}, or the modules CAM and LAN") } else { help };
-            errors.push(Diagnostic::new(objective.span.clone(), message, "could block").help(help));
-        }
+        let blocking = |activity: &PlannedActivity| {
+            let needed = |kind: usize| activity.alternatives.iter().all(|it| it.needs.of(kind) > 0);
+            let kinds = definition.hardware.iter().enumerate().filter(|(kind, _)| needed(*kind));
+            let names = kinds.map(|(_, module)| module.name.as_str());
+            names.filter(|name| !is_vital(name) && !(drives && rescued(name))).collect::<Vec<_>>()
+        };
+        let mut places = of(scenario, index).map(|activity| (activity, blocking(activity)));
+        let Some((activity, modules)) = places.find(|(_, modules)| !modules.is_empty()) else { continue };
+        let (id, at, without) = (&objective.id, activity.x_start, modules.join(" or "));
+        let options = activity.labels.join(", ");
+        let left = if drives { ", and no teleoperation without CAM and LAN" } else { "" };
+        let message = format!(
+            "`{id}` could block at {at}: without {without} none of its options is left ({options}){left}"
+        );
+        let help = format!("add an option that does not need {without}");
+        let help = if drives { format!("{help}, or the modules CAM and LAN") } else { help };
+        errors.push(Diagnostic::new(objective.span.clone(), message, "could block").help(help));
     }
     errors
 }

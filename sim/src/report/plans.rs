@@ -17,6 +17,9 @@ pub(super) const fn task_name(task: Task) -> &'static str {
         Task::Turn => "turn",
         Task::Detect => "detect",
         Task::Localise => "localise",
+        Task::Receive => "receive",
+        Task::Deliver => "deliver",
+        Task::Wait => "wait",
     }
 }
 
