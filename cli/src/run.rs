@@ -26,6 +26,12 @@ pub(crate) use body::body;
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
     let options = options(args, &loaded.mission)?;
+    let incidents = incidents(&options.faults, &loaded.mission);
+    if incidents > 0 {
+        screen.note(&format!(
+            "{incidents} failures and answers of the operator are not simulated: the mission is run by its plans alone"
+        ));
+    }
     let (trace, run) = match Trace::record(&loaded.source, &loaded.text, &options) {
         Ok(recorded) => recorded,
         Err(RecordError::Infeasible { reason, text }) => {
@@ -153,6 +159,15 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
     let event = |(hardware, units)| Event { x: Millimetres(0), kind: EventKind::Fault { hardware, units } };
     faults.events.splice(0..0, kinds.into_iter().map(event));
     Ok(FaultChoice::Given { source: format!("{source}, hardware lost at the start"), faults })
+}
+
+/// How many of the faults only supervisors can deal with: a run by plans alone passes them over.
+fn incidents(faults: &FaultChoice, mission: &Mission) -> usize {
+    match faults {
+        FaultChoice::None => 0,
+        FaultChoice::Script => mission.run.faults.incidents.len(),
+        FaultChoice::Given { faults, .. } => faults.incidents.len(),
+    }
 }
 
 /// Writes the report and the trace where they are wanted, and notes it in the answer.

@@ -38,6 +38,21 @@ fn the_patrol_is_driven_as_in_table_7() {
 }
 
 #[test]
+fn a_supervised_mission_is_run_by_its_plans_alone_and_says_so() {
+    let folder = Folder::new("run_delivery");
+    let run = folder.cotama(&["run", "delivery", "--json", "--trace", "t.jsonl"]);
+    let note =
+        "6 failures and answers of the operator are not simulated: the mission is run by its plans alone\n";
+    assert_eq!(run.stderr, note);
+    let answer = run.json(0);
+    assert_eq!((&answer["outcome"], &answer["replans"]), (&json!("completed"), &json!(0)));
+    assert_eq!((&answer["duration_ms"], &answer["events"]), (&json!(326_667), &json!([])));
+    let again = folder.cotama(&["replay", "t.jsonl", "--json"]).json(0);
+    assert_eq!(again["identical"], true);
+    assert_eq!(folder.cotama(&["run", "delivery", "--json", "--faults", "none"]).stderr, "");
+}
+
+#[test]
 fn the_report_is_written_where_it_is_said_and_nothing_else() {
     let folder = Folder::new("run_report");
     let answer = folder.cotama(&["run", "patrol", "--json"]).json(0);

@@ -352,13 +352,17 @@ fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) 
     vec![Relaxation::KeepHardwares { hardware }]
 }
 
-/// Each objective that does not travel and suffices, then the last travelling one at which the mission can end.
+/// Each objective that does not travel and suffices, then the last travelling one at which the mission can end; what is
+/// left must be a mission.
 fn dropped_objectives(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) -> Vec<Relaxation> {
     let all = mission.objectives.len();
     let mut found = Vec::new();
     let (travelling, standing): (Vec<_>, Vec<_>) =
         (0..all).partition(|&objective| mission.objectives[objective].travels());
-    for objective in standing.into_iter().filter(|_| all > 1) {
+    // Only supervised missions have rules that an objective left out can break.
+    let whole =
+        |objective: &usize| mission.supervision.is_none() || mission.without_objective(*objective).is_some();
+    for objective in standing.into_iter().filter(|_| all > 1).filter(whole) {
         if trials.feasible(&Trial { without: objective..objective + 1, ..as_is.clone() }) {
             found.push(Relaxation::DropObjective { objective });
         }
@@ -367,7 +371,8 @@ fn dropped_objectives(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<
     let ends: Vec<_> = travelling.into_iter().filter(|&objective| objective > 0).collect();
     let fits = ends
         .partition_point(|&objective| trials.feasible(&Trial { without: objective..all, ..as_is.clone() }));
-    found.extend(ends[..fits].last().map(|&objective| Relaxation::DropObjective { objective }));
+    let last = ends[..fits].iter().rev().find(|objective| whole(objective));
+    found.extend(last.map(|&objective| Relaxation::DropObjective { objective }));
     found
 }
 

@@ -1,4 +1,29 @@
 //! A mission: what a `panorama-mission/1` file says, with units, checked as a whole.
+//!
+//! # Supervised missions
+//!
+//! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. In a *supervised* mission
+//! the supervisors of COTAMA (Durand et al., TAROS 2010) decide as well. It is a mission like any other, and says more:
+//!
+//! | key | what it says |
+//! | --- | --- |
+//! | `[supervision]` `decides = "cotama"` | that it is supervised |
+//! | `does` in each `[[objective]]` | [what it is](Does) to its supervisor: `drive`, `receive`, `deliver` or `wait` |
+//! | `configuration` in each `[[tio]]` of the task `MOV` | the [set of modules](crate::cotama::configurations) that runs: `PF.OPT`, `PF.OPTR`, `PF.ODO`, `PF.DEG` |
+//! | `[[run.event]]` with `kind = "failure"`, `mode` | a [failure mode](crate::cotama::failure_modes) that observers have to find |
+//! | `[[run.event]]` with `kind = "operator"`, `answers`, `delay_ms` | what the operator [answers](crate::faults::Answer) to the next request, with the time before each answer |
+//!
+//! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say their `duration_ms` and
+//! `power_mw` themselves; plain missions may use these three tasks, too. Modules are `[hardware]` of their names, so that a
+//! lost module removes the options that need it, by the rule of all hardware.
+//!
+//! On load, before the robot moves, its global supervisor is [made](crate::cotama::mission_net::global_supervisor) from the
+//! objectives and [every marking of it looked at](crate::cotama::mission_net::check); and the mission must make sense:
+//! drives lead on, an object is received before it is delivered, one at a time, and delivered in the end; the mission does
+//! not end with waiting; no objective passes a limit alone; the robot has the modules of its configurations and of its
+//! operator's answers; and no objective *could block*, that is: lose with a single module all its options, and
+//! teleoperation too. Modules without which nothing drives are not counted there: without them the robot stops, as it
+//! should.
 
 use crate::cotama::Configuration;
 use crate::diagnostic::{Diagnostic, MissionErrors, Spanned};

@@ -1,4 +1,4 @@
-//! 100,000 mutants of the patrol file: none makes the reader or the scenario panic, and each that is accepted
+//! 100,000 mutants of the mission files: none makes the reader or the scenario panic, and each that is accepted
 //! has the invariants of a mission. A failure prints the number of its mutant, which makes it again.
 #![cfg(feature = "std")]
 
@@ -78,6 +78,7 @@ fn check(mission: &Mission) {
     let first = activities[0].whole(&activities[0].alternatives[0]);
     let lists = remaining(&activities, first, scenario.available(), &mut candidates, &mut lists);
     assert_eq!(lists.map(<[_]>::len), Ok(activities.len()), "all hardware covers all alternatives");
+    assert_eq!(mission.supervisor().is_some(), mission.supervision.is_some());
     let length: u64 = activities.iter().map(|activity| activity.length().0).sum();
     assert_eq!(length, mission.path_length.0);
     for activity in &activities {
@@ -99,16 +100,18 @@ fn check(mission: &Mission) {
 
 #[test]
 fn no_mutant_makes_the_reader_panic() {
-    let whole = embedded::mission("patrol").unwrap().text;
-    // Half of the mutants are of the file without its comments, where every byte matters.
-    let bare: String =
-        whole.lines().map(|line| line.split('#').next().unwrap_or("").trim_end().to_owned() + "\n").collect();
-    assert!(Mission::parse("bare", &bare).is_ok());
+    // Half of the mutants are of files without their comments, where every byte matters.
+    let bare = |text: &str| -> String {
+        text.lines().map(|line| line.split('#').next().unwrap_or("").trim_end().to_owned() + "\n").collect()
+    };
+    let whole = ["patrol", "delivery"].map(|name| embedded::mission(name).unwrap().text);
+    let texts = [whole[0].to_owned(), bare(whole[0]), whole[1].to_owned(), bare(whole[1])];
+    assert!(texts.iter().all(|text| Mission::parse("bare", text).is_ok()));
     let run = |numbers: std::ops::Range<u64>| {
         let mut accepted = 0;
         for number in numbers {
             let mut random = Random(number);
-            let mut text = if number % 2 == 0 { whole } else { &bare }.as_bytes().to_vec();
+            let mut text = texts[(number % 4) as usize].as_bytes().to_vec();
             for _ in 0..=random.below(3) {
                 mutate(&mut text, &mut random);
             }

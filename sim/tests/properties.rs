@@ -61,7 +61,7 @@ fn faults(mission: &'static Mission) -> impl Strategy<Value = Faults> {
             .enumerate()
             .map(|(index, (per_km, kind))| RandomEvent { name: format!("r{index}"), per_km, kind })
             .collect();
-        Faults { power_errors, events, random }
+        Faults { power_errors, events, random, incidents: Vec::new() }
     })
 }
 

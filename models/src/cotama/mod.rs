@@ -20,6 +20,7 @@ mod fmeca_table;
 mod health;
 mod label;
 mod level;
+pub mod load;
 mod members;
 #[cfg(feature = "std")]
 pub mod mission_net;
@@ -32,8 +33,6 @@ mod robot;
 mod severity;
 mod situation;
 mod status_vector;
-pub mod load;
-
 mod supervisors;
 mod surroundings;
 mod world;

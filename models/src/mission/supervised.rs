@@ -107,20 +107,11 @@ fn object(objectives: &[Objective]) -> Vec<Diagnostic> {
     errors
 }
 
-/// A mission does not end with waiting, and it drives.
-fn last(objectives: &[Objective]) -> Vec<Diagnostic> {
-    let mut errors = Vec::new();
-    if let Some(last) = objectives.last().filter(|it| what(it) == Some(Does::Wait)) {
-        let message = format!("the mission ends with `{}`, which waits for nothing", last.id);
-        errors.push(wrong(last, message, "nothing follows", "leave it out"));
-    }
-    if let Some(first) =
-        objectives.first().filter(|_| objectives.iter().all(|it| what(it) != Some(Does::Drive)))
-    {
-        let message = "no objective of the mission drives".to_owned();
-        errors.push(wrong(first, message, "and none after it", "add an objective that does `drive`"));
-    }
-    errors
+/// A mission does not end with waiting.
+fn last(objectives: &[Objective]) -> Option<Diagnostic> {
+    let last = objectives.last().filter(|it| what(it) == Some(Does::Wait))?;
+    let message = format!("the mission ends with `{}`, which waits for nothing", last.id);
+    Some(wrong(last, message, "nothing follows", "leave it out"))
 }
 
 fn of(scenario: &Scenario, objective: usize) -> impl Iterator<Item = &PlannedActivity> {
@@ -161,32 +152,33 @@ fn is_vital(module: Module) -> bool {
 }
 
 /// An objective that one lost module would leave without any configuration, and the operator without the means to
-/// drive; modules that everything needs are not counted: without them the robot stops, as it should.
+/// drive; modules that every way to drive needs are not counted: without them the robot stops, as it should.
 fn could_block(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
     let has = |module: Module| definition.hardware.iter().any(|it| it.name == module.name());
     let teleoperation = Configuration::TeleoperationDegraded.facts().required;
     let operator = teleoperation.iter().all(has);
+    let rescued = |name: &str| operator && !Module::named(name).is_some_and(|it| teleoperation.has(it));
+    let vital = |name: &str| Module::named(name).is_some_and(is_vital);
     let mut errors = Vec::new();
     for (index, objective) in definition.objectives.iter().enumerate() {
         let drives = what(objective) == Some(Does::Drive);
-        for (kind, module) in definition.hardware.iter().enumerate() {
-            let named = Module::named(&module.name);
-            if named.is_some_and(is_vital) {
-                continue;
-            }
-            let rescue = drives && operator && !named.is_some_and(|it| teleoperation.has(it));
-            let all_need = |it: &&PlannedActivity| it.alternatives.iter().all(|it| it.needs.of(kind) > 0);
-            let Some(activity) = of(scenario, index).find(all_need).filter(|_| !rescue) else { continue };
-            let (id, name, from) = (&objective.id, &module.name, activity.x_start);
-            let options = activity.labels.join(", ");
-            let left = if drives { ", and no teleoperation without CAM and LAN" } else { "" };
-            let message = format!(
-                "`{id}` could block at {from}: without {name} none of its options is left ({options}){left}"
-            );
-            let help = format!("add an option that does not need {name}");
-            let help = if drives { format!("{help}, or the modules CAM and LAN") } else { help };
-            errors.push(Diagnostic::new(objective.span.clone(), message, "could block").help(help));
-        }
+        let blocking = |activity: &PlannedActivity| {
+            let needed = |kind: usize| activity.alternatives.iter().all(|it| it.needs.of(kind) > 0);
+            let kinds = definition.hardware.iter().enumerate().filter(|(kind, _)| needed(*kind));
+            let names = kinds.map(|(_, module)| module.name.as_str());
+            names.filter(|name| !vital(name) && !(drives && rescued(name))).collect::<Vec<_>>()
+        };
+        let mut places = of(scenario, index).map(|activity| (activity, blocking(activity)));
+        let Some((activity, modules)) = places.find(|(_, modules)| !modules.is_empty()) else { continue };
+        let (id, at, without) = (&objective.id, activity.x_start, modules.join(" or "));
+        let options = activity.labels.join(", ");
+        let left = if drives { ", and no teleoperation without CAM and LAN" } else { "" };
+        let message = format!(
+            "`{id}` could block at {at}: without {without} none of its options is left ({options}){left}"
+        );
+        let help = format!("add an option that does not need {without}");
+        let help = if drives { format!("{help}, or the modules CAM and LAN") } else { help };
+        errors.push(Diagnostic::new(objective.span.clone(), message, "could block").help(help));
     }
     errors
 }

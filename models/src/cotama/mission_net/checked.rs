@@ -158,30 +158,34 @@ struct Graph {
 fn explore<const W: usize>(net: &Net<'_>) -> Result<Graph, Fault> {
     let packed = Packed::<W>::of(net).map_err(Fault::Defect)?;
     let code = packed.code();
-    let marked = |marking: &[u64; W], after: Option<usize>| {
-        let tokens = |place: usize| code.tokens(marking, PlaceId(place as u32));
-        match (0..net.places.len()).map(tokens).sum() {
-            1 => Ok((0..net.places.len()).find(|&place| tokens(place) == 1).unwrap_or(0)),
-            tokens => {
-                let after = after.map(|transition| net.transitions[transition].name.to_owned());
-                Err(Fault::Tokens { after, tokens })
-            }
-        }
+    let tokens = net.places.iter().map(|place| place.initial).fold(0, u32::saturating_add);
+    if tokens != 1 {
+        return Err(Fault::Tokens { after: None, tokens });
+    }
+    let places = || 0..net.places.len();
+    let marked = |marking: &[u64; W]| {
+        places().find(|&place| code.tokens(marking, PlaceId(place as u32)) > 0).unwrap_or(0)
     };
+    let weight = |arcs: &[Arc]| arcs.iter().map(|arc| arc.weight).fold(0, u32::saturating_add);
     let mut graph = Graph { reached: vec![false; net.places.len()], firings: Vec::new() };
-    let first = marked(&code.initial, None)?;
-    let mut queue = vec![(first, code.initial)];
-    graph.reached[first] = true;
+    let mut queue = vec![code.initial];
+    graph.reached[marked(&code.initial)] = true;
     let mut next = 0;
-    while let Some(&(from, marking)) = queue.get(next) {
+    while let Some(&marking) = queue.get(next) {
         next += 1;
         for entry in code.entries.iter().filter(|entry| code.holds(&marking, &entry.need)) {
+            let number = entry.id().0 as usize;
+            let transition = &net.transitions[number];
+            // It is enabled with one token, so it takes one at most.
+            let tokens = (1 - weight(transition.take)).saturating_add(weight(transition.give));
+            if tokens != 1 {
+                return Err(Fault::Tokens { after: Some(transition.name.to_owned()), tokens });
+            }
             let after = code.after(&marking, &entry.delta);
-            let transition = entry.id().0 as usize;
-            let to = marked(&after, Some(transition))?;
-            graph.firings.push((from, to, transition));
+            let (from, to) = (marked(&marking), marked(&after));
+            graph.firings.push((from, to, number));
             if !std::mem::replace(&mut graph.reached[to], true) {
-                queue.push((to, after));
+                queue.push(after);
             }
         }
     }
