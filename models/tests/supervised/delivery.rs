@@ -21,7 +21,7 @@ fn it_is_two_drives_with_the_options_of_the_adapter() {
     let drive = "PF.OPT PF.OPTR PF.ODO PF.DEG";
     assert_eq!(labels, [drive, "hand-in", drive, "hand-over"]);
     let configured: Vec<_> = mission.tios.iter().filter_map(|tio| tio.configuration).collect();
-    assert!(configured.iter().zip(&mission.tios).all(|(configuration, tio)| configuration.id == tio.id));
+    assert!(configured.iter().zip(&mission.tios).all(|(configuration, tio)| configuration.name() == tio.id));
 }
 
 #[test]
@@ -50,7 +50,7 @@ fn its_script_is_the_timeline_of_the_seven_points() {
         .incidents
         .iter()
         .map(|it| match &it.kind {
-            IncidentKind::Failure(mode) => format!("{} {}", it.x.0, mode.id()),
+            IncidentKind::Failure(mode) => format!("{} {}", it.x.0, mode.name()),
             IncidentKind::Operator { answers, .. } => {
                 let answers: Vec<_> = answers.iter().map(|answer| answer.name()).collect();
                 format!("{} {}", it.x.0, answers.join(" "))
@@ -58,12 +58,12 @@ fn its_script_is_the_timeline_of_the_seven_points() {
         })
         .collect();
     let timeline = [
-        "43000 RT1",
-        "52000 LOC2",
-        "52000 teleoperate teleprogram path",
-        "66000 SON1",
-        "74000 COL1",
-        "74000 teleoperate goal",
+        "3000 RT1",
+        "12000 LOC2",
+        "12000 teleoperate teleprogram path",
+        "26000 SON1",
+        "34000 LOC3",
+        "34000 teleoperate goal",
     ];
     assert_eq!(told, timeline);
 }
