@@ -112,6 +112,21 @@ impl<'m> Planning<'m> {
         Ok(())
     }
 
+    /// The axis, the first in their order, on which the plan no longer keeps its limit.
+    pub(super) fn short(&self, at: Progress) -> Option<usize> {
+        let scenario = self.mission.scenario();
+        let mut used = at.used;
+        for number in at.activity..self.activities.len() {
+            let activity = &self.activities[number];
+            let alternative = &activity.alternatives[usize::from(self.choice[number])];
+            let rest =
+                at.rest.filter(|_| number == at.activity).unwrap_or_else(|| activity.whole(alternative));
+            let cost = alternative.cost(rest)?;
+            used.iter_mut().zip(cost).for_each(|(used, cost)| *used += u64::from(cost));
+        }
+        scenario.order.into_iter().find(|&axis| used[axis] > scenario.limits[axis])
+    }
+
     /// The configuration that is planned for an activity; none for one that does not drive.
     pub(super) fn configuration(&self, activity: usize) -> Option<Configuration> {
         self.configurations[activity][usize::from(self.choice[activity])]

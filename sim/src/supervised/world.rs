@@ -71,6 +71,10 @@ pub(super) struct World<'m> {
     /// The place at which the permit was withdrawn.
     withdrawn: Option<Millimetres>,
     exposed: Millis,
+    /// How often the planner gave no answer.
+    plannings_failed: u32,
+    /// A limit cannot be kept, and the operator knows.
+    resigned: bool,
     energy_uj: u64,
     run: Run,
 }
@@ -102,6 +106,8 @@ impl<'m> World<'m> {
             permitted: false,
             withdrawn: None,
             exposed: Millis(0),
+            plannings_failed: 0,
+            resigned: false,
             energy_uj: 0,
             run: Run {
                 outcome: Outcome::Failed,
@@ -130,6 +136,7 @@ impl<'m> World<'m> {
         self.travel();
         if self.thinks() {
             self.observe();
+            self.watch_margins();
             self.take_a_round();
         }
         self.now.0 += PERIOD.0;

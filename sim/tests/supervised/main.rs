@@ -5,6 +5,7 @@
 
 mod matrix;
 mod seven_points;
+mod triples;
 
 use cotama_models::mission::Mission;
 

@@ -106,6 +106,22 @@ impl World<'_> {
         }
     }
 
+    /// Compares what was used with the plan, once a second; plans again when a margin is below zero, and asks the operator when
+    /// there is no such plan (Lambert et al. 2024, Section 5: performance margins).
+    pub(super) fn watch_margins(&mut self) {
+        let at = self.progress();
+        if self.resigned || self.now.0 % 1_000 != 0 || !matches!(self.objective(), Objective::Drives(_)) {
+            return;
+        }
+        let Some(axis) = self.planning.short(at) else { return };
+        if self.planning.plan(run::Cause::Margin { axis }, at, self.known.available()).is_ok() {
+            self.do_without(Cause(0));
+        } else {
+            self.resigned = true;
+            self.untold.push_back((Told::Failure(faults::Event::fail_hard), Cause(0)));
+        }
+    }
+
     /// How severe a failure is where the robot is.
     fn severity(&self, mode: FailureMode) -> Severity {
         match self.situation.mode() {
@@ -178,7 +194,8 @@ impl World<'_> {
         let mut seen = Vec::new();
         let _ = self.level.round(self.now, &mut |it: &Happening<Cause>| seen.push(*it));
         self.run.rounds += 1;
-        let mut said = self.says();
+        // What the mission and the operator have to say waits for failures.
+        let mut said = if self.untold.is_empty() { self.says() } else { None };
         while let Some((told, cause)) = self.untold.pop_front().or_else(|| said.take()) {
             let offered = self.level.tell(self.now, told, cause, &mut |it: &Happening<Cause>| seen.push(*it));
             if let Offered::Fired(_) = offered {
@@ -295,6 +312,7 @@ impl World<'_> {
             }
             local::State::Planning if waited(self.local_since) >= PLANNING.0 + PATIENCE_WITH_PLANNER.0 => {
                 self.local_since = self.now;
+                self.plannings_failed += 1;
                 Some((Told::Failure(faults::Event::no_path), none))
             }
             local::State::Following if at_goal => Some((Told::Drive(local::Event::goal_reached), none)),
@@ -333,8 +351,9 @@ impl World<'_> {
             x: self.robot.x(),
             link: left.has(Module::Lan) && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
             camera: left.has(Module::Cam),
-            planner_failed: report == Some(Report::Planner),
-            can_go_on: left.covers(Configuration::FollowingOdometric.facts().required),
+            planner_failed: report == Some(Report::Planner) && self.plannings_failed < 2,
+            can_go_on: self.plannings_failed < 2
+                && left.covers(Configuration::FollowingOdometric.facts().required),
             at_goal,
         }
     }
