@@ -25,13 +25,13 @@ use crate::mission::{Does, Objective};
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, Defect, EventId, Ignored, OutputId, PlaceId};
 
-/// The places of every global supervisor beside its objectives: before them and after them.
+/// The place before the objectives: no mission yet.
 pub const WAIT: &str = "Wait";
-/// The mission is accomplished.
+/// The place behind them: the mission is accomplished.
 pub const DONE: &str = "Done";
-/// Stopping for good.
+/// The place of stopping for good.
 pub const SECURITY: &str = "Security";
-/// Stopped for good, alarm given.
+/// The place of having stopped for good, alarm given.
 pub const SAFE: &str = "Safe";
 /// The names that no objective may have.
 pub const RESERVED: [&str; 4] = [WAIT, DONE, SECURITY, SAFE];
