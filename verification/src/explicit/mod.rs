@@ -27,6 +27,7 @@
 //! ```
 
 mod block;
+mod boxes;
 mod diamonds;
 mod enabling;
 mod explore;

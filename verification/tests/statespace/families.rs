@@ -96,6 +96,16 @@ fn five_hundred_places_fit_in_a_marking() {
 }
 
 #[test]
+fn a_level_of_five_thousand_large_markings_is_counted_whole() {
+    let mut initial = vec![0; 5_001];
+    initial[0] = 1;
+    let gives: Vec<[(u32, u32); 1]> = (1..=5_000).map(|it| [(it, 1)]).collect();
+    let moves: Vec<[&[(u32, u32)]; 3]> = gives.iter().map(|give| [&[(0, 1)][..], &[], &give[..]]).collect();
+    let star = space(&net(&initial, &moves));
+    assert_eq!((star.states, star.arcs, star.dead_markings, star.limit), (5_001, 5_000, 5_000, None));
+}
+
+#[test]
 fn a_marking_of_more_than_128_words_is_a_limit() {
     // Places of 32 bits and one more each, which nothing bounds: 256 of them are too many.
     let counters = |count: u32| {
