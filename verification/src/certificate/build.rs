@@ -163,7 +163,9 @@ impl Formula {
     /// That these places hold so many tokens together, or more; one that is named twice counts twice.
     pub fn at_least(tokens: i64, places: &[String]) -> Self {
         let mut weights = BTreeMap::new();
-        places.iter().for_each(|it| *weights.entry(it.clone()).or_default() -= 1);
+        for it in places {
+            *weights.entry(it.clone()).or_default() -= 1;
+        }
         Self::AtMost(Linear { constant: tokens, weights: weights.into_iter().collect() })
     }
 

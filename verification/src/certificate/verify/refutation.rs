@@ -52,15 +52,17 @@ impl Numbered<'_> {
             known.lists.truncate(lists);
             self.assume(formula, truth, &mut known)?;
             let here = |formula, truth| (known.sums.len(), known.lists.len(), formula, truth);
-            let closed = match case {
-                Case::Contradiction(by) => self.contradiction(&known.sums, by),
-                Case::Split(or) => known.lists.get(*or).map_or_else(
-                    || Err(error(format_args!("there is no open `or` {or}"))),
-                    |(parts, truth)| Ok(left.extend(parts.iter().rev().map(|it| here(it, *truth)))),
-                ),
-                Case::Cut(_) => Ok(left.extend([here(&cuts[n], false), here(&cuts[n], true)])),
-            };
-            closed.map_err(at(format_args!("[{n}]")))?;
+            match case {
+                Case::Contradiction(by) => {
+                    self.contradiction(&known.sums, by).map_err(at(format!("[{n}]")))?
+                }
+                Case::Split(or) => {
+                    let none = || at(format!("[{n}]"))(error(format_args!("there is no open `or` {or}")));
+                    let (parts, truth) = *known.lists.get(*or).ok_or_else(none)?;
+                    left.extend(parts.iter().rev().map(|it| here(it, truth)));
+                }
+                Case::Cut(_) => left.extend([here(&cuts[n], false), here(&cuts[n], true)]),
+            }
             ensure(left.len() < cases.len() - n, "some are missing")?;
         }
         ensure(left.is_empty(), "there are none")

@@ -58,7 +58,9 @@ impl Numbered<'_> {
     fn fire(&self, from: &Marking, transition: usize) -> Checked<Marking> {
         let ([take, give], mut after) = (&self.arcs[transition], from.clone());
         self.spend(4 * from.len() + give.len())?; // memory is work too
-        take.iter().for_each(|(place, weight)| after[*place] -= weight);
+        for (place, weight) in take {
+            after[*place] -= weight;
+        }
         for (place, weight) in give {
             let sum = after[*place].checked_add(*weight);
             after[*place] = sum.ok_or_else(|| error("numbers get too large"))?;
@@ -167,7 +169,9 @@ impl Numbered<'_> {
     fn until(&self, space: &Space, first: &[bool], mut until: Vec<bool>, every: bool) -> Checked<Vec<bool>> {
         let mut before = vec![Vec::new(); until.len()];
         for (from, next) in space.2.iter().enumerate() {
-            next.iter().for_each(|to| before[*to].push(from));
+            for to in next {
+                before[*to].push(from);
+            }
         }
         let mut open: Vec<usize> = (0..until.len()).filter(|it| until[*it]).collect();
         while let Some(to) = open.pop() {
