@@ -95,7 +95,7 @@ fn of_thousands_of_transitions_none_fires_with_the_token_of_one_place_alone() {
     let side_by_side =
         (1..places).map(|it| (vec![(it - 1, 1), (places + it - 1, 1)], vec![(it, 1), (places + it, 1)]));
     let ahead = (1..places).map(|it| (vec![(it - 1, 1), (places + it, 1)], vec![]));
-    let all: Vec<(Vec<(u32, u32)>, Vec<(u32, u32)>)> = side_by_side.chain(ahead).collect();
+    let all: Vec<(Vec<_>, Vec<_>)> = side_by_side.chain(ahead).collect();
     let all: Vec<[&[(u32, u32)]; 3]> = all.iter().map(|(take, give)| [&take[..], &[], &give[..]]).collect();
     let initial: Vec<u32> = (0..2 * places).map(|it| u32::from(it % places == 0)).collect();
     let space = super::space(&super::net(&initial, &all));

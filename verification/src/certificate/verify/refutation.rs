@@ -54,7 +54,7 @@ impl Numbered<'_> {
             let here = |formula, truth| (known.sums.len(), known.lists.len(), formula, truth);
             match case {
                 Case::Contradiction(by) => {
-                    self.contradiction(&known.sums, by).map_err(at(format!("[{n}]")))?
+                    self.contradiction(&known.sums, by).map_err(at(format!("[{n}]")))?;
                 }
                 Case::Split(or) => {
                     let none = || at(format!("[{n}]"))(error(format_args!("there is no open `or` {or}")));
