@@ -127,3 +127,19 @@ fn a_net_that_grows_without_end_is_unbounded() {
     assert_eq!(space.growth, Some(Growth { first: vec![], repeated: all.to_vec() }));
     assert_eq!(space.states, 1 << 16);
 }
+
+#[test]
+fn weights_whose_products_pass_64_bits_are_no_invariant() {
+    // Each of the transitions fires once; the sums of places that they leave as they are have weights of more than 64 bits.
+    let [a, b, c, d] = [4_294_967_291, 4_294_967_279, 4_294_967_231, 4_294_967_197];
+    let pt = net(
+        &[a, 0, 0, 0],
+        &[[&[(0, a)], &[], &[(1, b)]], [&[(1, b)], &[], &[(2, c)]], [&[(2, c)], &[], &[(3, d)]]],
+    );
+    assert_eq!(space(&pt).states, 4);
+    let pt = net(
+        &[a, 0, 0, 0],
+        &[[&[(0, a)], &[], &[(1, b)]], [&[(1, c)], &[], &[(2, d)]], [&[(2, a)], &[], &[(3, b)]]],
+    );
+    assert_eq!(space(&pt).states, 3);
+}
