@@ -30,12 +30,7 @@ const SHOWN: u64 = 20_000;
 const GLANCE: u64 = 1_000;
 
 pub(super) fn answer(net: &Known<'_>, question: &Question, options: &Options<'_>) -> Answer {
-    let budget = Budget {
-        limits: options.limits,
-        jobs: options.jobs,
-        evidence: options.evidence,
-        progress: options.progress,
-    };
+    let budget = Budget::from(options);
     let mut asked =
         Asked { net, engine: options.engine, budget, techniques: Vec::new(), tried: Vec::new(), states: 0 };
     let (verdict, run, mut evidence) = asked.question(question);

@@ -1,10 +1,11 @@
 //! A net with what was found of it.
 
 use super::Budget;
-use crate::explicit::{Graph, Limit, Limits};
+use crate::explicit::{Graph, Limit, Limits, StateSpace, statespace};
 use crate::pt::Pt;
 use crate::structural::{self, Structure};
 use std::cell::{OnceCell, RefCell, RefMut};
+use std::rc::Rc;
 
 /// A net, and what engines found of it, kept for the next question.
 #[derive(Debug)]
@@ -12,12 +13,13 @@ pub struct Known<'n> {
     pt: &'n Pt,
     structure: OnceCell<RefCell<Structure<'n>>>,
     graph: RefCell<Option<(Limits, Result<Graph, Limit>)>>,
+    space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
 }
 
 impl<'n> Known<'n> {
     /// Nothing is known yet.
     pub fn new(pt: &'n Pt) -> Self {
-        Self { pt, structure: OnceCell::new(), graph: RefCell::new(None) }
+        Self { pt, structure: OnceCell::new(), graph: RefCell::new(None), space: RefCell::new(None) }
     }
 
     /// The net.
@@ -38,11 +40,25 @@ impl<'n> Known<'n> {
         with: impl FnOnce(Result<&Graph, Limit>) -> R,
     ) -> R {
         let mut kept = self.graph.borrow_mut();
-        let more = |made: &Limits| budget.limits.states > made.states || budget.limits.bytes > made.bytes;
-        if kept.as_ref().is_none_or(|(made, graph)| graph.is_err() && more(made)) {
+        let is_cut =
+            |limits: &Limits, limit: Option<Limit>| limit.is_some_and(|it| budget.has_more(limits, it));
+        if kept.as_ref().is_none_or(|(limits, graph)| is_cut(limits, graph.as_ref().err().copied())) {
             *kept = Some((budget.limits, Graph::new(self.pt, &budget.limits, budget.progress)));
         }
         let graph = kept.as_ref().map(|it| it.1.as_ref().map_err(|&limit| limit));
         with(graph.unwrap_or(Err(Limit::Bytes)))
+    }
+
+    /// What is counted of its markings.
+    pub(super) fn space(&self, budget: &Budget<'_>) -> Rc<StateSpace> {
+        let mut kept = self.space.borrow_mut();
+        if let Some((limits, space)) = &*kept
+            && !space.limit.is_some_and(|it| budget.has_more(limits, it))
+        {
+            return Rc::clone(space);
+        }
+        let space = Rc::new(statespace(self.pt, &budget.limits, budget.jobs, budget.progress));
+        *kept = Some((budget.limits, Rc::clone(&space)));
+        space
     }
 }

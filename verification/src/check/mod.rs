@@ -33,6 +33,7 @@ mod model;
 mod reduced;
 mod report;
 mod timed;
+mod unused;
 
 pub use engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
 pub use engines::{Coverability, Explicit, Structural, Stubborn, Temporal};

@@ -8,17 +8,20 @@ use crate::certificate::Evidence;
 use crate::explicit::Limit;
 use crate::property::{Atom, Condition, Formula, Linear, Question, Reachability};
 use crate::temporal::{Rest, Run};
-use crate::tpn::{self, Limits, Reach, Response, Schedule, Stop, Time, TimeNet};
+use crate::tpn::{self, Classes, Limits, Reach, Response, Schedule, Stop, Time, TimeNet};
 use cotama_core::net::{PlaceId, TransitionId};
 
 pub(super) fn answer(net: &Known<'_>, time: &TimeNet, question: &Question, options: &Options<'_>) -> Answer {
     let stop = || options.limits.is_over();
-    let limits = Limits {
+    Asked { net, time, limits: limits(options, &stop), options }.question(question)
+}
+
+pub(super) fn limits<'s>(options: &Options<'_>, stop: &'s dyn Fn() -> bool) -> Limits<'s> {
+    Limits {
         classes: usize::try_from(options.limits.states).unwrap_or(usize::MAX),
         bytes: usize::try_from(options.limits.bytes).unwrap_or(usize::MAX),
-        stop: &stop,
-    };
-    Asked { net, time, limits, options }.question(question)
+        stop,
+    }
 }
 
 struct Asked<'a, 'n> {
@@ -134,12 +137,7 @@ impl Asked<'_, '_> {
     /// A question about the transitions that fire at some time.
     fn fired(&self, holds: impl Fn(&Known<'_>, &[bool]) -> bool) -> Answer {
         let classes = tpn::classes(self.time, &self.limits);
-        let mut fires = vec![false; self.net.pt().transitions.len()];
-        for class in 0..classes.classes() as u32 {
-            for (transition, _) in classes.successors(class) {
-                fires[transition.0 as usize] = true;
-            }
-        }
+        let fires = fired(&classes, self.net.pt().transitions.len());
         let verdict = match classes.stopped() {
             None => Verdict::Holds(holds(self.net, &fires)),
             Some(stop) => Verdict::Unknown(reason(stop)),
@@ -188,6 +186,17 @@ impl Asked<'_, '_> {
         };
         known(verdict, states)
     }
+}
+
+/// For each transition whether some class fires it.
+pub(super) fn fired(classes: &Classes, transitions: usize) -> Vec<bool> {
+    let mut fires = vec![false; transitions];
+    for class in 0..classes.classes() as u32 {
+        for (transition, _) in classes.successors(class) {
+            fires[transition.0 as usize] = true;
+        }
+    }
+    fires
 }
 
 /// The places and the limit of `AG (cause -> AF<=limit effect)`, in milliseconds.

@@ -58,13 +58,7 @@ impl Diagnosis {
     /// net as the run leaves it, if it is small. It needs no script and no other file; colours follow the reader's light or
     /// dark mode.
     pub fn html(&self) -> String {
-        format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-            escape(&format!("{}: {}", printable(&self.net), printable(&self.name))),
-            self.html_section()
-        )
+        page(&format!("{}: {}", printable(&self.net), printable(&self.name)), &self.html_section())
     }
 
     /// The style sheet that [`html_section`](Self::html_section) asks for.
@@ -106,18 +100,7 @@ impl Diagnosis {
             out.push_str("</dl>\n");
         }
         if let Some(picture) = &self.picture {
-            let key = picture.culprits.join("-");
-            out.push_str("<h2>The net after the last step</h2>\n");
-            if !picture.culprits.is_empty() {
-                let rims: Vec<String> = picture
-                    .culprits
-                    .iter()
-                    .map(|it| format!(".at-{key} #{it} circle.rim,.at-{key} #{it} rect"))
-                    .collect();
-                let _ =
-                    writeln!(out, "<style>{}{{stroke:var(--hot);stroke-width:4}}</style>", rims.join(","));
-            }
-            let _ = write!(out, "<figure class=\"at-{key}\">\n{}</figure>\n", picture.svg);
+            out += &picture.figure("The net after the last step");
         }
         out.push_str("</section>\n");
         out
@@ -205,6 +188,16 @@ impl Diagnosis {
     }
 }
 
+/// A page around a section.
+pub(super) fn page(title: &str, section: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n{section}</body>\n</html>\n",
+        escape(title)
+    )
+}
+
 fn marking(tokens: &[Tokens]) -> String {
     let one = |it: &Tokens| match it.tokens {
         1 => code(&it.place),
@@ -214,12 +207,12 @@ fn marking(tokens: &[Tokens]) -> String {
     if all.is_empty() { "nothing is marked".to_owned() } else { all.join(" ") }
 }
 
-fn code(name: &str) -> String {
+pub(super) fn code(name: &str) -> String {
     format!("<code>{}</code>", escape(&printable(name)))
 }
 
 /// A sentence with names in backticks, of which there are two for each.
-fn sentence(text: &str) -> String {
+pub(super) fn sentence(text: &str) -> String {
     let mut out = String::new();
     for (at, part) in text.split('`').enumerate() {
         if at % 2 == 1 {

@@ -40,7 +40,7 @@ mod words;
 
 pub use run::{NotARun, Run};
 pub use shrink::shrink;
-pub use unused::Unused;
+pub use unused::{Never, Unused};
 pub use vacuity::{Vacuity, vacuous};
 
 use crate::property::{self, Atom, Condition, Formula, Linear, Property, Question};
@@ -290,7 +290,7 @@ impl Diagnosis {
             last: tokens(pt, &last),
             watched: tracks,
             atoms,
-            picture: Picture::new(pt, net, &last, run.firings().last(), &story.culprits),
+            picture: Picture::new(pt, net, &last, run.firings().last().as_slice(), &story.culprits),
         })
     }
 

@@ -23,18 +23,31 @@ impl Picture {
         pt: &Pt,
         net: Option<&Net<'_>>,
         last: &[u32],
-        fired: Option<TransitionId>,
+        pointed: &[TransitionId],
         culprits: &BTreeSet<u32>,
     ) -> Option<Self> {
         if pt.places.len() + pt.transitions.len() > LARGEST {
             return None;
         }
-        let highlight = Highlight { marking: Some(last), transitions: fired.as_slice() };
+        let highlight = Highlight { marking: Some(last), transitions: pointed };
         let svg = match net {
             Some(net) => write_highlighted(net, Style::Auto, &highlight),
             None => write_highlighted(&drawn(pt)?.view().net(), Style::Net, &highlight),
         };
         Some(Self { svg, culprits: culprits.iter().map(|it| format!("place-{it}")).collect() })
+    }
+
+    /// The drawing as a figure of a page, with a heading.
+    pub(super) fn figure(&self, heading: &str) -> String {
+        let key = self.culprits.join("-");
+        let mut out = format!("<h2>{heading}</h2>\n");
+        if !self.culprits.is_empty() {
+            let rims = self.culprits.iter();
+            let rims: Vec<String> =
+                rims.map(|it| format!(".at-{key} #{it} circle.rim,.at-{key} #{it} rect")).collect();
+            out += &format!("<style>{}{{stroke:var(--hot);stroke-width:4}}</style>\n", rims.join(","));
+        }
+        out + &format!("<figure class=\"at-{key}\">\n{}</figure>\n", self.svg)
     }
 }
 
