@@ -109,7 +109,7 @@ pub(crate) struct CheckArgs {
     /// Writes evidence for the verdict that `cotama verify` checks again
     #[arg(long, value_name = "FILE")]
     pub(crate) certificate: Option<PathBuf>,
-    /// Writes the run that shows the verdict: as a page (.html) or as JSON (.json)
+    /// Writes the run that shows the verdict: as a page (.html), a drawing (.svg) or JSON (.json)
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
     /// Prints the lines of the Model Checking Contest

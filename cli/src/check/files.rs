@@ -77,6 +77,7 @@ impl Files {
     ) -> Result<(), Failure> {
         self.write(position, screen, |form| match form {
             Form::Html => diagnosis.html(),
+            Form::Svg => diagnosis.svg(),
             Form::Json => diagnosis.json(),
         })
     }
@@ -96,6 +97,7 @@ impl Files {
             .filter(|it| it.transitions.len() == subject.model.pt().transitions.len());
         self.write(position, screen, |form| match form {
             Form::Html => unused.html(net.as_ref()),
+            Form::Svg => unused.svg(net.as_ref()),
             Form::Json => unused.json(),
         })
     }
@@ -120,6 +122,7 @@ impl Files {
 #[derive(Clone, Copy, Debug)]
 enum Form {
     Html,
+    Svg,
     Json,
 }
 
@@ -128,10 +131,11 @@ impl Form {
     fn of(path: &Path) -> Result<Self, Failure> {
         match path.extension().map(|end| end.to_string_lossy().to_lowercase()).as_deref() {
             Some("html") => Ok(Self::Html),
+            Some("svg") => Ok(Self::Svg),
             Some("json") => Ok(Self::Json),
             _ => {
                 let message = format!("{}: the end of this name says no form of a trace", path.display());
-                Err(Failure::new(message).help("a trace is written as .html or as .json"))
+                Err(Failure::new(message).help("a trace is written as .html, .svg or .json"))
             }
         }
     }

@@ -30,6 +30,7 @@ mod html;
 mod picture;
 mod question;
 mod run;
+mod sheet;
 mod shrink;
 mod story;
 mod text;
@@ -96,7 +97,7 @@ impl<'a> Case<'a> {
 /// Why a property holds or does not, shown by a run.
 ///
 /// It is written as text by `Display`, in lines of at most 100 characters, with the middle of a long run left out; by
-/// [`json`](Self::json) whole; by [`html`](Self::html) as a page with pictures. Names in sentences stand in backticks.
+/// [`json`](Self::json) whole; by [`html`](Self::html) as a page with pictures; by [`svg`](Self::svg) as one drawing. Names in sentences stand in backticks.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnosis {
     /// The name of the net.

@@ -42,6 +42,15 @@ impl Display for Diagnosis {
     }
 }
 
+/// The firings of a diagnosis, line by line.
+struct Steps<'d>(&'d Diagnosis);
+
+impl Display for Steps<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.table(f)
+    }
+}
+
 /// A table with columns that are left out when they are empty.
 struct Table {
     widths: Vec<usize>,
@@ -66,6 +75,11 @@ impl Table {
 }
 
 impl Diagnosis {
+    /// The firings as lines, with the middle of a long run left out.
+    pub(super) fn steps_as_text(&self) -> String {
+        Steps(self).to_string()
+    }
+
     fn table(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let shown = shown(self.trace.len(), self.cycle_starts_at);
         let mut table = Table { widths: vec![0; 5] };

@@ -135,7 +135,11 @@ impl<'n> Unused<'n> {
         page(&format!("{}: what no run uses", printable(&self.pt.name)), &(out + "</section>\n"))
     }
 
-    fn picture(&self, net: Option<&Net<'_>>) -> Option<Picture> {
+    pub(super) fn net_name(&self) -> &str {
+        &self.pt.name
+    }
+
+    pub(super) fn picture(&self, net: Option<&Net<'_>>) -> Option<Picture> {
         let places = self.places.iter().map(|it| it.0).collect();
         Picture::new(self.pt, net, &self.pt.initial, &self.transitions, &places)
     }
