@@ -93,7 +93,7 @@ impl Diagnosis {
         self.steps(&mut out);
         if !self.legend.is_empty() {
             out.push_str("<h2>What the names mean</h2>\n<dl>\n");
-            for it in &self.legend {
+            for it in self.legend.iter().filter(|it| self.shows(&it.name)) {
                 let (name, doc) = (escape(&printable(&it.name)), escape(&it.doc));
                 let _ = writeln!(out, "<dt><code>{name}</code></dt><dd>{doc}</dd>");
             }
@@ -135,7 +135,7 @@ impl Diagnosis {
         let note = |out: &mut String, text: &str| {
             let _ = writeln!(out, "<tr class=\"note\"><td></td><td colspan=\"{span}\">{text}</td></tr>");
         };
-        edge(out, "start", &marking(&self.initial));
+        edge(out, "start", &self.marking_as_code(&self.initial));
         let count = self.trace.len();
         for (at, step) in self.trace.iter().enumerate() {
             if self.cycle_starts_at == Some(at) {
@@ -167,7 +167,7 @@ impl Diagnosis {
         match self.cycle_starts_at {
             Some(0) => note(out, "As at the start."),
             Some(start) => note(out, &format!("As after step {start}.")),
-            None if count > 0 => edge(out, "end", &marking(&self.last)),
+            None if count > 0 => edge(out, "end", &self.marking_as_code(&self.last)),
             None => {}
         }
         out.push_str("</tbody>\n</table>\n</div>\n");
@@ -183,7 +183,8 @@ impl Diagnosis {
             let verb = if it.holds { "now" } else { "no more" };
             format!("<span class=\"turn\">({verb} {})</span>", escape(&printable(&it.atom)))
         };
-        let all: Vec<String> = step.changes.iter().map(one).chain(self.turns(step).map(turn)).collect();
+        let shown = step.changes.iter().filter(|it| self.shows(&it.place));
+        let all: Vec<String> = shown.map(one).chain(self.turns(step).map(turn)).collect();
         if all.is_empty() { "no change".to_owned() } else { all.join(" ") }
     }
 }
@@ -198,13 +199,15 @@ pub(super) fn page(title: &str, section: &str) -> String {
     )
 }
 
-fn marking(tokens: &[Tokens]) -> String {
-    let one = |it: &Tokens| match it.tokens {
-        1 => code(&it.place),
-        more => format!("{} {more}", code(&it.place)),
-    };
-    let all: Vec<String> = tokens.iter().map(one).collect();
-    if all.is_empty() { "nothing is marked".to_owned() } else { all.join(" ") }
+impl Diagnosis {
+    fn marking_as_code(&self, tokens: &[Tokens]) -> String {
+        let one = |it: &Tokens| match it.tokens {
+            1 => code(&it.place),
+            more => format!("{} {more}", code(&it.place)),
+        };
+        let all: Vec<String> = tokens.iter().filter(|it| self.shows(&it.place)).map(one).collect();
+        if all.is_empty() { "nothing is marked".to_owned() } else { all.join(" ") }
+    }
 }
 
 pub(super) fn code(name: &str) -> String {
