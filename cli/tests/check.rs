@@ -88,6 +88,7 @@ fn time_is_measured_where_there_are_intervals() {
         check(&folder, "race.net", &["bound(fast -> done)", "bound(late -> idle)"], &["--json"]).json(0);
     let [first, second] = [0, 1].map(|it| &answer["results"][it]);
     assert_eq!((&first["min"], &first["max"]), (&json!(5), &json!(7)));
+    assert_eq!(first["states"], 3);
     assert_eq!((&second["min"], &second["max"]), (&json!("inf"), &json!("inf")));
     let answer = check(&folder, "race.net", &["EF done"], &["--json"]).json(0);
     assert_eq!(answer["results"][0]["trace"][1]["time"], "6");
@@ -116,6 +117,20 @@ fn a_file_without_laws_is_asked_the_usual_questions() {
     };
     assert_eq!(usual("lamp.net", 0), "deadlock_free true null; one_safe true null; quasi_live true null");
     assert_eq!(usual("pump.net", 0), "deadlock_free true null; bounds true inf; quasi_live true null");
+}
+
+#[test]
+fn a_run_leads_to_where_what_should_stay_possible_is_lost() {
+    let folder = Folder::new("check_lost");
+    folder.write(
+        "fuse.net",
+        "net fuse\ntr on off -> lit\ntr out lit -> off\ntr burn lit -> dark\npl off (1)\n",
+    );
+    let answer = check(&folder, "fuse.net", &["AG EF lit"], &["--json", "--trace", "it.svg"]).json(1);
+    let row = &answer["results"][0];
+    let fired: Vec<_> = row["trace"].as_array().unwrap().iter().map(|it| &it["transition"]).collect();
+    assert_eq!(fired, ["on", "burn"]);
+    assert!(folder.read("it.svg").starts_with("<svg xmlns="));
 }
 
 #[test]

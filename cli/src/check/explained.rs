@@ -12,6 +12,9 @@ use cotama_verification::temporal::Rest;
 const QUESTIONS: usize = 8;
 const MARKINGS: u64 = 100_000;
 
+/// Among so many markings it is looked for all that no run uses, where the verdict did not need them all.
+const UNUSED: u64 = 1_000_000;
+
 /// The run of an answer, explained, if there is one.
 pub(super) fn diagnosis(
     subject: &Subject,
@@ -69,7 +72,9 @@ pub(super) fn unused<'m>(
     options: &Options<'_>,
 ) -> Option<Unused<'m>> {
     let asks = matches!(property.question, Question::QuasiLiveness | Question::Liveness);
-    let asked = (asks && answer.verdict == Verdict::Holds(false)).then(|| checker.unused(options));
+    let limits = Limits { states: options.limits.states.min(UNUSED), ..options.limits };
+    let options = Options { limits, ..*options };
+    let asked = (asks && answer.verdict == Verdict::Holds(false)).then(|| checker.unused(&options));
     asked.filter(|it| !it.transitions.is_empty())
 }
 

@@ -139,7 +139,7 @@ impl Engine for Explicit {
                     let found = Found::Holds(graph.liveness().is_live(), None, Evidence::None);
                     Finding { found, states: graph.states() as u64 }
                 }
-                Err(limit) => Finding::nothing(Reason::Limit(limit), 0),
+                Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
             }),
             Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
         }

@@ -1,7 +1,7 @@
 //! A net with what was found of it.
 
 use super::Budget;
-use crate::explicit::{Graph, Limit, Limits, StateSpace, statespace};
+use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
 use crate::pt::Pt;
 use crate::structural::{self, Structure};
 use std::cell::{OnceCell, RefCell, RefMut};
@@ -12,7 +12,7 @@ use std::rc::Rc;
 pub struct Known<'n> {
     pt: &'n Pt,
     structure: OnceCell<RefCell<Structure<'n>>>,
-    graph: RefCell<Option<(Limits, Result<Graph, Limit>)>>,
+    graph: RefCell<Option<(Limits, Result<Graph, Unfinished>)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
 }
 
@@ -37,16 +37,17 @@ impl<'n> Known<'n> {
     pub(super) fn with_graph<R>(
         &self,
         budget: &Budget<'_>,
-        with: impl FnOnce(Result<&Graph, Limit>) -> R,
+        with: impl FnOnce(Result<&Graph, Unfinished>) -> R,
     ) -> R {
         let mut kept = self.graph.borrow_mut();
         let is_cut =
             |limits: &Limits, limit: Option<Limit>| limit.is_some_and(|it| budget.has_more(limits, it));
-        if kept.as_ref().is_none_or(|(limits, graph)| is_cut(limits, graph.as_ref().err().copied())) {
+        if kept.as_ref().is_none_or(|(limits, graph)| is_cut(limits, graph.as_ref().err().map(|it| it.limit)))
+        {
             *kept = Some((budget.limits, Graph::new(self.pt, &budget.limits, budget.progress)));
         }
-        let graph = kept.as_ref().map(|it| it.1.as_ref().map_err(|&limit| limit));
-        with(graph.unwrap_or(Err(Limit::Bytes)))
+        let graph = kept.as_ref().map(|it| it.1.as_ref().map_err(|&it| it));
+        with(graph.unwrap_or(Err(Unfinished { limit: Limit::Bytes, states: 0 })))
     }
 
     /// What is counted of its markings.

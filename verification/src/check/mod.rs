@@ -29,6 +29,7 @@ mod engine;
 mod engines;
 mod known;
 mod laws;
+mod liveness;
 mod model;
 mod reduced;
 mod report;

@@ -35,7 +35,9 @@ impl Asked<'_, '_> {
     fn question(&self, question: &Question) -> Answer {
         match question {
             Question::Formula(formula) => self.formula(&formula.simplified()),
-            Question::Response { from, to } => response(tpn::bound(self.time, *from, *to, &self.limits)),
+            Question::Response { from, to } => {
+                response(tpn::measured(self.time, Some(*from), *to, &self.limits))
+            }
             Question::OneSafe => {
                 let two =
                     |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
@@ -156,7 +158,7 @@ impl Asked<'_, '_> {
             (change(cause) > 0, change(effect) < 0)
         };
         let (mut states, mut open) = (0, None);
-        let mut ask = |found: Response, certain: bool| {
+        let mut ask = |found: (Response, usize), certain: bool| {
             let answer = response(found);
             states = answer.states.max(states);
             match answer.verdict {
@@ -172,11 +174,14 @@ impl Asked<'_, '_> {
             true
         };
         let marked = pt.initial[cause.0 as usize] > 0;
-        let mut holds = !marked || ask(tpn::bound_from_start(self.time, effect, &self.limits), true);
+        let mut holds = !marked || ask(tpn::measured(self.time, None, effect, &self.limits), true);
         for transition in 0..pt.transitions.len() as u32 {
             let (begins, ends) = starts(transition);
             if holds && (begins || ends) {
-                holds = ask(tpn::bound(self.time, TransitionId(transition), effect, &self.limits), begins);
+                holds = ask(
+                    tpn::measured(self.time, Some(TransitionId(transition)), effect, &self.limits),
+                    begins,
+                );
             }
         }
         let verdict = match (holds, open) {
@@ -245,12 +250,14 @@ fn shown(holds: bool, schedule: Schedule) -> Answer {
     }
 }
 
-fn response(response: Response) -> Answer {
-    match response {
-        Response::NeverFires => known(Verdict::Response(None), 0),
-        Response::Between { min, max } => known(Verdict::Response(Some((min, max))), 0),
-        Response::Unknown { stop, explored } => known(Verdict::Unknown(reason(stop)), explored as u64),
-    }
+/// An answer of so many classes.
+fn response((response, classes): (Response, usize)) -> Answer {
+    let verdict = match response {
+        Response::NeverFires => Verdict::Response(None),
+        Response::Between { min, max } => Verdict::Response(Some((min, max))),
+        Response::Unknown { stop, .. } => Verdict::Unknown(reason(stop)),
+    };
+    known(verdict, classes as u64)
 }
 
 fn reason(stop: Stop) -> Reason {
