@@ -121,7 +121,7 @@ pub struct Budget<'b> {
     pub progress: &'b dyn Fn(Progress),
 }
 
-impl<'b> Budget<'b> {
+impl Budget<'_> {
     /// Whether it allows to go further than a search that reached one of these limits.
     pub(super) fn has_more(&self, limits: &Limits, reached: Limit) -> bool {
         match reached {

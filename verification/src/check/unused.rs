@@ -51,7 +51,9 @@ impl<'m> Checker<'m> {
             Some(_) => return None,
         };
         let mut fired = vec![true; pt.transitions.len()];
-        dead.iter().for_each(|it| fired[it.0 as usize] = false);
+        for it in &dead {
+            fired[it.0 as usize] = false;
+        }
         Some(Unused::new(pt, &fired, &marked))
     }
 

@@ -8,6 +8,7 @@ use crate::pt::Pt;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Net, PlaceId, TransitionId};
 use std::collections::BTreeSet;
+use std::fmt::Write as _;
 
 /// Larger nets are not drawn: nobody would find anything.
 const LARGEST: usize = 60;
@@ -47,7 +48,7 @@ impl Picture {
         let highlight = Highlight { marking: Some(&self.marking), transitions: &self.pointed };
         let mut part = svg::part(&self.net.view().net(), self.style, &highlight, prefix);
         if !self.culprits.is_empty() {
-            part.text += &format!("<style>{}</style>\n", self.rims(".cotama", prefix));
+            let _ = writeln!(part.text, "<style>{}</style>", self.rims(".cotama", prefix));
         }
         Frame { caption, part, is_last: true }
     }
@@ -63,8 +64,9 @@ impl Picture {
             frames.push(Frame { is_last: false, ..now.frame("start".to_owned(), "at-0-") });
             for (at, step) in trace.iter().enumerate().take(trace.len().saturating_sub(1)) {
                 for it in &step.changes {
-                    let place = net.places.iter().position(|place| place.name == it.place);
-                    place.into_iter().for_each(|place| now.marking[place] = it.after);
+                    if let Some(place) = net.places.iter().position(|place| place.name == it.place) {
+                        now.marking[place] = it.after;
+                    }
                 }
                 let fired = net.transitions.iter().position(|it| it.name == step.transition);
                 now.pointed = fired.map(|it| TransitionId(it as u32)).into_iter().collect();
@@ -95,7 +97,7 @@ impl Picture {
         let class = format!("at-{}", keys.join("-"));
         let mut out = format!("<h2>{heading}</h2>\n");
         if !self.culprits.is_empty() {
-            out += &format!("<style>{}</style>\n", self.rims(&format!(".{class}"), ""));
+            let _ = writeln!(out, "<style>{}</style>", self.rims(&format!(".{class}"), ""));
         }
         let highlight = Highlight { marking: Some(&self.marking), transitions: &self.pointed };
         let drawing = svg::write_highlighted(&self.net.view().net(), self.style, &highlight);

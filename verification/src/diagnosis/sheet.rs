@@ -86,6 +86,11 @@ impl Unused<'_> {
     }
 }
 
+/// A count to calculate pixels with; no drawing is a million characters wide.
+fn count(items: usize) -> i64 {
+    u32::try_from(items).map_or(1_000_000, |it| i64::from(it).min(1_000_000))
+}
+
 fn widest(frames: &[Frame]) -> i64 {
     frames.iter().map(|it| it.part.width).max().unwrap_or(0).max(180)
 }
@@ -93,7 +98,7 @@ fn widest(frames: &[Frame]) -> i64 {
 impl Sheet {
     /// An empty one, wide enough for about as many of these beside as below each other.
     fn around(frames: &[Frame]) -> Self {
-        let columns = (1..).find(|it| it * it >= frames.len() as i64).unwrap_or(1);
+        let columns = (1..=3).find(|it| it * it >= count(frames.len())).unwrap_or(3);
         let across = |columns: i64| columns * (widest(frames) + GAP) - GAP + 2 * MARGIN;
         let width = (1..=columns).map(across).take_while(|it| *it <= WIDEST).last().unwrap_or(across(1));
         Self { out: String::new(), y: MARGIN, width: WIDTH.max(width) }
@@ -120,7 +125,11 @@ impl Sheet {
             used += needed;
             for (part, is_name) in parts.into_iter().filter(|it| !it.0.is_empty()) {
                 let part = escape(part);
-                line += &if is_name { format!("<tspan class=\"strong\">{part}</tspan>") } else { part };
+                if is_name {
+                    let _ = write!(line, "<tspan class=\"strong\">{part}</tspan>");
+                } else {
+                    line += &part;
+                }
             }
         }
         if !line.is_empty() {
@@ -140,7 +149,7 @@ impl Sheet {
     fn lines(&mut self, text: &str) {
         self.y += GAP;
         for line in text.lines() {
-            self.width = self.width.max(line.chars().count() as i64 * MONO_WIDTH + 2 * MARGIN);
+            self.width = self.width.max(count(line.chars().count()) * MONO_WIDTH + 2 * MARGIN);
             // Not every reader keeps spaces.
             self.line("mono", MONO, &escape(&line.replace(' ', "\u{a0}")));
         }
@@ -154,7 +163,7 @@ impl Sheet {
             let top = self.y + GAP;
             let height = row.iter().map(|it| it.part.height).max().unwrap_or(0);
             for (at, frame) in row.iter().enumerate() {
-                let x = MARGIN + at as i64 * (widest + GAP);
+                let x = MARGIN + count(at) * (widest + GAP);
                 let mut caption = short(&frame.caption);
                 while bold_width(&caption, 12) > widest && caption.pop().is_some() {}
                 let last = if frame.is_last { " last" } else { "" };

@@ -6,7 +6,7 @@ use super::words::{name, printable, short_list};
 use crate::pt::Pt;
 use cotama_core::net::{Net, PlaceId, TransitionId};
 use serde::Serialize;
-use std::fmt;
+use std::fmt::{self, Write as _};
 
 /// Transitions that never fire and places that are never marked.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -123,9 +123,9 @@ impl<'n> Unused<'n> {
             if rows.is_empty() {
                 continue;
             }
-            out += &format!("<h2>{head}</h2>\n<div class=\"scroll\">\n<table>\n");
+            let _ = writeln!(out, "<h2>{head}</h2>\n<div class=\"scroll\">\n<table>");
             for it in rows {
-                out += &format!("<tr><td>{}</td><td>{}</td></tr>\n", code(&it.name), sentence(&it.why));
+                let _ = writeln!(out, "<tr><td>{}</td><td>{}</td></tr>", code(&it.name), sentence(&it.why));
             }
             out += "</table>\n</div>\n";
         }
