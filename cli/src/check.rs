@@ -73,7 +73,14 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
             Some(Err(error)) => {
                 screen.note(&format!("the run for {} cannot be shown: {error}", visible(&property.name)));
             }
-            None => files.no_trace(property, screen),
+            None => match explained::unused(&checker, property, &answer, &options) {
+                Some(unused) => {
+                    files.unused(position, &subject, &unused, screen)?;
+                    row.unused = Some(explained::unused_row(&unused));
+                    text = Some(unused.to_string());
+                }
+                None => files.no_trace(property, screen),
+            },
         }
         if !args.mcc {
             row.vacuous = explained::vacuity(&checker, &subject, property, &answer, &options);
@@ -158,6 +165,7 @@ fn row(subject: &Subject, property: &Property, answer: &Answer, seconds: f64) ->
         cause: None,
         trace: None,
         rest: None,
+        unused: None,
     }
 }
 

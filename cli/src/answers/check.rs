@@ -53,6 +53,27 @@ pub(crate) struct ResultRow {
     pub(crate) trace: Option<Vec<FiringRow>>,
     /// How the run goes on.
     pub(crate) rest: Option<RestRow>,
+    /// What no run uses, where a property is false because of it.
+    pub(crate) unused: Option<UnusedRow>,
+}
+
+/// What no run uses.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct UnusedRow {
+    /// Transitions that never fire.
+    pub(crate) transitions: Vec<NeverRow>,
+    /// Places that are never marked.
+    pub(crate) places: Vec<NeverRow>,
+    /// Whether these are all; otherwise a limit was reached, and there may be more.
+    pub(crate) is_complete: bool,
+}
+
+/// A transition that never fires, or a place that is never marked.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct NeverRow {
+    pub(crate) name: String,
+    /// Why, as far as single places and transitions tell; names stand in backticks.
+    pub(crate) why: String,
 }
 
 /// The time from a firing to a marking, of `bound(t -> p)`; null if the transition never fires.

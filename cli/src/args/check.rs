@@ -28,6 +28,9 @@ pass through markings.
 Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
 
+Where quasi_live or live is false because transitions never fire, these are listed, and the places
+that are never marked; in --json as `unused`.
+
 Exit codes: 0 all are true, or their bounds are known; 1 one is false; 3 none is false and one is
 not known; 2 bad input.
 
@@ -106,7 +109,7 @@ pub(crate) struct CheckArgs {
     /// Writes evidence for the verdict that `cotama verify` checks again
     #[arg(long, value_name = "FILE")]
     pub(crate) certificate: Option<PathBuf>,
-    /// Writes the run that shows the verdict: as a page (.html) or as JSON (.json)
+    /// Writes the run that shows the verdict: as a page (.html), a drawing (.svg) or JSON (.json)
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
     /// Prints the lines of the Model Checking Contest

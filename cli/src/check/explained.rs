@@ -1,9 +1,9 @@
 //! Why a verdict is as it is: by a run, or that it holds for a reason that is none.
 
-use crate::answers::check::{ChangeRow, FiringRow, RestRow};
+use crate::answers::check::{ChangeRow, FiringRow, NeverRow, RestRow, UnusedRow};
 use crate::subject::Subject;
 use cotama_verification::check::{Answer, Checker, Options, Verdict};
-use cotama_verification::diagnosis::{Case, Diagnosis, NotARun, Run, Step, vacuous};
+use cotama_verification::diagnosis::{Case, Diagnosis, Never, NotARun, Run, Step, Unused, vacuous};
 use cotama_verification::explicit::Limits;
 use cotama_verification::property::{Property, Question};
 use cotama_verification::temporal::Rest;
@@ -11,6 +11,9 @@ use cotama_verification::temporal::Rest;
 /// What may be asked to find out whether a property holds vacuously: so many questions, each among so many markings.
 const QUESTIONS: usize = 8;
 const MARKINGS: u64 = 100_000;
+
+/// Among so many markings it is looked for all that no run uses, where the verdict did not need them all.
+const UNUSED: u64 = 1_000_000;
 
 /// The run of an answer, explained, if there is one.
 pub(super) fn diagnosis(
@@ -58,6 +61,29 @@ pub(super) fn rest(diagnosis: &Diagnosis) -> RestRow {
         Some(at) => RestRow::LoopFrom(at as u64),
         None if diagnosis.deadlock => RestRow::Deadlock,
         None => RestRow::Any,
+    }
+}
+
+/// What no run uses, if a property is false because of it.
+pub(super) fn unused<'m>(
+    checker: &Checker<'m>,
+    property: &Property,
+    answer: &Answer,
+    options: &Options<'_>,
+) -> Option<Unused<'m>> {
+    let asks = matches!(property.question, Question::QuasiLiveness | Question::Liveness);
+    let limits = Limits { states: options.limits.states.min(UNUSED), ..options.limits };
+    let options = Options { limits, ..*options };
+    let asked = (asks && answer.verdict == Verdict::Holds(false)).then(|| checker.unused(&options));
+    asked.filter(|it| !it.transitions.is_empty())
+}
+
+pub(super) fn unused_row(unused: &Unused<'_>) -> UnusedRow {
+    let rows = |all: Vec<Never>| all.into_iter().map(|it| NeverRow { name: it.name, why: it.why }).collect();
+    UnusedRow {
+        transitions: rows(unused.never_fired()),
+        places: rows(unused.never_marked()),
+        is_complete: unused.is_complete,
     }
 }
 

@@ -102,6 +102,15 @@ impl Limit {
     }
 }
 
+/// A search that ended before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unfinished {
+    /// Why.
+    pub limit: Limit,
+    /// Markings that it met.
+    pub states: u64,
+}
+
 /// How far a search is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
