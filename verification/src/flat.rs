@@ -10,12 +10,15 @@
 //! complement, `net.place.absent`.
 
 mod branch;
+mod lowered;
 mod observer;
 mod rounds;
 mod turn;
+mod walk;
 
-pub use observer::Observer;
-pub use rounds::{Part, Rounds, Size, rounds};
+pub use observer::{Looks, Observer};
+pub use rounds::{Part, Rounds, rounds};
+pub use walk::{Happened, Size};
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Defect, EventId, Net, OutputId, Place, PlaceId, Role, Transition};

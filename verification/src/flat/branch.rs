@@ -33,11 +33,6 @@ impl Known {
         self.bounds.push(if bound == Place::UNBOUNDED { NO_BOUND } else { i64::from(bound) });
     }
 
-    /// A further sum.
-    pub(super) fn remember(&mut self, sum: Sum) {
-        self.sums.push(sum);
-    }
-
     pub(super) fn bound(&self, place: PlaceId) -> i64 {
         self.bounds.get(place.0 as usize).copied().unwrap_or(NO_BOUND)
     }

@@ -1,60 +1,57 @@
 //! What remembers something from round to round.
 
 use super::FlatError;
-use super::branch::{Branch, Held, NO_BOUND, Sum, branches};
+use super::branch::{Branch, Held, NO_BOUND, branches};
 use super::rounds::{Part, Path, Rounds};
 use crate::property::{self, Atom, Formula, Linear, PropertyError, Question};
 use crate::pt::Pt;
-use cotama_core::net::PlaceId;
 
-/// Looks at the marking at the end of each round, and goes from one of its states to another. It changes nothing else, so that
-/// properties about rounds become properties about markings, for every engine.
+/// When an [`Observer`] looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Looks {
+    /// When all nets have taken their turns, and what is outside has not.
+    BeforeOutside,
+    /// At the end of the round.
+    AtEnd,
+}
+
+/// Looks at the marking once a round, and counts. It changes nothing else, so that properties about rounds become
+/// properties about markings, for every engine.
 ///
-/// Each state becomes a place, `observer.state`. Observers look one after the other, in the order in which they came, before `round` is
-/// marked.
+/// Its state is a number from 0 on, the tokens of a place that has its name. Those that look at the same time do it one after
+/// the other, in the order in which they came, before `turn.outside` or `round` is marked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observer {
     /// Its name.
     pub name: String,
-    /// The names of its states; it starts in the first one.
-    pub states: Vec<String>,
-    /// How it goes on: the first of these that is from its state and whose formula is true, by positions in `states`; without one it
-    /// stays.
-    pub steps: Vec<(usize, Formula, usize)>,
+    /// When it looks.
+    pub looks: Looks,
+    /// The largest state.
+    pub most: u32,
+    /// How it goes on: the first of these that is from its state and whose formula is true; without one it stays.
+    pub steps: Vec<(u32, Formula, u32)>,
 }
 
 impl Observer {
-    /// Counts at the ends of how many rounds something lasts: a duty that the first formula begins and the second one ends, but no
-    /// sooner than a round later.
+    /// Counts in how many rounds something lasts, each time that it looks: a duty that the first formula begins and the second
+    /// one ends, but no sooner than a round later. It counts up to `most`, and a further beginning while one lasts counts
+    /// no second time.
     ///
-    /// Its states are `none`, `1` and so on to this many rounds, and `late` after that. A further beginning while one lasts counts no
-    /// second time.
-    pub fn lasting(name: &str, begins: &Formula, ends: &Formula, rounds: usize) -> Self {
-        let mut states = vec!["none".to_owned()];
-        states.extend((1..=rounds).map(|it| it.to_string()));
-        states.push("late".to_owned());
+    /// So `bounds(name)` is the worst case in rounds, where it is less than `most`.
+    pub fn lasting(name: &str, looks: Looks, begins: &Formula, ends: &Formula, most: u32) -> Self {
         let mut steps = Vec::new();
-        for state in 1..states.len() {
-            let next = (state + 1).min(rounds + 1);
-            steps.push((state, Formula::Not(Box::new(ends.clone())), next));
+        for state in 1..=most {
+            steps.push((state, Formula::Not(Box::new(ends.clone())), (state + 1).min(most)));
             steps.push((state, begins.clone(), 1));
             steps.push((state, Formula::TRUE, 0));
         }
         steps.push((0, begins.clone(), 1));
-        Self { name: name.to_owned(), states, steps }
+        Self { name: name.to_owned(), looks, most, steps }
     }
 
-    /// Counts how many rounds in a row end with something.
-    pub fn in_a_row(name: &str, what: &Formula, rounds: usize) -> Self {
-        Self::lasting(name, what, &Formula::Not(Box::new(what.clone())), rounds)
-    }
-
-    /// A question: the largest position of a state that is ever reached. Of [`Observer::lasting`], at the ends of how many rounds it
-    /// lasts at most; one more than was asked for says that it lasts longer.
-    pub fn farthest(&self) -> String {
-        let state = |(name, at): (&String, usize)| format!("{at} * \"{}.{name}\"", self.name);
-        let sum: Vec<_> = self.states.iter().zip(0..).skip(1).map(state).collect();
-        format!("bounds({})", sum.join(" + "))
+    /// Counts in how many rounds in a row something is so when it looks, up to `most`.
+    pub fn in_a_row(name: &str, looks: Looks, what: &Formula, most: u32) -> Self {
+        Self::lasting(name, looks, what, &Formula::Not(Box::new(what.clone())), most)
     }
 }
 
@@ -78,41 +75,37 @@ impl Rounds {
     /// When it looks at more than sums of tokens of bounded places, or the net would be too large.
     pub fn observe(&mut self, observer: &Observer) -> Result<(), FlatError> {
         let unsuited = || FlatError::Condition { observer: observer.name.clone() };
-        let count = observer.states.len();
-        for (from, when, to) in &observer.steps {
-            if *from >= count || *to >= count || !self.can_be_seen(when) {
-                return Err(unsuited());
-            }
+        let is_sound = |(from, when, to): &(u32, Formula, u32)| {
+            *from.max(to) <= observer.most && self.can_be_seen(when)
+        };
+        if !observer.steps.iter().all(is_sound) {
+            return Err(unsuited());
         }
-        let looks = self.place(&format!("{}.looks", observer.name), "The observer looks.", 0);
-        let places = observer.states.iter().zip(0..).map(|(state, at)| {
-            self.place(&format!("{}.{state}", observer.name), "A state of the observer.", u32::from(at == 0))
-        });
-        let places: Vec<PlaceId> = places.collect();
+        let looks = self.place(&format!("{}.looks", observer.name), "The observer looks.", 0, 1);
+        let place = self.place(&observer.name, "What the observer counts.", 0, observer.most);
+        let then = match observer.looks {
+            Looks::BeforeOutside => self.outside,
+            Looks::AtEnd => self.round,
+        };
         for path in &mut self.paths {
-            if path.change.get(&self.round) == Some(&1) {
-                path.change.remove(&self.round);
+            if path.change.get(&then) == Some(&1) {
+                path.change.remove(&then);
                 path.change.insert(looks, 1);
             }
         }
-        self.known.remember(Sum { weights: places.iter().map(|&it| (it, 1)).collect(), total: 1 });
         let known = self.known.clone();
-        for (from, &place) in places.iter().enumerate() {
-            let ways = branches(&known, &Held::from([(place, (1, 1))]), |branch| {
-                let steps = observer.steps.iter().filter(|it| it.0 == from);
-                let next = steps.into_iter().find(|it| holds(branch, &it.1)).map_or(from, |it| it.2);
-                if next != from {
-                    branch.add(place, -1);
-                    branch.add(places[next], 1);
-                }
+        for from in 0..=observer.most {
+            let tokens = i64::from(from);
+            let held = Held::from([(place, (tokens, tokens))]);
+            let ways = branches(&known, &held, |branch| {
+                let mut steps = observer.steps.iter().filter(|it| it.0 == from);
+                let next = steps.find(|it| holds(branch, &it.1)).map_or(from, |it| it.2);
+                branch.add(place, i64::from(next) - tokens);
                 Ok(next)
             });
-            for (mut branch, next) in ways? {
-                let name = format!("{}: {}", observer.name, observer.states[next]);
-                branch.held.insert(place, (1, 1));
-                let mut path = Path::new(Part::Between, name, looks, self.round, &branch);
-                path.held.insert(place, (1, 1));
-                self.push(path)?;
+            for (branch, next) in ways? {
+                let name = format!("{}: {next}", observer.name);
+                self.push(Path::new(Part::Between, name, looks, then, &branch))?;
             }
         }
         Ok(())

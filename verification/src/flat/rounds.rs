@@ -12,9 +12,8 @@
 use super::branch::{Branch, Held, Known, branches};
 use super::turn::{Answer, Moves, Play};
 use super::{Flat, FlatError, MOST_TRANSITIONS};
-use crate::explicit::Graph;
-use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{EventId, OutputId, Place, PlaceId, Role, TransitionId};
+use cotama_core::net::owned::{OwnedNet, OwnedPlace};
+use cotama_core::net::{EventId, OutputId, PlaceId, TransitionId};
 use cotama_core::system::{Delivery, Of, System};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -65,21 +64,12 @@ pub struct Rounds {
     /// All but transitions.
     pub(super) draft: OwnedNet,
     /// The complements that are there already, by place.
-    absent: BTreeMap<PlaceId, PlaceId>,
+    pub(super) absent: BTreeMap<PlaceId, PlaceId>,
     pub(super) known: Known,
     pub(super) paths: Vec<Path>,
     /// Marked between two rounds.
     pub(super) round: PlaceId,
-    outside: PlaceId,
-}
-
-/// How large a system is that acts in rounds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Size {
-    /// Markings between two rounds.
-    pub states: u64,
-    /// Pairs of such a marking and what can come from outside in the round after it, nothing among it.
-    pub edges: u64,
+    pub(super) outside: PlaceId,
 }
 
 /// What takes its turn, in order.
@@ -169,14 +159,13 @@ impl Rounds {
                 *initial = u32::try_from(i64::from(*initial) + change).unwrap_or(*initial);
             }
         }
-        rounds.round = rounds.place("round", "One round has ended, and the next one has not begun.", 1);
+        rounds.round = rounds.place("round", "One round has ended, and the next one has not begun.", 1, 1);
         Ok(rounds)
     }
 
-    pub(super) fn place(&mut self, name: &str, doc: &str, initial: u32) -> PlaceId {
-        self.known.add(1);
-        let place = OwnedPlace { initial, ..OwnedPlace::new(name, 0) };
-        self.draft.places.push(place.at_most(1).doc(doc));
+    pub(super) fn place(&mut self, name: &str, doc: &str, initial: u32, bound: u32) -> PlaceId {
+        self.known.add(bound);
+        self.draft.places.push(OwnedPlace::new(name, initial).at_most(bound).doc(doc));
         PlaceId(self.draft.places.len() as u32 - 1)
     }
 
@@ -191,7 +180,7 @@ impl Rounds {
         for component in 0..flat.components() {
             let (name, net) = flat.component(component);
             if moves.settles(component) {
-                let at = self.place(&format!("{turn}.{name}"), &format!("{name} settles."), 0);
+                let at = self.place(&format!("{turn}.{name}"), &format!("{name} settles."), 0, 1);
                 items.push(Item::Settle { at, component });
             }
             for (event, number) in net.events.iter().zip(0..) {
@@ -201,11 +190,11 @@ impl Rounds {
                 let label = format!("{turn}.{name}.{}", event.name);
                 let doc = format!("{name} reads {}.", event.name);
                 let left = |left: u16| if left == 1 { label.clone() } else { format!("{label}.{left}") };
-                let at = (1..=capacity).map(|it| self.place(&left(it), &doc, 0)).collect();
+                let at = (1..=capacity).map(|it| self.place(&left(it), &doc, 0, 1)).collect();
                 items.push(Item::Read { event: event_of, waiting, at });
             }
         }
-        self.outside = self.place(&format!("{turn}.outside"), "What is outside may do one thing.", 0);
+        self.outside = self.place(&format!("{turn}.outside"), "What is outside may do one thing.", 0, 1);
         items
     }
 
@@ -218,7 +207,7 @@ impl Rounds {
                 Some(last) if at + 1 < items.len() => {
                     let name = self.label(last);
                     let name = name.replacen("turn", "after", 1);
-                    self.place(&name, "The token goes on to the next mailbox that is not empty.", 0)
+                    self.place(&name, "The token goes on to the next mailbox that is not empty.", 0, 1)
                 }
                 _ => self.outside,
             };
@@ -377,94 +366,4 @@ impl Rounds {
     pub const fn outside(&self) -> PlaceId {
         self.outside
     }
-
-    /// Counts rounds in the graph of the net.
-    pub fn size(&self, graph: &Graph) -> Size {
-        let mut size = Size::default();
-        for state in 0..graph.states() as u32 {
-            let marked = |state: u32, place: PlaceId| graph.marking(state)[place.0 as usize] > 0;
-            if !marked(state, self.round) {
-                continue;
-            }
-            let mut at = state;
-            while !marked(at, self.outside) {
-                // Until then one transition is enabled in each marking, and none twice.
-                let Some(&next) = graph.successors(at).first() else { break };
-                at = next;
-            }
-            size.states += 1;
-            size.edges += graph.successors(at).len() as u64;
-        }
-        size
-    }
-
-    /// The net. Its places are those of [`flat`](super::flat()), then those of the round, of observers, and complements.
-    ///
-    /// # Errors
-    /// When the absence of tokens in a place without a bound decides.
-    pub fn net(&self) -> Result<OwnedNet, FlatError> {
-        let (mut net, mut absent) = (self.draft.clone(), self.absent.clone());
-        let bound = |place: PlaceId| self.draft.places[place.0 as usize].bound;
-        let held = self.paths.iter().flat_map(|it| &it.held);
-        let from_above = held.filter(|it| it.1.1 < self.known.bound(*it.0)).map(|it| *it.0);
-        let wanted: BTreeSet<PlaceId> = from_above.filter(|it| !self.absent.contains_key(it)).collect();
-        for place in wanted {
-            let of = &self.draft.places[place.0 as usize];
-            if of.bound == Place::UNBOUNDED {
-                return Err(FlatError::Unbounded { place: of.name.clone() });
-            }
-            let role = Role::Complement(place);
-            let (name, doc) = (format!("{}.absent", of.name), of.doc.clone());
-            let initial = of.bound - of.initial;
-            net.places.push(OwnedPlace { name, doc, initial, bound: of.bound, role });
-            absent.insert(place, PlaceId(net.places.len() as u32 - 1));
-        }
-        let mut names: BTreeMap<&str, u32> = BTreeMap::new();
-        for path in &self.paths {
-            let (mut needs, mut changes) = (BTreeMap::new(), BTreeMap::new());
-            for (&place, &(low, high)) in &path.held {
-                needs.insert(place, low);
-                if let Some(&absent) = absent.get(&place) {
-                    needs.insert(absent, i64::from(bound(place)) - high);
-                }
-            }
-            for (&place, &change) in &path.change {
-                changes.insert(place, change);
-                if let Some(&absent) = absent.get(&place) {
-                    changes.insert(absent, -change);
-                }
-            }
-            let count = names.entry(&path.name).and_modify(|it| *it += 1).or_insert(1);
-            let name = if *count == 1 { path.name.clone() } else { format!("{} #{count}", path.name) };
-            let mut it = OwnedTransition::new(&name).doc(&path.doc);
-            (it.on, it.emits) = (path.on, path.emits.clone());
-            let it = with_arcs(it, &needs, &changes);
-            net.transition(it).map_err(|_| FlatError::TooMany)?;
-        }
-        Ok(net)
-    }
-}
-
-fn with_arcs(
-    mut it: OwnedTransition,
-    needs: &BTreeMap<PlaceId, i64>,
-    changes: &BTreeMap<PlaceId, i64>,
-) -> OwnedTransition {
-    let places: BTreeSet<PlaceId> = needs.keys().chain(changes.keys()).copied().collect();
-    let weight = |tokens: i64| u32::try_from(tokens).unwrap_or(u32::MAX);
-    for place in places {
-        let change = changes.get(&place).copied().unwrap_or(0);
-        let need = needs.get(&place).copied().unwrap_or(0).max(-change);
-        if change == 0 && need > 0 {
-            it = it.read(place, weight(need));
-            continue;
-        }
-        if need > 0 {
-            it = it.take(place, weight(need));
-        }
-        if need + change > 0 {
-            it = it.give(place, weight(need + change));
-        }
-    }
-    it
 }
