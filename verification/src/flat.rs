@@ -94,7 +94,10 @@ impl fmt::Display for FlatError {
                 write!(f, "the net {net} does not settle: its transitions without event fire again and again")
             }
             Self::Condition { observer } => {
-                write!(f, "{observer} can only look at one marking, and compare sums of tokens of bounded places")
+                write!(
+                    f,
+                    "{observer} can only look at one marking, and compare sums of tokens of bounded places"
+                )
             }
         }
     }

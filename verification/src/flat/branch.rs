@@ -14,6 +14,14 @@ pub(super) struct Sum {
     pub(super) total: i64,
 }
 
+impl Sum {
+    /// Whether it stays the same when tokens change so.
+    pub(super) fn stays(&self, change: &BTreeMap<PlaceId, i64>) -> bool {
+        let weighed = |it: &(PlaceId, i64)| change.get(&it.0).map_or(0, |change| change * it.1);
+        self.weights.iter().map(weighed).sum::<i64>() == 0
+    }
+}
+
 /// What is known of all reachable markings.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Known {
@@ -46,6 +54,8 @@ pub(super) type Held = BTreeMap<PlaceId, (i64, i64)>;
 pub(super) struct Branch<'k> {
     known: &'k Known,
     pub(super) held: Held,
+    /// What follows from it, by place.
+    ranges: Vec<(i64, i64)>,
     pub(super) change: BTreeMap<PlaceId, i64>,
     /// How tests that can turn out either way turn out.
     script: Vec<bool>,
@@ -54,7 +64,8 @@ pub(super) struct Branch<'k> {
 
 impl<'k> Branch<'k> {
     pub(super) fn new(known: &'k Known, held: Held) -> Self {
-        Self { known, held, change: BTreeMap::new(), script: Vec::new(), next: 0 }
+        let ranges = spread(known, &held);
+        Self { known, held, ranges, change: BTreeMap::new(), script: Vec::new(), next: 0 }
     }
 
     pub(super) fn add(&mut self, place: PlaceId, tokens: i64) {
@@ -64,7 +75,7 @@ impl<'k> Branch<'k> {
     /// Whether a place holds at least so many tokens by now.
     pub(super) fn holds(&mut self, place: PlaceId, tokens: i64) -> bool {
         let least = tokens - self.change.get(&place).copied().unwrap_or(0);
-        let (low, high) = range(self.known, &self.held, place);
+        let (low, high) = self.at_start(place);
         if low >= least || high < least {
             return low >= least;
         }
@@ -79,14 +90,19 @@ impl<'k> Branch<'k> {
         } else {
             held.1 = least - 1;
         }
+        self.ranges = spread(self.known, &self.held);
         found
     }
 
     /// The least and the most tokens that a place can hold by now.
     pub(super) fn range(&self, place: PlaceId) -> (i64, i64) {
-        let (low, high) = range(self.known, &self.held, place);
+        let (low, high) = self.at_start(place);
         let change = self.change.get(&place).copied().unwrap_or(0);
         (low + change, high + change)
+    }
+
+    fn at_start(&self, place: PlaceId) -> (i64, i64) {
+        self.ranges.get(place.0 as usize).copied().unwrap_or((0, NO_BOUND))
     }
 
     /// What the tests have found, without what follows from the rest of it.
@@ -97,7 +113,7 @@ impl<'k> Branch<'k> {
             for side in [|it: &mut (i64, i64), bound| it.1 = bound, |it: &mut (i64, i64), _| it.0 = 0] {
                 let mut fewer = held.clone();
                 fewer.entry(place).and_modify(|it| side(it, bound));
-                if range(self.known, &fewer, place) == range(self.known, &held, place) {
+                if spread(self.known, &fewer) == spread(self.known, &held) {
                     held = fewer;
                 }
             }
@@ -107,22 +123,42 @@ impl<'k> Branch<'k> {
     }
 }
 
-/// What a place can hold, as far as this is known of it and of others.
-fn range(known: &Known, held: &Held, place: PlaceId) -> (i64, i64) {
-    let own = |place| held.get(&place).copied().unwrap_or((0, known.bound(place)));
-    let (mut low, mut high) = own(place);
-    for sum in &known.sums {
-        let Some(&(_, weight)) = sum.weights.iter().find(|it| it.0 == place) else { continue };
-        let (mut least, mut most) = (0, 0);
-        for &(other, weight) in sum.weights.iter().filter(|it| it.0 != place) {
-            let (low, high) = own(other);
-            least += weight * low;
-            most += (weight * high.min(sum.total)).min(sum.total);
+/// What each place can hold where these tokens are held, as far as this follows from bounds and sums; what cannot be at all is
+/// not followed to its end.
+fn spread(known: &Known, held: &Held) -> Vec<(i64, i64)> {
+    let mut ranges: Vec<(i64, i64)> = known.bounds.iter().map(|&bound| (0, bound)).collect();
+    for (place, &range) in held {
+        if let Some(it) = ranges.get_mut(place.0 as usize) {
+            *it = range;
         }
-        high = high.min((sum.total - least) / weight);
-        low = low.max((sum.total - most + weight - 1).div_euclid(weight));
     }
-    (low, high)
+    let mut goes_on = true;
+    while goes_on {
+        goes_on = false;
+        for sum in &known.sums {
+            let weighed = |it: &(PlaceId, i64)| {
+                let (low, high) = ranges[it.0.0 as usize];
+                (it.1 * low, it.1 * high.min(sum.total))
+            };
+            let (least, most) =
+                sum.weights.iter().map(weighed).fold((0, 0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+            let before: Vec<_> = sum.weights.iter().map(weighed).collect();
+            for (&(place, weight), own) in sum.weights.iter().zip(before) {
+                let (low, high) = ranges[place.0 as usize];
+                let (least, most) = (least - own.0, most - own.1);
+                let new = (
+                    low.max((sum.total - most + weight - 1).div_euclid(weight)),
+                    high.min((sum.total - least).div_euclid(weight)),
+                );
+                if new.0 > new.1 {
+                    return ranges;
+                }
+                goes_on |= new != (low, high);
+                ranges[place.0 as usize] = new;
+            }
+        }
+    }
+    ranges
 }
 
 /// Every way through a step that starts where these tokens are held: no marking takes two of them, and each takes one.

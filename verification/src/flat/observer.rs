@@ -75,9 +75,8 @@ impl Rounds {
     /// When it looks at more than sums of tokens of bounded places, or the net would be too large.
     pub fn observe(&mut self, observer: &Observer) -> Result<(), FlatError> {
         let unsuited = || FlatError::Condition { observer: observer.name.clone() };
-        let is_sound = |(from, when, to): &(u32, Formula, u32)| {
-            *from.max(to) <= observer.most && self.can_be_seen(when)
-        };
+        let is_sound =
+            |(from, when, to): &(u32, Formula, u32)| *from.max(to) <= observer.most && self.can_be_seen(when);
         if !observer.steps.iter().all(is_sound) {
             return Err(unsuited());
         }

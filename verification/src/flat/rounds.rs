@@ -74,9 +74,16 @@ pub struct Rounds {
 
 /// What takes its turn, in order.
 enum Item {
-    Settle { at: PlaceId, component: u16 },
+    Settle {
+        at: PlaceId,
+        component: u16,
+    },
     /// The mailbox, where the token lies while so many more are to be read, from one on, and where it lies afterwards.
-    Read { event: Of<EventId>, waiting: PlaceId, at: Vec<PlaceId> },
+    Read {
+        event: Of<EventId>,
+        waiting: PlaceId,
+        at: Vec<PlaceId>,
+    },
 }
 
 impl Item {
@@ -118,11 +125,23 @@ pub fn rounds(system: &System<'_>) -> Result<Rounds, FlatError> {
     }
     let flat = Flat::new(system, BTreeSet::new());
     let moves = Moves::new(&flat)?;
-    let mut rounds = Rounds::begin(&flat, &moves)?;
-    let items = rounds.items(&flat, &moves);
-    rounds.turns(&moves, &items)?;
-    rounds.from_outside(&flat, &moves)?;
-    Ok(rounds)
+    let begun = Rounds::begin(&flat, &moves)?;
+    // What is the same at the start, and stays so in every way that there is where it is so, is always the same. Ways that there
+    // are not otherwise are left out: those of nets that meet in one step are many.
+    let mut guesses = moves.guesses(&flat, &begun.draft.places);
+    loop {
+        let mut rounds = begun.clone();
+        let bounds = rounds.draft.places.iter().map(|it| it.bound);
+        rounds.known = Known::new(bounds, moves.sums.iter().chain(&guesses).cloned().collect());
+        let items = rounds.items(&flat, &moves);
+        rounds.turns(&moves, &items)?;
+        rounds.from_outside(&flat, &moves)?;
+        let before = guesses.len();
+        guesses.retain(|sum| rounds.paths.iter().all(|path| sum.stays(&path.change)));
+        if guesses.len() == before {
+            return Ok(rounds);
+        }
+    }
 }
 
 impl Rounds {
@@ -279,7 +298,7 @@ impl Rounds {
 
     /// Over empty mailboxes to the first one that is not, to a net that settles, or to what is outside.
     fn go_on(&mut self, from: PlaceId, items: &[Item]) {
-        let known = Known::default();
+        let known = self.known.clone();
         let mut empty = Held::new();
         for item in items {
             match item {

@@ -2,10 +2,11 @@
 
 use super::branch::{Branch, Sum};
 use super::{Flat, FlatError};
+use cotama_core::net::owned::OwnedPlace;
 use cotama_core::net::{EventId, Law, Net, OutputId, PlaceId, Role, Transition};
-use cotama_core::system::{Of, SETTLE};
+use cotama_core::system::{Delivery, Link, Of, SETTLE};
 use std::cmp::Reverse;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A transition of one of the nets. Complements are said as what their places hold at most.
 #[derive(Clone, Debug)]
@@ -74,18 +75,61 @@ impl Moves {
 
     /// Whether no transition changes a sum.
     fn keep(&self, sum: &Sum) -> bool {
-        let all = self.on.iter().flatten().chain(&self.urgent).flatten();
-        let gain = |it: &Move| {
-            let weight = |(place, weight): &(PlaceId, i64)| it.changes.get(place).map_or(0, |n| n * weight);
-            sum.weights.iter().map(weight).sum::<i64>()
-        };
-        all.map(gain).all(|it| it == 0)
+        self.on.iter().flatten().chain(&self.urgent).flatten().all(|it| sum.stays(&it.changes))
+    }
+
+    /// What may stay the same in each step: a place of a net whose every change makes something happen at once in another one,
+    /// and a place of that one that changes only then; one of them is marked at the start.
+    pub(super) fn guesses(&self, flat: &Flat<'_>, initial: &[OwnedPlace]) -> Vec<Sum> {
+        let meets = |link: &&Link| link.delivery == Delivery::Now;
+        let links: Vec<_> = flat.system.links.iter().filter(meets).collect();
+        let meetings: BTreeSet<_> = links.iter().map(|it| (it.from.component, it.to.component)).collect();
+        let tokens = |place: PlaceId| initial[place.0 as usize].initial;
+        let mut guesses = Vec::new();
+        for (from, to) in meetings {
+            let tells =
+                |it: &Move| it.says.iter().any(|it| matches!(it, Said::Now(of) if of.component == to));
+            let told = |on: usize| {
+                links.iter().any(|it| {
+                    it.from.component == from && it.to == Of { component: to, id: EventId(on as u32) }
+                })
+            };
+            let rows = |of: u16| {
+                self.on[usize::from(of)]
+                    .iter()
+                    .enumerate()
+                    .map(|(on, row)| (Some(on), row))
+                    .chain([(None, &self.urgent[usize::from(of)])])
+            };
+            let teller = changed(rows(from), |_, it| tells(it));
+            let listener = changed(rows(to), |on, _| on.is_some_and(told));
+            for (&a, &b) in teller.iter().flat_map(|a| listener.iter().map(move |b| (a, b))) {
+                if tokens(a).min(tokens(b)) == 0 && tokens(a).max(tokens(b)) == 1 {
+                    guesses.push(Sum { weights: vec![(a, 1), (b, 1)], total: 1 });
+                }
+            }
+        }
+        guesses
     }
 
     /// Whether something in a net fires at once by itself.
     pub(super) fn settles(&self, component: u16) -> bool {
         !self.urgent[usize::from(component)].is_empty()
     }
+}
+
+/// The places that only such transitions change, and some do.
+fn changed<'m>(
+    rows: impl Iterator<Item = (Option<usize>, &'m Vec<Move>)>,
+    only: impl Fn(Option<usize>, &Move) -> bool,
+) -> BTreeSet<PlaceId> {
+    let mut is_only = BTreeMap::new();
+    for (on, it) in rows.flat_map(|(on, row)| row.iter().map(move |it| (on, it))) {
+        for place in it.changes.iter().filter(|it| *it.1 != 0).map(|it| *it.0) {
+            *is_only.entry(place).or_insert(true) &= only(on, it);
+        }
+    }
+    is_only.into_iter().filter(|it| it.1).map(|it| it.0).collect()
 }
 
 /// Where a place of a component is, and whether it is the complement of what is there.

@@ -9,9 +9,9 @@ use cotama_verification::flat::{Looks, Observer, Rounds, Size, rounds};
 use cotama_verification::property::{self, Formula, Property, Question};
 use cotama_verification::pt::Pt;
 
-/// A property by its name: what it takes to remember, and what is never so. `AS3` alone is about runs.
-pub struct Asked {
-    pub name: &'static str,
+/// A property by its name: what it takes to remember, and what is always so.
+pub(crate) struct Asked {
+    pub(crate) name: &'static str,
     observers: &'static [(&'static str, Looks, &'static str, &'static str)],
     always: &'static str,
 }
@@ -19,31 +19,28 @@ pub struct Asked {
 const AUTONOMOUS: &str = "(pf.Optimal | pf.Reduced | pf.Odometric)";
 
 /// What is lost, and where it is used.
-pub const LOSSES: [(&str, &str); 5] = [
+pub(crate) const LOSSES: [(&str, &str); 5] = [
     ("mcl", "pf.Optimal | pf.Reduced"),
     ("sonar", "pf.Optimal | pf.Reduced | pf.Odometric | to.Full"),
     ("camera", "to.Full | to.Degraded"),
     ("wifi", "to.Full | to.Degraded"),
-    (
-        "vital",
-        "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded",
-    ),
+    ("vital", "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded"),
 ];
 
 /// The observers: name, when they look, what begins, what ends.
-pub const HARD: (&str, Looks, &str, &str) = (
+pub(crate) const HARD: (&str, Looks, &str, &str) = (
     "hard",
     Looks::AtEnd,
     "cs.ambiguous.waiting | cs.collision.waiting | cs.planner.waiting | cs.camera.waiting",
     "!(cs.ambiguous.waiting | cs.collision.waiting | cs.planner.waiting | cs.camera.waiting)",
 );
-pub const ANSWER: (&str, Looks, &str, &str) = (
+pub(crate) const ANSWER: (&str, Looks, &str, &str) = (
     "answer",
     Looks::BeforeOutside,
     "hard & (ls.local_event.waiting | gs.global_event.waiting)",
     "ls.HandOver | gs.Security | gs.Safe",
 );
-pub const ALONE: (&str, Looks, &str, &str) = (
+pub(crate) const ALONE: (&str, Looks, &str, &str) = (
     "alone",
     Looks::AtEnd,
     "(ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) & !env.wifi",
@@ -51,7 +48,7 @@ pub const ALONE: (&str, Looks, &str, &str) = (
 );
 const RESTING: (&str, Looks, &str, &str) = ("resting", Looks::BeforeOutside, "pf.Off", "!pf.Off");
 
-pub const ASKED: [Asked; 10] = [
+pub(crate) const ASKED: [Asked; 10] = [
     Asked {
         name: "GS2",
         observers: &[],
@@ -93,20 +90,34 @@ pub const ASKED: [Asked; 10] = [
 ];
 
 /// Adds an observer that counts up to `most`.
-pub fn watch(rounds: &mut Rounds, (name, looks, begins, ends): (&str, Looks, &str, &str), most: u32) {
+pub(crate) fn watch(rounds: &mut Rounds, (name, looks, begins, ends): (&str, Looks, &str, &str), most: u32) {
     let [begins, ends] = [begins, ends].map(|it| rounds.condition(it).unwrap());
     rounds.observe(&Observer::lasting(name, looks, &begins, &ends, most)).unwrap();
 }
 
 /// Counts in how many rounds in a row something that is lost is used.
-pub fn watch_loss(rounds: &mut Rounds, (lost, used): (&str, &str), most: u32) {
+pub(crate) fn watch_loss(rounds: &mut Rounds, (lost, used): (&str, &str), most: u32) {
     let what = rounds.condition(&format!("!env.{lost} & ({used})")).unwrap();
     rounds.observe(&Observer::in_a_row(&format!("without_{lost}"), Looks::AtEnd, &what, most)).unwrap();
 }
 
+/// The rank of what runs, from nothing to `Degraded`; 5 when it became less without a stop. A stop and a start in one round have the
+/// turn of the environment between them.
+fn ranks(rounds: &Rounds) -> Observer {
+    let runs = ["pf.Off", "pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Degraded"];
+    let steps = (0..5).flat_map(|from| {
+        runs.iter().zip(0..).map(move |(run, rank)| {
+            let to = if rank > 0 && rank < from { 5 } else { rank };
+            (from, rounds.condition(run).unwrap(), to)
+        })
+    });
+    let steps = steps.collect();
+    Observer { name: "rank".to_owned(), looks: Looks::BeforeOutside, most: 5, steps }
+}
+
 impl Asked {
     /// What it says, and the rounds in which its observers look.
-    pub fn of(&self, system: &System<'_>) -> (Rounds, Pt, Property) {
+    pub(crate) fn of(&self, system: &System<'_>) -> (Rounds, Pt, Property) {
         let mut rounds = rounds(system).unwrap();
         for &observer in self.observers {
             watch(&mut rounds, observer, if observer.0 == "alone" { 3 } else { 2 });
@@ -118,13 +129,8 @@ impl Asked {
                 format!("AG ({})", each.join(" & "))
             }
             "AS3" => {
-                let never = |rank: &str, lower: &str| format!("({rank} -> !E (!pf.Off U ({lower})))");
-                let ranks = [
-                    never("pf.Reduced", "pf.Optimal"),
-                    never("pf.Odometric", "pf.Optimal | pf.Reduced"),
-                    never("pf.Degraded", AUTONOMOUS),
-                ];
-                format!("AG ({})", ranks.join(" & "))
+                rounds.observe(&ranks(&rounds)).unwrap();
+                "AG rank <= 4".to_owned()
             }
             "AS7" => format!("AG !(round & resting & !env.sonar & {AUTONOMOUS})"),
             _ => format!("AG ({})", self.always),
@@ -137,7 +143,7 @@ impl Asked {
 }
 
 /// In the fewest rounds to a marking in which it is not so: the events from outside, and which rounds they are.
-pub fn shortest(rounds: &Rounds, pt: &Pt, property: &Property) -> Option<Vec<String>> {
+pub(crate) fn shortest(rounds: &Rounds, pt: &Pt, property: &Property) -> Option<Vec<String>> {
     let Question::Formula(Formula::All(path)) = &property.question else { return None };
     let Formula::Globally(always) = &**path else { return None };
     let never = Formula::Not(always.clone());
