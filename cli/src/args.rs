@@ -3,7 +3,7 @@
 mod check;
 mod model;
 
-pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, StatespaceArgs, VerifyArgs};
+pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};

@@ -9,10 +9,20 @@
 //! never happens in a round. Places keep their names, as `net.place`; a place whose absence decides something gets a
 //! complement, `net.place.absent`.
 
+mod branch;
+mod lowered;
+mod observer;
 mod places;
+mod rounds;
+mod turn;
+mod walk;
+
+pub use observer::{Looks, Observer};
+pub use rounds::{Part, Rounds, rounds};
+pub use walk::{Happened, Size};
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{EventId, Net, OutputId, PlaceId, Role, Transition};
+use cotama_core::net::{Defect, EventId, Net, OutputId, PlaceId, Role, Transition};
 use cotama_core::system::{Delivery, Of, System, SystemDefect};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -32,6 +42,35 @@ pub enum FlatError {
     },
     /// It would have more than [`MOST_TRANSITIONS`] transitions.
     TooMany,
+    /// A net of a system whose rounds are asked for is not sound.
+    Net {
+        /// Its name in the system.
+        net: String,
+        /// What is wrong with it.
+        defect: Defect,
+    },
+    /// Rounds have no time, and this transition has an interval.
+    Interval {
+        /// The transition, as `net.transition`.
+        transition: String,
+    },
+    /// A transition changes a place and not its declared complement, or the other way round.
+    Complement {
+        /// The place, as `net.place`.
+        place: String,
+        /// The transition, as `net.transition`.
+        transition: String,
+    },
+    /// So many transitions of a net as [`SETTLE`](cotama_core::system::SETTLE) fire at once by themselves, one after another.
+    Endless {
+        /// The net.
+        net: String,
+    },
+    /// What an observer looks at is not a formula about one marking that compares sums of tokens.
+    Condition {
+        /// The observer.
+        observer: String,
+    },
 }
 
 impl fmt::Display for FlatError {
@@ -45,6 +84,22 @@ impl fmt::Display for FlatError {
                 )
             }
             Self::TooMany => write!(f, "as one net it has more than {MOST_TRANSITIONS} transitions"),
+            Self::Net { net, defect } => write!(f, "the net {net} is not sound: {defect:?}"),
+            Self::Interval { transition } => {
+                write!(f, "rounds have no time, and {transition} has an interval: check the interleavings")
+            }
+            Self::Complement { place, transition } => {
+                write!(f, "{transition} changes {place} and does not change its complement to match")
+            }
+            Self::Endless { net } => {
+                write!(f, "the net {net} does not settle: its transitions without event fire again and again")
+            }
+            Self::Condition { observer } => {
+                write!(
+                    f,
+                    "{observer} can only look at one marking, and compare sums of tokens of bounded places"
+                )
+            }
         }
     }
 }
