@@ -158,6 +158,8 @@ fi
 mkdir -p "$copy"
 rm -rf "${copy:?}"/*
 (cd "$root" && tar cf - --exclude=./target --exclude='./.*' .) | tar xf - -C "$copy"
+# Newer than what an earlier run may have built of a mutant.
+find "$copy/verification" -name '*.rs' -exec touch {} +
 [[ $# -gt 0 ]] || set -- "${all[@]}"
 for name in "$@"; do run "$name"; done
 exit $bad
