@@ -12,7 +12,7 @@ const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
 use cotama_core::system::{Happening, Offered};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, FailureMode, Flags, Loss, Losses, Mode, Module, Modules, Report,
+    Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
     Severity, Told, decide, delivery, diagnose, faults, global, judge, local, operator,
 };
 use cotama_models::mission::Does;
@@ -66,11 +66,18 @@ impl World<'_> {
             }
         }
         let Some(&first) = seen.first() else { return };
-        let diagnosis = diagnose(raised, self.known.available());
+        let diagnosis = diagnose(raised, self.observing());
         for &number in &seen {
             self.run.conduct[number].detected = Some((self.now, diagnosis));
         }
         self.conclude(diagnosis, Cause(first as u16 + 1));
+    }
+
+    /// The modules that work as far as is known: what the operator has set right is not held against its observers.
+    fn observing(&self) -> Modules {
+        let found = self.failures.iter().zip(&self.run.conduct).filter(|(it, _)| !it.over);
+        let found = found.filter_map(|(it, conduct)| conduct.detected.map(|(_, what)| what.health(it.part)));
+        found.fold(Health::SOUND, |all, it| all.union(it)).available()
     }
 
     /// What follows from a diagnosis: what is lost is planned around, and reported.
