@@ -126,7 +126,8 @@ fn a_run_leads_to_where_what_should_stay_possible_is_lost() {
         "fuse.net",
         "net fuse\ntr on off -> lit\ntr out lit -> off\ntr burn lit -> dark\npl off (1)\n",
     );
-    let answer = check(&folder, "fuse.net", &["AG EF lit"], &["--json", "--trace", "it.svg"]).json(1);
+    let answer =
+        check(&folder, "fuse.net", &["AG EF lit"], &["--untimed", "--json", "--trace", "it.svg"]).json(1);
     let row = &answer["results"][0];
     let fired: Vec<_> = row["trace"].as_array().unwrap().iter().map(|it| &it["transition"]).collect();
     assert_eq!(fired, ["on", "burn"]);
