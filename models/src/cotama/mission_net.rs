@@ -114,12 +114,12 @@ const WARN: [OutputId; 2] = [OutputId(3), OutputId(4)];
 
 /// The event with which an objective ends.
 const fn ends_with(does: Does) -> EventId {
-    EventId(match does {
-        Does::Drive => 1,
-        Does::Receive => 3,
-        Does::Deliver => 4,
-        Does::Wait => 6,
-    })
+    match does {
+        Does::Drive => EventId(1),
+        Does::Receive => EventId(3),
+        Does::Deliver => EventId(4),
+        Does::Wait => super::level::WAIT_OVER,
+    }
 }
 
 /// What each objective does, in their order.

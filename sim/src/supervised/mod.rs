@@ -23,10 +23,14 @@ pub use world::{LONGEST, PERIOD, PLANNING};
 
 use crate::run::{NoPlan, PlanMade};
 use crate::trace::Outcome;
+use cotama_core::net::owned::OwnedNet;
+use cotama_core::system::{Packed, Program, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Cause, Configuration, Diagnosis, FailureMode, Module, Told, local};
+use cotama_models::cotama::{
+    Cause, Configuration, Diagnosis, FailureMode, Module, Told, delivery, global, local,
+};
 use cotama_models::faults::{Faults, IncidentKind};
-use cotama_models::mission::Mission;
+use cotama_models::mission::{Does, Mission};
 
 /// What goes wrong, and what the operator answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -86,14 +90,14 @@ pub enum When {
 }
 
 /// A transition of a supervisor that fired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fired {
     /// When.
     pub at: Millis,
     /// The net, as `ls`.
     pub net: &'static str,
     /// The transition, as `l5`.
-    pub transition: &'static str,
+    pub transition: String,
     /// What it goes back to: 0, or the number of a failure in [`Run::conduct`], from 1.
     pub cause: Cause,
 }
@@ -173,30 +177,64 @@ pub struct Run {
 }
 
 /// A supervised mission, ready to be run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Supervised<'m> {
     mission: &'m Mission,
+    supervisors: Supervisors,
 }
 
-/// The mission has no supervisors: its file says nothing of them.
+/// The decisional level, packed.
+#[derive(Clone, Debug)]
+enum Supervisors {
+    /// That of the embedded mission.
+    Delivery,
+    /// The same with a global supervisor that was made from the mission.
+    Made(OwnedNet, Box<Packed<WORDS>>),
+}
+
+/// Words of a marking that suffice for the most objectives of a mission.
+const WORDS: usize = 16;
+
+/// Why a mission has no supervisors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unsupervised;
+pub enum Unsupervised {
+    /// Its file says nothing of them.
+    Plain,
+    /// Its global supervisor does not fit the others.
+    Unfit(SystemDefect),
+}
 
 impl std::fmt::Display for Unsupervised {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("the mission is not supervised: it has no [supervision] table")
+        match self {
+            Self::Plain => f.write_str("the mission is not supervised: it has no [supervision] table"),
+            Self::Unfit(defect) => write!(f, "its global supervisor does not fit the others: {defect:?}"),
+        }
     }
 }
 
 impl std::error::Error for Unsupervised {}
 
 impl<'m> Supervised<'m> {
-    /// Makes a mission ready.
+    /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its own where its objectives
+    /// are others.
     ///
     /// # Errors
     /// When its file names no supervision.
     pub fn new(mission: &'m Mission) -> Result<Self, Unsupervised> {
-        mission.supervisor().map(|_| Self { mission }).ok_or(Unsupervised)
+        let made = mission.supervisor().ok_or(Unsupervised::Plain)?;
+        let supervisors = if is_delivery(mission) {
+            Supervisors::Delivery
+        } else {
+            let view = made.view();
+            let net = view.net();
+            let mut components = delivery::SYSTEM.components.to_vec();
+            components[0].net = &net;
+            let system = System { components: &components, ..delivery::SYSTEM };
+            let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
+            Supervisors::Made(made.clone(), Box::new(packed))
+        };
+        Ok(Self { mission, supervisors })
     }
 
     /// Runs it.
@@ -204,8 +242,26 @@ impl<'m> Supervised<'m> {
     /// # Errors
     /// When there is no plan at the start; nothing is run then.
     pub fn run(&self, script: &Script) -> Result<Run, NoPlan> {
-        let mut world = world::World::start(self.mission, script)?;
-        while !world.period() {}
-        Ok(world.into_run())
+        match &self.supervisors {
+            Supervisors::Delivery => {
+                world::World::start(self.mission, global::NET, delivery::Program, script).map(finish)
+            }
+            Supervisors::Made(net, packed) => {
+                let view = net.view();
+                world::World::start(self.mission, view.net(), packed.code(), script).map(finish)
+            }
+        }
     }
+}
+
+/// Whether the objectives are those of the embedded mission, in their order.
+fn is_delivery(mission: &Mission) -> bool {
+    use Does::{Deliver, Drive, Receive};
+    let does = mission.objectives.iter().map(|it| it.does.as_ref().map(|it| it.value));
+    does.eq([Drive, Receive, Drive, Deliver].map(Some))
+}
+
+fn finish<P: Program<W>, const W: usize>(mut world: world::World<'_, P, W>) -> Run {
+    while !world.period() {}
+    world.into_run()
 }

@@ -13,10 +13,11 @@ use super::{Conduct, Injection, Run, Script, When};
 use crate::options::{Aim, Planner};
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
-use cotama_core::net::PlaceId;
+use cotama_core::net::{Net, PlaceId};
+use cotama_core::system::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, DecisionalLevel, FailureMode, Health, Losses, Modules, Situation, Told, local,
+    Cause, FailureMode, Health, Level, Losses, Modules, Situation, Told, delivery, local,
 };
 use cotama_models::mission::Mission;
 use std::collections::VecDeque;
@@ -30,6 +31,10 @@ pub const PERIOD: Millis = Millis(100);
 pub const PLANNING: Millis = Millis(2_000);
 /// A run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
+
+/// Clocks and slots of a player are those of the embedded mission, whatever the objectives.
+const CLOCKS: usize = delivery::SIZE.clocks;
+const SLOTS: usize = delivery::SIZE.slots;
 
 /// The most steps of one search for a plan.
 const STEPS: u64 = 100_000;
@@ -46,10 +51,12 @@ struct Failure {
 }
 
 /// A mission under way.
-pub(super) struct World<'m> {
+pub(super) struct World<'m, P, const W: usize> {
     mission: &'m Mission,
+    /// The net of the global supervisor.
+    global_net: Net<'m>,
     waiting: Vec<Injection>,
-    level: DecisionalLevel,
+    level: Level<P, W, CLOCKS, SLOTS>,
     now: Millis,
     robot: Robot,
     operator: Operator,
@@ -79,15 +86,21 @@ pub(super) struct World<'m> {
     run: Run,
 }
 
-impl<'m> World<'m> {
+impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
     /// A robot at the start of its mission, with its plan.
-    pub(super) fn start(mission: &'m Mission, script: &Script) -> Result<Self, NoPlan> {
+    pub(super) fn start(
+        mission: &'m Mission,
+        global_net: Net<'m>,
+        program: P,
+        script: &Script,
+    ) -> Result<Self, NoPlan> {
         let mut planning = Planning::new(mission, Planner::Exact { aim: Aim::Quality, steps: STEPS });
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(run::Cause::Start, start, Modules::ALL)?;
-        let level = DecisionalLevel::default();
+        let level = Level::start(program);
         let mut world = Self {
             mission,
+            global_net,
             waiting: script.injections.clone(),
             situation: level.situation(Losses::NONE),
             global: level.global(),

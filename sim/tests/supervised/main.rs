@@ -4,6 +4,7 @@
 #![allow(missing_docs, clippy::pedantic, clippy::unwrap_used)]
 
 mod matrix;
+mod other_missions;
 mod seven_points;
 mod triples;
 

@@ -9,7 +9,7 @@ use crate::supervised::{Decided, Fired, PERIOD, PLANNING};
 
 /// How long the planner may take beyond what it usually does (FMECA, row PPL1).
 const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
-use cotama_core::system::{Happening, Offered};
+use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
@@ -35,7 +35,7 @@ pub(super) enum Objective {
     Safe,
 }
 
-impl World<'_> {
+impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// What the global supervisor is about. Its places are: waiting, the objectives, done, security, safe.
     pub(super) fn objective(&self) -> Objective {
         let (place, count) = (self.global.0 as usize, self.mission.objectives.len());
@@ -221,25 +221,23 @@ impl World<'_> {
         match *happening {
             Happening::Fired { transition: id, carries, .. } => {
                 let Some(component) = system.components.get(usize::from(id.component)) else { return };
-                let Some(transition) = component.net.transitions.get(id.id.0 as usize) else { return };
-                let (net, at) = (component.name, self.now);
-                if net == "faults" || net == "operator" {
+                let (name, at) = (component.name, self.now);
+                let net = if name == "gs" { &self.global_net } else { component.net };
+                let Some(transition) = net.transitions.get(id.id.0 as usize) else { return };
+                if name == "faults" || name == "operator" {
                     return;
                 }
-                self.run.fired.push(Fired { at, net, transition: transition.name, cause: carries });
-                if net == "ls"
-                    && transition
-                        .emits
-                        .iter()
-                        .any(|it| component.net.outputs[it.0 as usize].name == "op_request")
-                {
+                let transition_name = transition.name.to_owned();
+                self.run.fired.push(Fired { at, net: name, transition: transition_name, cause: carries });
+                let mut says = transition.emits.iter().filter_map(|it| net.outputs.get(it.0 as usize));
+                if name == "ls" && says.any(|it| it.name == "op_request") {
                     self.run.operator_requests += 1;
                 }
                 let Some(conduct) = conduct(carries).and_then(|it| self.run.conduct.get_mut(it)) else {
                     return;
                 };
-                let said = transition.emits.first().and_then(|it| component.net.outputs.get(it.0 as usize));
-                match (net, said) {
+                let said = transition.emits.first().and_then(|it| net.outputs.get(it.0 as usize));
+                match (name, said) {
                     ("cs", Some(said)) => {
                         conduct.decided.get_or_insert((at, Decided::from(said.name)));
                     }
@@ -304,11 +302,12 @@ impl World<'_> {
                 if waited(self.global_since) < self.planning.standing(activity).0 {
                     return None;
                 }
-                let event = match self.mission.objectives[it].does.as_ref().map(|it| it.value) {
-                    Some(Does::Deliver) => global::Event::object_delivered,
-                    _ => global::Event::object_received,
+                let told = match self.mission.objectives[it].does.as_ref().map(|it| it.value) {
+                    Some(Does::Deliver) => Told::Mission(global::Event::object_delivered),
+                    Some(Does::Receive) => Told::Mission(global::Event::object_received),
+                    _ => Told::WaitOver,
                 };
-                return Some((Told::Mission(event), none));
+                return Some((told, none));
             }
             Objective::Drives(_) => {}
             _ => return None,
