@@ -9,6 +9,7 @@ use cotama_verification::explicit::Limits;
 use cotama_verification::flat::{Part, Rounds};
 use cotama_verification::property::{Property, Question};
 use cotama_verification::temporal::Rest;
+use std::fmt::Write;
 
 /// What may be asked to find out whether a property holds vacuously: so many questions, each among so many markings.
 const QUESTIONS: usize = 8;
@@ -59,11 +60,12 @@ pub(super) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer)
             None => "nothing from outside".to_owned(),
         });
         let all: Vec<_> = round.turns.into_iter().chain(outside).collect();
-        text += &format!("  round {number}  {}\n", visible(&all.join("; ")));
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  round {number}  {}", visible(&all.join("; ")));
     }
     if run.cycle.as_ref().is_some_and(|it| !it.is_empty()) {
         let before = rounds.told(&run.stem).len();
-        text += &format!("  what follows round {before} repeats for ever\n");
+        let _ = writeln!(text, "  what follows round {before} repeats for ever");
     }
     text
 }

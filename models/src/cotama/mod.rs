@@ -112,6 +112,7 @@ system! {
             env.report_collision => cs.collision mail 1;
             env.report_planner => cs.planner mail 1;
             env.report_hard => cs.hard mail 1;
+            env.report_avoidance => cs.avoidance mail 1;
             env.report_refusal => cs.refusal mail 1;
             env.report_mcl => cs.mcl_lost mail 1;
             env.report_sonar => cs.sonar mail 1;

@@ -7,7 +7,7 @@ use std::collections::VecDeque;
 
 /// How long he takes to answer a request, to look around, and to edit: assumed.
 pub const ANSWERS_AFTER: Millis = Millis(8_000);
-/// How long the robot waits for him before it gives up: T_op, assumed (FMECA, row OPR1).
+/// How long the robot waits for him before it gives up: assumed (FMECA, row OPR1).
 pub const PATIENCE: Millis = Millis(120_000);
 
 /// What he answers to a request.
@@ -32,6 +32,7 @@ pub(super) struct Operator {
 }
 
 /// What the operator knows of the robot.
+#[allow(clippy::struct_excessive_bools, reason = "each is a thing he sees or not")]
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     /// Where the local supervisor is, and the robot on its path.

@@ -222,7 +222,7 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
     /// What is broken, known or not.
     fn broken(&self) -> Health {
         let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.health(it.part));
-        broken.fold(Health::SOUND, |all, it| all.union(it))
+        broken.fold(Health::SOUND, Health::union)
     }
 
     /// The robot goes on for a period.
@@ -241,14 +241,13 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
             match effect(failure.mode).motion {
-                Motion::Free => {}
                 Motion::Blocked => blocked |= observable(failure.mode, self.situation, true),
                 Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
                 Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
                 Motion::Silent | Motion::Mindless if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 => {
                     towards = MillimetresPerSecond(0);
                 }
-                Motion::Runaway | Motion::Silent | Motion::Mindless => {}
+                Motion::Free | Motion::Runaway | Motion::Silent | Motion::Mindless => {}
                 Motion::Dead => {
                     self.robot.stand();
                     towards = MillimetresPerSecond(0);
@@ -301,11 +300,11 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         if self.permitted && !permitted {
             self.withdrawn = Some(self.robot.x());
         }
-        if permitted || self.robot.speed().0 == 0 {
-            if let Some(from) = self.withdrawn.take() {
-                let way = Millimetres(self.robot.x().0 - from.0);
-                self.run.braked = self.run.braked.max(way);
-            }
+        if (permitted || self.robot.speed().0 == 0)
+            && let Some(from) = self.withdrawn.take()
+        {
+            let way = Millimetres(self.robot.x().0 - from.0);
+            self.run.braked = self.run.braked.max(way);
         }
         self.permitted = permitted;
     }

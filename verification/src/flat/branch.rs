@@ -174,18 +174,19 @@ pub(super) fn branches<'k, T>(
     loop {
         let mut branch = Branch { script, ..Branch::new(known, held.clone()) };
         let found = step(&mut branch)?;
-        script = branch.script.clone();
+        let mut next = branch.script.clone();
         ways.push((branch, found));
         if ways.len() > MOST_TRANSITIONS {
             return Err(FlatError::TooMany);
         }
         // The next way turns at the last test that turned out well.
-        while script.last() == Some(&false) {
-            script.pop();
+        while next.last() == Some(&false) {
+            next.pop();
         }
-        match script.last_mut() {
+        match next.last_mut() {
             Some(last) => *last = false,
             None => return Ok(ways),
         }
+        script = next;
     }
 }

@@ -135,7 +135,7 @@ pub fn rounds(system: &System<'_>) -> Result<Rounds, FlatError> {
         rounds.known = Known::new(bounds, moves.sums.iter().chain(&guesses).cloned().collect());
         let items = rounds.items(&flat, &moves);
         rounds.turns(&moves, &items)?;
-        rounds.from_outside(&flat, &moves)?;
+        rounds.offer_from_outside(&flat, &moves)?;
         let before = guesses.len();
         guesses.retain(|sum| rounds.paths.iter().all(|path| sum.stays(&path.change)));
         if guesses.len() == before {
@@ -325,7 +325,7 @@ impl Rounds {
     }
 
     /// One event that no link leads to, or none.
-    fn from_outside(&mut self, flat: &Flat<'_>, moves: &Moves) -> Result<(), FlatError> {
+    fn offer_from_outside(&mut self, flat: &Flat<'_>, moves: &Moves) -> Result<(), FlatError> {
         let known = self.known.clone();
         let idle = Path::new(
             Part::Outside,

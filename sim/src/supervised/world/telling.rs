@@ -77,7 +77,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     fn observing(&self) -> Modules {
         let found = self.failures.iter().zip(&self.run.conduct).filter(|(it, _)| !it.over);
         let found = found.filter_map(|(it, conduct)| conduct.detected.map(|(_, what)| what.health(it.part)));
-        found.fold(Health::SOUND, |all, it| all.union(it)).available()
+        found.fold(Health::SOUND, Health::union).available()
     }
 
     /// What follows from a diagnosis: what is lost is planned around, and reported.
@@ -87,6 +87,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
         let left = self.known.available();
         self.lose(Losses::lacking(left), cause);
+        if before.has(Module::Dvz) && !left.has(Module::Dvz) && !self.lost.has(Loss::Vital) {
+            self.untold.push_back((Told::Failure(faults::Event::lose_avoidance), cause));
+        }
         let (report, severity) = match diagnosis {
             Diagnosis::None => return,
             Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
@@ -95,7 +98,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let Some(report) = report else {
             // It is recorded, and nobody has to decide.
             let conduct = usize::from(cause.0).checked_sub(1).and_then(|it| self.run.conduct.get_mut(it));
-            conduct.into_iter().for_each(|it| it.decided = Some((self.now, Decided::Record)));
+            if let Some(it) = conduct {
+                it.decided = Some((self.now, Decided::Record));
+            }
             return;
         };
         // A failure that is worse here than the event of its report says asks for the operator by itself.
@@ -117,7 +122,10 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// there is no such plan (Lambert et al. 2024, Section 5: performance margins).
     pub(super) fn watch_margins(&mut self) {
         let at = self.progress();
-        if self.resigned || self.now.0 % 1_000 != 0 || !matches!(self.objective(), Objective::Drives(_)) {
+        if self.resigned
+            || !self.now.0.is_multiple_of(1_000)
+            || !matches!(self.objective(), Objective::Drives(_))
+        {
             return;
         }
         let Some(axis) = self.planning.short(at) else { return };
@@ -210,7 +218,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
                 break;
             }
         }
-        seen.iter().for_each(|it| self.note(it));
+        for it in &seen {
+            self.note(it);
+        }
         self.arrive_at_places();
     }
 
