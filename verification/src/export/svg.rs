@@ -13,7 +13,9 @@ use super::layout::{Outline, Point, Run};
 use cotama_core::net::{Net, Place, TransitionId};
 use scene::{ENTRY, INITIAL, LOOP, SPACE, Scene};
 use std::fmt::Write as _;
-use text::{Block, Face, NAME, escape};
+use text::{Block, Face, NAME};
+
+pub use text::{bold_width, escape, width};
 
 /// What to point out in a drawing: where a run is, and what has just happened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
