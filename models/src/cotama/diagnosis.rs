@@ -260,9 +260,9 @@ impl Probes {
     #[must_use]
     pub fn least_that_help(status: Modules) -> Self {
         let separates = |set: &Self| {
-            confusable_pairs(status).map(|(a, b)| Self::that_separate(a, b, status)).all(|probes| {
-                probes.is_empty() || !probes.common(*set).is_empty()
-            })
+            confusable_pairs(status)
+                .map(|(a, b)| Self::that_separate(a, b, status))
+                .all(|probes| probes.is_empty() || !probes.common(*set).is_empty())
         };
         (0..=Self::ALL.bits())
             .filter_map(Self::from_bits)
