@@ -14,7 +14,9 @@ use cotama_core::net::{Net, Place, TransitionId};
 use scene::{ENTRY, INITIAL, LOOP, SPACE, Scene};
 use std::fmt::Write as _;
 use text::{Block, Face, NAME};
-pub(crate) use text::{bold_width, escape, short, width};
+
+pub(crate) use text::short;
+pub use text::{bold_width, escape, width};
 
 /// What to point out in a drawing: where a run is, and what has just happened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

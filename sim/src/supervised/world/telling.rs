@@ -13,7 +13,7 @@ use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
-    Severity, Told, decide, delivery, diagnose, faults, global, judge, local, operator,
+    Severity, Told, decide, delivery, diagnose, faults, global, is_detectable, judge, local, operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
@@ -70,7 +70,18 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         for &number in &seen {
             self.run.conduct[number].detected = Some((self.now, diagnosis));
         }
-        self.conclude(diagnosis, Cause(first as u16 + 1));
+        let cause = Cause(first as u16 + 1);
+        if diagnosis != Diagnosis::Unexplained {
+            self.conclude(diagnosis, cause);
+            return;
+        }
+        // Several at once: whatever always raises some of the flags may be among them, and is taken to be.
+        let status = self.observing();
+        let shown =
+            |it: &FailureMode| raised.covers(it.rule().signature.always) && is_detectable(*it, status);
+        for mode in FailureMode::ALL.iter().copied().filter(shown) {
+            self.conclude(Diagnosis::Unique(mode), cause);
+        }
     }
 
     /// The modules that work as far as is known: what the operator has set right is not held against its observers.
@@ -371,6 +382,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             can_go_on: self.plannings_failed < 2
                 && left.covers(Configuration::FollowingOdometric.facts().required),
             at_goal,
+            moves: self.robot.speed().0 > 0,
         }
     }
 }

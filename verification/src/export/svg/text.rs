@@ -32,7 +32,7 @@ const HELVETICA: [u16; 95] = [
 
 /// The width of a text at a size, in pixels, rounded up. Characters beyond ASCII count as an average capital, those
 /// from the East Asian scripts on as a square.
-pub(crate) fn width(text: &str, size: i64) -> i64 {
+pub fn width(text: &str, size: i64) -> i64 {
     let thousandths = |c: char| match c {
         ' '..='~' => i64::from(HELVETICA[c as usize - ' ' as usize]),
         '\u{1100}'.. => 1000,
@@ -42,7 +42,7 @@ pub(crate) fn width(text: &str, size: i64) -> i64 {
 }
 
 /// The same in bold.
-pub(crate) fn bold_width(text: &str, size: i64) -> i64 {
+pub fn bold_width(text: &str, size: i64) -> i64 {
     (width(text, size) * 108 + 99) / 100
 }
 
@@ -57,7 +57,7 @@ pub(crate) fn short(name: &str) -> String {
 }
 
 /// Escapes a text for XML, in elements and in attributes. Characters that XML 1.0 has no way to write become U+FFFD.
-pub(crate) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {
