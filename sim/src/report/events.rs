@@ -92,7 +92,7 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
             let words = format!("End of the run, {}{reason}", it.outcome.name());
             Some(Row { mark: mark.into(), words, lost: none(), origin: none() })
         }
-        Record::Activity(_) | Record::Sample(_) => None,
+        _ => None,
     }
 }
 

@@ -85,7 +85,7 @@ impl<'t> View<'t> {
                 Record::Sample(it) => view.samples.push(it),
                 Record::Request(it) => view.requests.push(it),
                 Record::End(it) => view.end = Some(it),
-                Record::Activity(_) => {}
+                _ => {}
             }
         }
         view.activities = view.steps();

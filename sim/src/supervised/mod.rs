@@ -15,18 +15,23 @@ mod effect;
 pub mod operator;
 mod plan;
 pub mod robot;
+mod summary;
 mod world;
 
 pub use effect::{Effect, Ends, Motion, effect};
 pub use operator::Answers;
 pub use world::{LONGEST, PERIOD, PLANNING};
 
+use crate::options::{Aim, Planner};
+use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, PlanMade};
 use crate::trace::Outcome;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Cause, Configuration, Diagnosis, FailureMode, Module, Told, local};
+use cotama_models::cotama::{
+    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told, local,
+};
 use cotama_models::faults::{Faults, IncidentKind};
-use cotama_models::mission::Mission;
+use cotama_models::mission::{Does, Mission};
 
 /// What goes wrong, and what the operator answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -105,14 +110,34 @@ pub struct Conduct {
     pub mode: FailureMode,
     /// When.
     pub injected: Millis,
+    /// Where the robot was then.
+    pub x: Millimetres,
     /// Where the local supervisor was then.
     pub during: local::State,
     /// When its flags were raised, and what they were taken for.
     pub detected: Option<(Millis, Diagnosis)>,
+    /// The flags, with those of other failures that were seen in the same period.
+    pub flags: Flags,
+    /// How it was judged when it was detected.
+    pub judged: Option<Judged>,
     /// When the contextual supervisor had decided, and what.
     pub decided: Option<(Millis, Decided)>,
     /// When a supervisor first acted on it.
     pub answered: Option<Millis>,
+    /// For how long, in all, the robot moved while its configuration required a module that this failure breaks.
+    pub exposed: Millis,
+}
+
+/// How a diagnosis was judged: the two rules of the contextual supervisor (Durand et al., TAROS 2010, Section IV; that the
+/// worse class wins is inferred).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Judged {
+    /// The report to the contextual supervisor; none for what is recorded only.
+    pub report: Option<Report>,
+    /// How severe it is in the autonomy mode of the robot.
+    pub severity: Severity,
+    /// The class by what is still available there.
+    pub by_availability: Class,
 }
 
 /// What the contextual supervisor made of a report.
@@ -126,6 +151,18 @@ pub enum Decided {
     Local,
     /// The global supervisor ends the mission.
     Global,
+}
+
+impl Decided {
+    /// Its name: that of the class of the decision.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Record => Class::Record.name(),
+            Self::Adapter => Class::Adapter.name(),
+            Self::Local => Class::Local.name(),
+            Self::Global => Class::Global.name(),
+        }
+    }
 }
 
 impl From<&str> for Decided {
@@ -176,27 +213,58 @@ pub struct Run {
 #[derive(Clone, Copy, Debug)]
 pub struct Supervised<'m> {
     mission: &'m Mission,
+    planner: Planner,
 }
 
-/// The mission has no supervisors: its file says nothing of them.
+/// Why a mission is not run under supervisors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unsupervised;
+pub enum Unsupervised {
+    /// Its file says nothing of them.
+    NoTable,
+    /// Its objectives are others than those of the global supervisor that is simulated.
+    OtherObjectives,
+}
 
 impl std::fmt::Display for Unsupervised {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("the mission is not supervised: it has no [supervision] table")
+        f.write_str(match self {
+            Self::NoTable => "the mission is not supervised: it has no [supervision] table",
+            Self::OtherObjectives => {
+                "only supervised missions with the objectives drive, receive, drive, deliver are simulated"
+            }
+        })
     }
 }
 
 impl std::error::Error for Unsupervised {}
 
+/// The objectives of the embedded global supervisor, in their order.
+const OBJECTIVES: [Does; 4] = [Does::Drive, Does::Receive, Does::Drive, Does::Deliver];
+
+/// Who plans unless it is said otherwise: the rule of the paper fills the limits, and would choose the most degraded
+/// configuration where there is time for it.
+pub const PLANNER: Planner = Planner::Exact { aim: Aim::Quality, steps: 100_000 };
+
 impl<'m> Supervised<'m> {
-    /// Makes a mission ready.
+    /// Makes a mission ready; [`PLANNER`] plans.
     ///
     /// # Errors
-    /// When its file names no supervision.
+    /// When its file names no supervision, or its objectives are not those of the embedded global supervisor.
     pub fn new(mission: &'m Mission) -> Result<Self, Unsupervised> {
-        mission.supervisor().map(|_| Self { mission }).ok_or(Unsupervised)
+        if mission.supervisor().is_none() {
+            return Err(Unsupervised::NoTable);
+        }
+        let does = mission.objectives.iter().map(|it| it.does.as_ref().map(|it| it.value));
+        if !does.eq(OBJECTIVES.map(Some)) {
+            return Err(Unsupervised::OtherObjectives);
+        }
+        Ok(Self { mission, planner: PLANNER })
+    }
+
+    /// Plans are made by this planner.
+    #[must_use]
+    pub const fn with_planner(self, planner: Planner) -> Self {
+        Self { planner, ..self }
     }
 
     /// Runs it.
@@ -204,8 +272,36 @@ impl<'m> Supervised<'m> {
     /// # Errors
     /// When there is no plan at the start; nothing is run then.
     pub fn run(&self, script: &Script) -> Result<Run, NoPlan> {
-        let mut world = world::World::start(self.mission, script)?;
-        while !world.period() {}
+        self.run_recorded(script, Millis(1_000), &mut Silent)
+    }
+
+    /// Runs it and records what happens, with a sample after every `period`, rounded up to whole rounds.
+    ///
+    /// Records of one round are in this order: what failed, what was found, plans, what fired and what was decided, what was
+    /// told, requests, configurations, activities, samples.
+    ///
+    /// # Errors
+    /// When there is no plan at the start; nothing is run or recorded then.
+    pub fn run_recorded<R: Recorder>(
+        &self,
+        script: &Script,
+        period: Millis,
+        recorder: &mut R,
+    ) -> Result<Run, NoPlan> {
+        let mut world = world::World::start(self.mission, script, self.planner)?;
+        let mut recorded = world::Recorded::default();
+        loop {
+            if R::WANTED {
+                world.record(&mut recorded, period, recorder);
+            }
+            if world.period() {
+                break;
+            }
+        }
+        if R::WANTED {
+            world.record(&mut recorded, period, recorder);
+            world.record_end(&mut recorded, recorder);
+        }
         Ok(world.into_run())
     }
 }

@@ -10,19 +10,22 @@ use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
 use super::{Conduct, Injection, Run, Script, When};
-use crate::options::{Aim, Planner};
+use crate::options::Planner;
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
 use cotama_core::net::PlaceId;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, DecisionalLevel, FailureMode, Health, Losses, Modules, Situation, Told, local,
+    Cause, DecisionalLevel, FailureMode, Flags, Health, Losses, Modules, Situation, Told, local,
 };
 use cotama_models::mission::Mission;
 use std::collections::VecDeque;
 use telling::Objective;
 
+mod records;
 mod telling;
+
+pub(super) use records::Recorded;
 
 /// The period of the control loop, of rounds, and of the steps of the robot (stated: below 0.1 s a loop).
 pub const PERIOD: Millis = Millis(100);
@@ -30,9 +33,6 @@ pub const PERIOD: Millis = Millis(100);
 pub const PLANNING: Millis = Millis(2_000);
 /// A run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
-
-/// The most steps of one search for a plan.
-const STEPS: u64 = 100_000;
 
 /// A failure under way; its number is its place in [`Run::conduct`].
 #[derive(Clone, Copy, Debug)]
@@ -77,8 +77,8 @@ pub(super) struct World<'m> {
 
 impl<'m> World<'m> {
     /// A robot at the start of its mission, with its plan.
-    pub(super) fn start(mission: &'m Mission, script: &Script) -> Result<Self, NoPlan> {
-        let mut planning = Planning::new(mission, Planner::Exact { aim: Aim::Quality, steps: STEPS });
+    pub(super) fn start(mission: &'m Mission, script: &Script, planner: Planner) -> Result<Self, NoPlan> {
+        let mut planning = Planning::new(mission, planner);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(run::Cause::Start, start, Modules::ALL)?;
         let level = DecisionalLevel::default();
@@ -186,10 +186,14 @@ impl<'m> World<'m> {
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
+                x,
                 during: self.situation.local,
                 detected: None,
+                flags: Flags::NONE,
+                judged: None,
                 decided: None,
                 answered: None,
+                exposed: Millis(0),
             });
         }
         for failure in &mut self.failures {
@@ -277,6 +281,11 @@ impl<'m> World<'m> {
         let exposed = moving && !self.broken().available().covers(required);
         self.exposed = if exposed { Millis(self.exposed.0 + PERIOD.0) } else { Millis(0) };
         self.run.exposed = self.run.exposed.max(self.exposed);
+        if exposed {
+            let breaks = |it: &Failure| !it.over && !it.mode.health(it.part).available().covers(required);
+            let conducts = self.failures.iter().zip(&mut self.run.conduct);
+            conducts.filter(|(it, _)| breaks(it)).for_each(|(_, it)| it.exposed.0 += PERIOD.0);
+        }
         let permitted = self.level.permit().is_some();
         if self.permitted && !permitted {
             self.withdrawn = Some(self.robot.x());
