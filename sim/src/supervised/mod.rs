@@ -15,6 +15,7 @@ mod effect;
 pub mod operator;
 mod plan;
 pub mod robot;
+pub mod story;
 mod summary;
 mod world;
 
