@@ -6,6 +6,7 @@
 use crate::trace::Record;
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
 use cotama_models::cotama::FailureMode;
+use std::collections::HashMap;
 
 /// A point of the story.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,6 +19,8 @@ pub struct Point<'t> {
     pub x_mm: u64,
     /// What happened.
     pub what: What<'t>,
+    /// When the operator, or who gave the mission, had acted, in µs; none for a failure.
+    pub acted_us: Option<u64>,
     /// The configuration that ran from then on; none if it stayed.
     pub configured: Option<&'t Configured>,
 }
@@ -101,115 +104,144 @@ impl Rung {
 /// assert_eq!(points[1].decided().unwrap(), "after 0.3 s: medium, so the adapter takes fewer particles (slow1)");
 /// ```
 pub fn points(records: &[Record]) -> Vec<Point<'_>> {
-    let mut points = Vec::new();
+    let mut story = Story::default();
     for record in records {
-        match record {
-            Record::Told(it) if it.event == "gs.mission_received" => {
-                let configured = configured(records, it.t_us, u64::MAX);
-                points.push(Point { number: 0, t_us: it.t_us, x_mm: it.x_mm, what: What::Start, configured });
-            }
-            Record::Failure(it) => points.push(failure(records, it)),
-            _ => {}
-        }
+        story.hear(record);
     }
-    operator(records, &mut points);
+    story.belongs();
+    let Story { mut points, configurations, .. } = story;
+    for point in &mut points {
+        // A path is planned first where the robot starts, or was given way-points.
+        let (from, within) = match &point.what {
+            What::Failure(chain) => (chain.reaction.first().map(|it| it.t_us), 1),
+            _ => (point.acted_us, 3_000_000),
+        };
+        let Some(from) = from else { continue };
+        let end = configurations.partition_point(|it| it.t_us < from.saturating_add(within));
+        point.configured = configurations[..end].last().copied().filter(|it| it.t_us >= from);
+    }
     points.sort_by_key(|it| it.t_us);
     points.iter_mut().zip(1..).for_each(|(it, number)| it.number = number);
     points
 }
 
-/// The last configuration that came to run from a time on, no more than three seconds later and before another time.
-fn configured(records: &[Record], from_us: u64, before_us: u64) -> Option<&Configured> {
-    let until = before_us.min(from_us.saturating_add(3_000_000));
-    let mut configurations = records.iter().filter_map(|it| match it {
-        Record::Configuration(it) => Some(it),
-        _ => None,
-    });
-    configurations.rfind(|it| it.t_us >= from_us && it.t_us < until)
+/// A story while it is heard.
+#[derive(Default)]
+struct Story<'t> {
+    points: Vec<Point<'t>>,
+    configurations: Vec<&'t Configured>,
+    /// The place in `points` of each failure.
+    failures: HashMap<u16, usize>,
+    /// The failures of the last diagnosis.
+    diagnosed: Vec<u16>,
+    diagnosed_us: u64,
+    /// What the operator said since he was asked, and about which failure.
+    said: Vec<&'t Told>,
+    asked: Option<u16>,
 }
 
-fn failure<'t>(records: &'t [Record], failure: &'t Failure) -> Point<'t> {
-    let mut chain = Chain {
-        failure,
-        diagnosis: None,
-        decision: None,
-        reaction: Vec::new(),
-        operator: Vec::new(),
-        planned_again: false,
-        exposed_ms: 0,
-    };
-    for record in records {
+impl<'t> Story<'t> {
+    fn hear(&mut self, record: &'t Record) {
         match record {
-            Record::Diagnosis(it) if it.failures.contains(&failure.failure) => chain.diagnosis = Some(it),
-            Record::Decision(it) if it.failure == failure.failure => chain.decision = Some(it),
-            Record::Exposure(it) if it.failure == failure.failure => chain.exposed_ms = it.exposed_ms,
-            Record::Plan(it) => chain.planned_again |= chain.diagnosis.is_some_and(|at| at.t_us == it.t_us),
-            Record::Fired(it)
-                if it.cause == Some(failure.failure)
-                    && ["gs", "ls", "pf", "to"].contains(&it.net.as_str())
-                    && chain.reaction.first().is_none_or(|first| first.t_us == it.t_us) =>
-            {
-                chain.reaction.push(it);
+            Record::Told(it) if it.event == "gs.mission_received" => {
+                self.point(it.t_us, it.x_mm, Some(it.t_us), What::Start);
             }
-            _ => {}
-        }
-    }
-    let reacted = chain.reaction.first().map(|it| it.t_us);
-    let configured = reacted.and_then(|at| configured(records, at, at.saturating_add(1)));
-    let what = What::Failure(Box::new(chain));
-    Point { number: 0, t_us: failure.t_us, x_mm: failure.x_mm, what, configured }
-}
-
-/// What the operator did, request after request.
-fn operator<'t>(records: &'t [Record], points: &mut Vec<Point<'t>>) {
-    let mut group: Vec<&Told> = Vec::new();
-    let mut asked = None;
-    for record in records {
-        match record {
-            Record::Fired(it) if it.place == "HandOver" => {
-                belongs(&mut group, asked, points);
-                asked = it.cause;
-            }
-            Record::Told(it) => {
-                let Some(answer) = it.event.strip_prefix("operator.") else { continue };
-                group.push(it);
-                if matches!(answer, "new_path" | "waypoints") {
-                    alone_again(records, &mut group, points);
+            Record::Told(it) if it.event.starts_with("operator.") => {
+                self.said.push(it);
+                if matches!(answer(it), "new_path" | "waypoints") {
+                    self.alone_again();
                 }
             }
+            Record::Failure(it) => {
+                self.failures.insert(it.failure, self.points.len());
+                self.point(it.t_us, it.x_mm, None, What::Failure(Box::new(Chain::new(it))));
+            }
+            Record::Diagnosis(it) => {
+                for &failure in &it.failures {
+                    if let Some(chain) = self.chain(failure) {
+                        chain.diagnosis = Some(it);
+                    }
+                }
+                (self.diagnosed, self.diagnosed_us) = (it.failures.clone(), it.t_us);
+            }
+            Record::Plan(it) if it.t_us == self.diagnosed_us => {
+                for failure in std::mem::take(&mut self.diagnosed) {
+                    if let Some(chain) = self.chain(failure) {
+                        chain.planned_again = true;
+                    }
+                }
+            }
+            Record::Decision(it) => {
+                if let Some(chain) = self.chain(it.failure) {
+                    chain.decision = Some(it);
+                }
+            }
+            Record::Exposure(it) => {
+                if let Some(chain) = self.chain(it.failure) {
+                    chain.exposed_ms = it.exposed_ms;
+                }
+            }
+            Record::Fired(it) => {
+                if it.place == "HandOver" {
+                    self.belongs();
+                    self.asked = it.cause;
+                }
+                let acts = ["gs", "ls", "pf", "to"].contains(&it.net.as_str());
+                if let Some(chain) = it.cause.filter(|_| acts).and_then(|it| self.chain(it))
+                    && chain.reaction.first().is_none_or(|first| first.t_us == it.t_us)
+                {
+                    chain.reaction.push(it);
+                }
+            }
+            Record::Configuration(it) => self.configurations.push(it),
             _ => {}
         }
     }
-    belongs(&mut group, asked, points);
-}
 
-/// What the operator did belongs to the failure that he was asked about.
-fn belongs<'t>(group: &mut Vec<&'t Told>, asked: Option<u16>, points: &mut [Point<'t>]) {
-    let said = std::mem::take(group);
-    let chains = points.iter_mut().filter_map(|it| match &mut it.what {
-        What::Failure(chain) => Some(chain),
-        _ => None,
-    });
-    for chain in chains.filter(|it| Some(it.failure.failure) == asked) {
-        chain.operator.extend(&said);
+    fn point(&mut self, t_us: u64, x_mm: u64, acted_us: Option<u64>, what: What<'t>) {
+        self.points.push(Point { number: 0, t_us, x_mm, what, acted_us, configured: None });
+    }
+
+    fn chain(&mut self, failure: u16) -> Option<&mut Chain<'t>> {
+        match &mut self.points.get_mut(*self.failures.get(&failure)?)?.what {
+            What::Failure(chain) => Some(chain),
+            _ => None,
+        }
+    }
+
+    /// What the operator did belongs to the failure that he was asked about.
+    fn belongs(&mut self) {
+        let said = std::mem::take(&mut self.said);
+        if let Some(chain) = self.asked.and_then(|it| self.chain(it)) {
+            chain.operator.extend(said);
+        }
+    }
+
+    /// The robot goes on alone after what the operator did: driving is a point, and so is the path or the way-points he gave,
+    /// from when he began to edit.
+    fn alone_again(&mut self) {
+        let said = std::mem::take(&mut self.said);
+        let Some(last) = said.last() else { return };
+        if let Some(it) = said.iter().find(|it| answer(it) == "teleoperate") {
+            self.point(it.t_us, it.x_mm, Some(it.t_us), What::Operator(answer(it)));
+        }
+        let edits = said.iter().find(|it| answer(it) == "teleprogram").unwrap_or(last);
+        self.point(edits.t_us, edits.x_mm, Some(last.t_us), What::Operator(answer(last)));
     }
 }
 
-/// The robot goes on alone after what the operator did: driving is a point, and so is the path or the way-points he gave, from
-/// when he began to edit.
-fn alone_again<'t>(records: &'t [Record], group: &mut Vec<&'t Told>, points: &mut Vec<Point<'t>>) {
-    let said = std::mem::take(group);
-    let Some(last) = said.last() else { return };
-    let mut point = |from: &Told, what: &'t Told| {
-        let what_name = what.event.strip_prefix("operator.").unwrap_or(&what.event);
-        let configured = configured(records, what.t_us, u64::MAX);
-        let (t_us, x_mm) = (from.t_us, from.x_mm);
-        points.push(Point { number: 0, t_us, x_mm, what: What::Operator(what_name), configured });
-    };
-    let drives = said.iter().find(|it| it.event == "operator.teleoperate");
-    drives.into_iter().for_each(|it| point(it, it));
-    let edits = said.iter().find(|it| it.event == "operator.teleprogram").unwrap_or(last);
-    point(edits, last);
+impl<'t> Chain<'t> {
+    const fn new(failure: &'t Failure) -> Self {
+        Self {
+            failure,
+            diagnosis: None,
+            decision: None,
+            reaction: Vec::new(),
+            operator: Vec::new(),
+            planned_again: false,
+            exposed_ms: 0,
+        }
+    }
 }
 
 impl Point<'_> {
@@ -277,9 +309,7 @@ impl Point<'_> {
         });
         let Some(chain) = self.chain() else { return runs };
         let Some(first) = chain.reaction.first() else { return None };
-        // Without the variant of a counter or a group.
-        let line = |it: &&'_ Fired| it.transition.split('.').next().unwrap_or_default().to_owned();
-        let by: Vec<_> = chain.reaction.iter().map(line).collect();
+        let by: Vec<_> = chain.reaction.iter().map(|it| it.line()).collect();
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
         let again = if chain.planned_again { "; the rest is planned again" } else { "" };
         let said: String = chain.operator.iter().map(|it| format!("; {}", said(answer(it)))).collect();
@@ -321,6 +351,7 @@ impl Point<'_> {
     }
 }
 
+/// What the operator answered.
 fn answer(told: &Told) -> &str {
     told.event.strip_prefix("operator.").unwrap_or(&told.event)
 }

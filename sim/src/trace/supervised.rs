@@ -22,6 +22,13 @@ pub struct Fired {
     pub cause: Option<u16>,
 }
 
+impl Fired {
+    /// The line of the net's definition: the transition without the variant of a counter or a group, as `as2`.
+    pub fn line(&self) -> &str {
+        self.transition.split('.').next().unwrap_or_default()
+    }
+}
+
 /// The supervisors were told something, and it was accepted.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Told {
