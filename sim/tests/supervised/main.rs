@@ -5,6 +5,7 @@
 
 mod matrix;
 mod seven_points;
+mod trace;
 
 use cotama_models::mission::Mission;
 

@@ -95,7 +95,9 @@ impl World<'_> {
 
     fn record_diagnoses<R: Recorder>(&self, done: &mut Recorded, t_us: u64, to: &mut R) {
         let x_mm = self.robot.x().0;
-        let new = |(it, noted): (&Conduct, &Noted)| it.detected.is_some() && !noted.diagnosis;
+        // What no available observer sees is diagnosed as nothing, and nobody learns of it.
+        let found = |it: &Conduct| it.detected.is_some_and(|it| it.1 != cotama::Diagnosis::None);
+        let new = |(it, noted): (&Conduct, &Noted)| found(it) && !noted.diagnosis;
         let news: Vec<usize> =
             (0..done.conduct.len()).filter(|&at| new((&self.run.conduct[at], &done.conduct[at]))).collect();
         let Some(conduct) = news.first().map(|&at| &self.run.conduct[at]) else { return };
