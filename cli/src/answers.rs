@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod fmeca;
 pub(crate) mod model;
+pub(crate) mod supervised;
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -233,7 +234,7 @@ pub(crate) enum Outcome {
     Completed,
     /// The robot stopped, or never left, and asked its operator.
     Safe,
-    /// All activities are done, but a limit is exceeded.
+    /// All activities are done, but a limit is exceeded; or a supervised mission was not done after an hour.
     Failed,
 }
 
@@ -284,6 +285,9 @@ pub(crate) struct RunBody {
     pub(crate) x_mm: u64,
     /// What happened to the robot.
     pub(crate) events: Vec<EventRow>,
+    /// What the supervisors did; of a supervised mission alone.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) supervised: Option<supervised::Supervised>,
     /// The path of the report.
     pub(crate) report: Option<String>,
     /// The path of the trace.

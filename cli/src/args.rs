@@ -71,10 +71,12 @@ Examples:
     ///
     /// The run is simulated and deterministic: the same mission, faults and seed give the same run. Margins (limit
     /// less used less planned) are watched; when one falls below zero, or planned hardware fails, the rest of the
-    /// mission is planned anew.
+    /// mission is planned anew. A mission with `[supervision]` is driven by its supervisors, who find, judge and answer
+    /// each failure, and ask the operator.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol
+  $ cotama run delivery
   $ cotama run patrol --faults none --report quiet-patrol
   $ cotama run patrol --lost laser:1 --allocator exact --json
   $ cotama run patrol --trace patrol.jsonl && cotama replay patrol.jsonl")]
@@ -217,10 +219,9 @@ pub(crate) struct PlanArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
     /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all plans of which none is
-    /// better in duration, energy and quality
-    #[arg(long, value_name = "WHAT", default_value = "paper",
-          value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
-    pub(crate) objective: Objective,
+    /// better in duration, energy and quality [default: paper; quality for a supervised mission]
+    #[arg(long, value_name = "WHAT", value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
+    pub(crate) objective: Option<Objective>,
     #[command(flatten)]
     pub(crate) planning: Planning,
     #[command(flatten)]
@@ -231,13 +232,13 @@ pub(crate) struct PlanArgs {
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
-    /// What a plan is chosen for: the paper's rule, the most quality, or the least energy
-    #[arg(long, value_name = "WHAT", default_value = "paper",
-          value_parser = objectives(&["paper", "quality", "min-energy"]))]
-    pub(crate) objective: Objective,
+    /// What a plan is chosen for: the paper's rule, the most quality, or the least energy [default: paper; quality
+    /// for a supervised mission]
+    #[arg(long, value_name = "WHAT", value_parser = objectives(&["paper", "quality", "min-energy"]))]
+    pub(crate) objective: Option<Objective>,
     #[command(flatten)]
     pub(crate) planning: Planning,
-    /// The seed of all random numbers
+    /// The seed of all random numbers; under supervisors nothing is random yet
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
     /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of faults

@@ -1,6 +1,6 @@
 //! Missions from the command line: by name or from a file, with limits and hardware changed.
 
-use crate::args::{Lost, Planning};
+use crate::args::{Lost, Objective, Planning};
 use crate::exit::Failure;
 use crate::input;
 use cotama_core::hardware::Units;
@@ -43,6 +43,13 @@ pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Loaded, Failur
         .ok_or_else(|| Failure::new(format!("{name}: its limits cannot be changed from the command line")))?;
     let mission = Mission::parse(&loaded.source, &text)?;
     Ok(Loaded { text, mission, ..loaded })
+}
+
+/// What a plan is chosen for: what is wanted, else the paper's rule. It fills the limits, which for the configurations of a
+/// supervised mission would choose the most degraded one where there is time for it; so these have the most quality.
+pub(crate) fn objective(wanted: Option<Objective>, mission: &Mission) -> Objective {
+    let usual = if mission.supervisor().is_some() { Objective::Quality } else { Objective::Paper };
+    wanted.unwrap_or(usual)
 }
 
 /// Whether this looks like a name and not like a path.

@@ -31,6 +31,7 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
 
 fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
     let mission = &loaded.mission;
+    let objective = mission::objective(args.objective, mission);
     let lost = mission::lost(mission, &args.planning.lost)?;
     let available = mission::available(mission, &lost);
     let scenario = mission.scenario();
@@ -57,7 +58,7 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
             .iter()
             .try_fold(1u128, |product, left| product.checked_mul(left.len() as u128))
             .map_or_else(|| "more than 2^128".into(), |product| product.to_string()),
-        objective: args.objective.name(),
+        objective: objective.name(),
         allocator: None,
         status: Status::Infeasible,
         plan: Vec::new(),
@@ -75,11 +76,11 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
     };
     let slices: Vec<_> = candidates.iter().map(Vec::as_slice).collect();
     if let Ok(problem) = Problem::new(&slices, scenario.limits, scenario.order) {
-        if args.objective == Wanted::Front {
+        if objective == Wanted::Front {
             front(&mut answer, mission, &problem);
         } else {
             let failed = |error: cotama_core::allocation::MemoryError| Failure::new(error.to_string());
-            let solution = solve_for(args, &problem).map_err(failed)?;
+            let solution = solve_for(objective, args, &problem).map_err(failed)?;
             fill(&mut answer, mission, &problem, &solution, args.planning.steps);
         }
     }
@@ -110,12 +111,13 @@ fn activity_row(mission: &Mission, activity: &PlannedActivity, left: usize) -> A
 }
 
 fn solve_for(
+    objective: Wanted,
     args: &PlanArgs,
     problem: &Problem<'_, 2>,
 ) -> Result<Solution, cotama_core::allocation::MemoryError> {
     let quality = [Objective::MostQuality, Objective::Least(ENERGY)];
     let energy = [Objective::Least(ENERGY), Objective::MostQuality];
-    let method = match (args.objective, args.planning.allocator) {
+    let method = match (objective, args.planning.allocator) {
         (Wanted::Paper, Some(AllocatorName::Exact)) => Method::RuleThenExact,
         (Wanted::Paper, _) | (_, Some(AllocatorName::Panorama)) => Method::Rule,
         (Wanted::MinEnergy, _) => Method::Exact(&energy),

@@ -9,8 +9,9 @@ use crate::output::Screen;
 use crate::render;
 use crate::run::{body, ended, refused, write_files};
 use cotama_models::faults::Faults;
-use cotama_sim::options::{FaultChoice, Options};
+use cotama_sim::options::{FaultChoice, Options, Planner};
 use cotama_sim::run::Run;
+use cotama_sim::supervised::PLANNER;
 use cotama_sim::trace::{self, Trace};
 
 /// Runs a trace or faults again and compares.
@@ -51,7 +52,8 @@ fn twice(args: &ReplayArgs, text: &str) -> Result<Again, Failure> {
     let loaded = mission::load(name)?;
     let faults = Faults::parse(&args.file, text, &loaded.mission)?;
     let faults = FaultChoice::Given { source: args.file.clone(), faults };
-    let options = Options { seed: args.seed.unwrap_or(0), faults, ..Options::default() };
+    let planner = if loaded.mission.supervisor().is_some() { PLANNER } else { Planner::default() };
+    let options = Options { seed: args.seed.unwrap_or(0), faults, planner, ..Options::default() };
     let run = || Trace::record(&loaded.source, &loaded.text, &options).map_err(refused);
     let ((first, run), (second, _)) = (run()?, run()?);
     let identical = first == second;

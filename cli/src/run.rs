@@ -19,6 +19,7 @@ use cotama_sim::trace::{RecordError, Trace};
 use std::path::{Path, PathBuf};
 
 mod body;
+mod supervised;
 
 pub(crate) use body::body;
 
@@ -26,11 +27,14 @@ pub(crate) use body::body;
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
     let options = options(args, &loaded.mission)?;
-    let incidents = incidents(&options.faults, &loaded.mission);
-    if incidents > 0 {
-        screen.note(&format!(
-            "{incidents} failures and answers of the operator are not simulated: the mission is run by its plans alone"
-        ));
+    match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {
+        (_, 0) => {}
+        (None, number) => screen.note(&format!(
+            "{number} failures and answers of the operator are not simulated: the mission is run by its plans alone"
+        )),
+        (Some(_), number) => screen.note(&format!(
+            "{number} faults that only plans know are not simulated: the mission is run by its supervisors"
+        )),
     }
     let (trace, run) = match Trace::record(&loaded.source, &loaded.text, &options) {
         Ok(recorded) => recorded,
@@ -71,7 +75,9 @@ pub(crate) fn ended(run: &Run) -> Exit {
 pub(crate) fn refused(error: RecordError) -> Failure {
     match error {
         RecordError::Text(errors) => errors.into(),
-        RecordError::Setup(_) | RecordError::Infeasible { .. } => Failure::new(error.to_string()),
+        RecordError::Setup(_) | RecordError::Unsupervised(_) | RecordError::Infeasible { .. } => {
+            Failure::new(error.to_string())
+        }
     }
 }
 
@@ -99,6 +105,7 @@ fn never_left(
         energy_mj: 0,
         x_mm: 0,
         events: Vec::new(),
+        supervised: None,
         report: None,
         trace: None,
     };
@@ -117,7 +124,11 @@ fn never_left(
 
 fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
     let steps = args.planning.steps;
-    let planner = match (args.objective, args.planning.allocator) {
+    if mission.supervisor().is_some() && (args.upward || !args.planning.lost.is_empty()) {
+        let message = "--upward and --lost are for missions without supervisors";
+        return Err(Failure::new(message).help("name a failure in a file of faults: kind = \"failure\""));
+    }
+    let planner = match (mission::objective(args.objective, mission), args.planning.allocator) {
         (Objective::Paper, Some(AllocatorName::Exact)) => Planner::PanoramaThenExact { steps },
         (Objective::Paper, _) | (_, Some(AllocatorName::Panorama)) => Planner::Panorama,
         (Objective::MinEnergy, _) => Planner::Exact { aim: Aim::MinEnergy, steps },
@@ -161,12 +172,17 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
     Ok(FaultChoice::Given { source: format!("{source}, hardware lost at the start"), faults })
 }
 
-/// How many of the faults only supervisors can deal with: a run by plans alone passes them over.
-fn incidents(faults: &FaultChoice, mission: &Mission) -> usize {
-    match faults {
-        FaultChoice::None => 0,
-        FaultChoice::Script => mission.run.faults.incidents.len(),
-        FaultChoice::Given { faults, .. } => faults.incidents.len(),
+/// How many of the faults are passed over: those that only supervisors can deal with, in a run by plans alone, and the
+/// others in one under supervisors.
+fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
+    let faults = match faults {
+        FaultChoice::None => return 0,
+        FaultChoice::Script => &mission.run.faults,
+        FaultChoice::Given { faults, .. } => faults,
+    };
+    match mission.supervisor() {
+        None => faults.incidents.len(),
+        Some(_) => faults.power_errors.len() + faults.events.len() + faults.random.len(),
     }
 }
 

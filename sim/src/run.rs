@@ -1,6 +1,7 @@
 //! What a run comes to.
 
 use crate::trace::Outcome;
+use cotama_models::cotama::FailureMode;
 use cotama_models::mission::{AXES, Mission};
 
 /// The units of the performance axes.
@@ -136,6 +137,15 @@ pub enum Reason {
     TooManyReplans,
     /// The margins were checked [`MAX_CHECKS`](crate::world::MAX_CHECKS) times.
     TooManyChecks,
+    /// The global supervisor ended the mission.
+    GivenUp {
+        /// The failure that it goes back to; none for the operator's own decision.
+        failure: Option<FailureMode>,
+    },
+    /// The laptop is down: the micro-controller has stopped the robot.
+    Mindless,
+    /// A supervised mission was not done after [`LONGEST`](crate::supervised::LONGEST).
+    TooLong,
 }
 
 /// Why no plan was found.
@@ -188,6 +198,20 @@ impl Reason {
             }
             Self::TooManyReplans => format!("stopped after {} replans", crate::world::MAX_REPLANS),
             Self::TooManyChecks => format!("stopped after {} checks", crate::world::MAX_CHECKS),
+            Self::GivenUp { failure: Some(mode) } => {
+                let text = mode.description();
+                format!(
+                    "the global supervisor ended the mission: {}, {} ({})",
+                    text.component,
+                    text.failure,
+                    mode.name()
+                )
+            }
+            Self::GivenUp { failure: None } => {
+                "the operator gave up, and the global supervisor ended the mission".into()
+            }
+            Self::Mindless => "the laptop is down; the micro-controller stopped the motors".into(),
+            Self::TooLong => format!("not done after {} s", crate::supervised::LONGEST.0 / 1000),
         }
     }
 }

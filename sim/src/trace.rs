@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 
 mod read;
 mod replay;
+pub mod supervised;
 
 pub use read::{Limits, TraceError};
 pub use replay::{RecordError, Replayed, replay};
@@ -138,6 +139,20 @@ pub enum Record {
     Event(Event),
     /// The operator is asked.
     Request(Request),
+    /// A transition of a supervisor fired.
+    Fired(supervised::Fired),
+    /// The supervisors were told something.
+    Told(supervised::Told),
+    /// Something failed that supervisors deal with.
+    Failure(supervised::Failure),
+    /// It was noticed, and taken for something.
+    Diagnosis(supervised::Diagnosis),
+    /// The contextual supervisor decided on it.
+    Decision(supervised::Decision),
+    /// The robot has moved without a module that it required.
+    Exposure(supervised::Exposure),
+    /// Other modules run.
+    Configuration(supervised::Configured),
     /// The mission is over.
     End(End),
 }
@@ -151,6 +166,13 @@ impl Record {
             Self::Sample(it) => it.t_us,
             Self::Event(it) => it.t_us,
             Self::Request(it) => it.t_us,
+            Self::Fired(it) => it.t_us,
+            Self::Told(it) => it.t_us,
+            Self::Failure(it) => it.t_us,
+            Self::Diagnosis(it) => it.t_us,
+            Self::Decision(it) => it.t_us,
+            Self::Exposure(it) => it.t_us,
+            Self::Configuration(it) => it.t_us,
             Self::End(it) => it.t_us,
         }
     }
@@ -163,6 +185,13 @@ impl Record {
             Self::Sample(it) => it.x_mm,
             Self::Event(it) => it.x_mm,
             Self::Request(it) => it.x_mm,
+            Self::Fired(it) => it.x_mm,
+            Self::Told(it) => it.x_mm,
+            Self::Failure(it) => it.x_mm,
+            Self::Diagnosis(it) => it.x_mm,
+            Self::Decision(it) => it.x_mm,
+            Self::Exposure(it) => it.x_mm,
+            Self::Configuration(it) => it.x_mm,
             Self::End(it) => it.x_mm,
         }
     }
@@ -213,7 +242,8 @@ pub struct PlanRow {
 }
 
 /// The margins left at the safe ends of the mission, by the most expensive available way; below zero,
-/// reaching that end is not guaranteed. None if the available hardware offers no way.
+/// reaching that end is not guaranteed. None if the available hardware offers no way, and in a supervised run, which
+/// does not look for one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReturnMargin {
     /// Going on to the end of the mission, activities included.
@@ -238,7 +268,8 @@ pub struct Activity {
 }
 
 /// The margins were checked: every period, after every event, at every new activity. Another sample follows
-/// every plan, with the margins and the power under it.
+/// every plan, with the margins and the power under it. A supervised run does not check its margins; there a sample is
+/// taken every period, and speed and power are those of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {
     /// When, in µs.
@@ -307,16 +338,16 @@ pub enum Happening {
     },
 }
 
-/// The operator is asked, since no plan was found.
+/// The operator is asked: no plan was found, or the supervisors need him.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Request {
     /// When, in µs.
     pub t_us: u64,
     /// Where, in mm.
     pub x_mm: u64,
-    /// Why a plan was needed, worded as in [`Plan::cause`].
+    /// Why a plan was needed, worded as in [`Plan::cause`]; in a supervised run what the failure was taken for.
     pub cause: String,
-    /// Why there is none.
+    /// Why there is none; in a supervised run why he is asked.
     pub reason: String,
 }
 

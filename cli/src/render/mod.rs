@@ -13,6 +13,7 @@ pub(crate) mod snippet;
 pub(crate) mod sparkline;
 pub(crate) mod statespace;
 pub(crate) mod style;
+pub(crate) mod supervised;
 pub(crate) mod table;
 pub(crate) mod verify;
 

@@ -17,6 +17,9 @@ const SHOWN_EVENTS: usize = 40;
 /// The screen; `name` is the mission and what was changed about it, as on the command line. There is no trace when the robot never left.
 pub(crate) fn screen(body: &RunBody, trace: Option<&Trace>, name: &str, width: usize) -> String {
     let mut text = headline(body, trace);
+    if let Some(supervised) = &body.supervised {
+        text += &super::supervised::story(supervised, width);
+    }
     if !body.plans.is_empty() {
         text += &plans(body, width);
         text += &choices(body, width);

@@ -38,6 +38,7 @@ pub(crate) fn body(trace: &Trace, run: &Run, mission: &str) -> RunBody {
         energy_mj: run.used[1],
         x_mm: run.x_mm,
         events: events.collect(),
+        supervised: super::supervised::supervised(trace),
         report: None,
         trace: None,
     }

@@ -81,6 +81,27 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
             let words = format!("Plan {number}: {}", it.cause);
             Some(Row { mark, words, lost: none(), origin: none() })
         }
+        Record::Failure(it) => {
+            let words = format!("Failure {}: {}", it.failure, it.mode);
+            Some(Row { mark: mark("fault"), words, lost: none(), origin: none() })
+        }
+        Record::Diagnosis(it) => {
+            let words = format!("Found: {}; {}", it.flags.join(", "), it.candidates.join(" or "));
+            Some(Row { mark: none(), words, lost: none(), origin: none() })
+        }
+        Record::Decision(it) => {
+            let by = it.transition.as_deref().unwrap_or("record");
+            let words = format!("Decided: {}", it.event.as_deref().unwrap_or(&it.decision));
+            Some(Row { mark: none(), words, lost: none(), origin: by.into() })
+        }
+        Record::Told(it) if !it.event.starts_with("faults.") => {
+            let words = format!("Told: {}", it.event);
+            Some(Row { mark: none(), words, lost: none(), origin: format!("round {}", it.round) })
+        }
+        Record::Configuration(it) => {
+            let words = it.configuration.as_deref().unwrap_or("nothing");
+            Some(Row { mark: none(), words: format!("Runs: {words}"), lost: none(), origin: it.mode.clone() })
+        }
         Record::Request(it) => {
             let words = format!("Operator asked: {}; {}", it.cause, it.reason);
             Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none(), origin: none() })
@@ -92,7 +113,7 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
             let words = format!("End of the run, {}{reason}", it.outcome.name());
             Some(Row { mark: mark.into(), words, lost: none(), origin: none() })
         }
-        Record::Activity(_) | Record::Sample(_) => None,
+        _ => None,
     }
 }
 

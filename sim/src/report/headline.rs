@@ -47,6 +47,9 @@ fn sentence(view: &View<'_>) -> String {
             };
             format!("{all} done, within both limits, {replans}.")
         }
+        Outcome::Safe if !view.points.is_empty() => {
+            format!("The robot stands at {}{reason}.", metres(end.x_mm))
+        }
         Outcome::Safe => format!("The robot stopped at {} and asked its operator{reason}.", metres(end.x_mm)),
         Outcome::Failed => format!("The run ended at {}{reason}.", metres(end.x_mm)),
     }
@@ -73,6 +76,19 @@ fn gauge(
          <div class=\"track\"><div style=\"width:{width}%\"></div></div>\
          <p><b>{margin} {unit}</b> {words} ({left} %) <span class=\"muted\">· {also}</span></p></div>"
     );
+}
+
+/// How much happened.
+fn happened(view: &View<'_>) -> (&'static str, String) {
+    if view.points.is_empty() {
+        return (
+            "Events",
+            format!("{}, {} lost", grouped(view.events.len() as u128), super::events::lost(view)),
+        );
+    }
+    let failures = view.points.iter().filter_map(|it| it.chain());
+    let found = failures.clone().filter(|it| it.diagnosis.is_some()).count();
+    ("Failures", format!("{}, {} found", grouped(failures.count() as u128), grouped(found as u128)))
 }
 
 /// The head of the page.
@@ -127,7 +143,7 @@ pub(super) fn section(view: &View<'_>) -> String {
         ("Distance", format!("{} of {}", milli(travelled.into(), 1), metres(header.path_length_mm))),
         ("Replans", grouped(view.end.map_or(plans, |end| end.replans).into())),
         ("Operator requests", grouped(view.end.map_or(requests, |end| end.operator_requests).into())),
-        ("Events", format!("{}, {} lost", grouped(view.events.len() as u128), super::events::lost(view))),
+        happened(view),
         ("Faults", faults(header)),
         ("Seed", header.options.seed.to_string()),
     ];

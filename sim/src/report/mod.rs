@@ -16,6 +16,7 @@ use view::View;
 mod activities;
 mod axis;
 mod charts;
+mod decisions;
 mod events;
 mod format;
 mod headline;
@@ -24,6 +25,7 @@ mod replans;
 mod series;
 mod strip;
 mod svg;
+mod timeline;
 mod view;
 
 #[cfg(test)]
@@ -35,6 +37,8 @@ const MAX_PINS: usize = 200;
 const MAX_PLANS: usize = 100;
 /// The most zones and the most events that are drawn.
 const MAX_MARKS: usize = 400;
+/// The most points of a story that are drawn and listed.
+const MAX_POINTS: usize = 60;
 /// The most rows of a list.
 const MAX_ROWS: usize = 500;
 /// The most columns of the table of plans.
@@ -68,8 +72,13 @@ pub fn html(trace: &Trace) -> String {
         include_str!("style.css")
     );
     page.push_str(&headline::section(&view));
-    page.push_str(&strip::section(&view));
-    page.push_str(&charts::section(&view));
+    if view.points.is_empty() {
+        page.push_str(&strip::section(&view));
+        page.push_str(&charts::section(&view));
+    } else {
+        page.push_str(&timeline::section(&view));
+        page.push_str(&decisions::section(&view));
+    }
     page.push_str(&replans::section(&view));
     page.push_str(&plans::section(&view));
     page.push_str(&activities::section(&view));

@@ -5,6 +5,7 @@ use super::events::{capital, short, summary};
 use super::format::{metres, milli, moment, speed};
 use super::svg::escape;
 use super::view::View;
+use crate::supervised::story::Point;
 use crate::trace::{Event, Margins, Plan, PlanRow};
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -12,7 +13,9 @@ use std::fmt::Write;
 /// One card for each plan after the first, and one for each request to the operator.
 pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from("<section class=\"replans\"><h2>Replans</h2>\n");
-    if view.plans.len() < 2 && view.requests.is_empty() {
+    // Supervisors ask for other reasons, which the table of decisions tells.
+    let supervised = !view.points.is_empty();
+    if view.plans.len() < 2 && (supervised || view.requests.is_empty()) {
         html.push_str("<p>There were none: the first plan held to the end.</p>\n");
     }
     for number in 1..view.plans.len().min(MAX_PLANS) {
@@ -22,7 +25,7 @@ pub(super) fn section(view: &View<'_>) -> String {
         let further = view.plans.len() - MAX_PLANS;
         let _ = writeln!(html, "<p class=\"note\">{further} further replans are in the trace.</p>");
     }
-    for request in view.requests.iter().take(MAX_PLANS) {
+    for request in view.requests.iter().take(if supervised { 0 } else { MAX_PLANS }) {
         let _ = writeln!(
             html,
             "<article class=\"card\"><h3><b class=\"pin ask\">?</b>Operator asked <span class=\"where\">at {}, \
@@ -53,11 +56,24 @@ fn card(html: &mut String, view: &View<'_>, number: usize) {
         metres(plan.x_mm),
         moment(plan.t_us),
         escape(&plan.first_activity),
-        escape(&why(plan, number, &events)),
+        escape(&if view.points.is_empty() { why(plan, number, &events) } else { failed(view, plan) }),
         changes(before, plan)
     );
-    margins(html, plan);
+    margins(html, plan, view.points.is_empty());
     html.push_str("</div></article>\n");
+}
+
+/// Which failure a plan of a supervised run goes back to.
+fn failed(view: &View<'_>, plan: &Plan) -> String {
+    let led = |it: &&Point<'_>| {
+        let diagnosis = it.chain().filter(|it| it.planned_again).and_then(|it| it.diagnosis);
+        diagnosis.is_some_and(|it| it.t_us == plan.t_us)
+    };
+    let point = view.points.iter().find(led);
+    point.map_or_else(
+        || format!("Cause: {}.", plan.cause),
+        |it| format!("Point {}, {}.", it.number, it.title()),
+    )
 }
 
 /// Why a plan was made, in sentences.
@@ -153,7 +169,7 @@ fn changes(before: &Plan, after: &Plan) -> String {
 }
 
 /// The margins before and after, and at the safe ends.
-fn margins(html: &mut String, plan: &Plan) {
+fn margins(html: &mut String, plan: &Plan, with_ends: bool) {
     html.push_str(
         "<table class=\"margins\"><thead><tr><th></th><th class=\"n\">Duration</th><th class=\"n\">Energy</th></tr></thead><tbody>\n",
     );
@@ -172,7 +188,9 @@ fn margins(html: &mut String, plan: &Plan) {
         row("Margin before", "", Some(before));
     }
     row("Margin after", "strong", Some(&plan.after));
-    row("At worst, on to the end", "", plan.return_margin.end.as_ref());
-    row("At worst, back to the start", "", plan.return_margin.start.as_ref());
+    if with_ends {
+        row("At worst, on to the end", "", plan.return_margin.end.as_ref());
+        row("At worst, back to the start", "", plan.return_margin.start.as_ref());
+    }
     html.push_str("</tbody></table>\n");
 }

@@ -11,7 +11,7 @@ use std::cmp::Reverse;
 use std::fmt::Write;
 
 /// The height of a bar.
-const BAR: f64 = 18.0;
+pub(super) const BAR: f64 = 18.0;
 
 /// The strip and its key.
 pub(super) fn section(view: &View<'_>) -> String {
@@ -44,18 +44,18 @@ pub(super) fn section(view: &View<'_>) -> String {
 }
 
 /// Rows of intervals that keep clear of each other.
-struct Lanes {
+pub(super) struct Lanes {
     lanes: Vec<Vec<(f64, f64)>>,
     most: usize,
 }
 
 impl Lanes {
-    fn new(most: usize) -> Self {
+    pub(super) fn new(most: usize) -> Self {
         Self { lanes: Vec::new(), most }
     }
 
     /// The first lane where an interval is free.
-    fn place(&mut self, from: f64, to: f64) -> Option<usize> {
+    pub(super) fn place(&mut self, from: f64, to: f64) -> Option<usize> {
         self.place_within(self.most, from, to)
     }
 
@@ -74,7 +74,7 @@ impl Lanes {
         Some(lane)
     }
 
-    fn count(&self) -> usize {
+    pub(super) fn count(&self) -> usize {
         self.lanes.len()
     }
 }
@@ -120,25 +120,25 @@ pub(super) fn draw_end(
 }
 
 /// A bar of a row.
-struct Bar {
-    from: f64,
-    to: f64,
-    class: String,
-    label: String,
-    title: String,
+pub(super) struct Bar {
+    pub(super) from: f64,
+    pub(super) to: f64,
+    pub(super) class: String,
+    pub(super) label: String,
+    pub(super) title: String,
 }
 
-/// Rows from top to bottom.
-struct Rows<'a> {
-    svg: Svg,
-    layout: Layout,
-    axis: &'a Axis,
-    y: f64,
+/// Rows from top to bottom, over an axis of any kind.
+pub(super) struct Rows<A> {
+    pub(super) svg: Svg,
+    pub(super) layout: Layout,
+    pub(super) axis: A,
+    pub(super) y: f64,
 }
 
-impl Rows<'_> {
+impl<A> Rows<A> {
     /// Begins a row: beside it stands its name, or above it where it is narrow.
-    fn name(&mut self, name: &str) {
+    pub(super) fn name(&mut self, name: &str) {
         if self.layout.names_beside {
             self.svg.text("small muted", [0.0, self.y + 13.0], name);
         } else {
@@ -149,7 +149,7 @@ impl Rows<'_> {
 
     /// A row of bars, one after the other. What has no room for its label has it underneath; with `merge`,
     /// neighbours share one: `A2–A3`.
-    fn bars(&mut self, bars: &[Bar], merge: bool) {
+    pub(super) fn bars(&mut self, bars: &[Bar], merge: bool) {
         let size = self.layout.size - 1.0;
         let mut runs: Vec<(usize, usize)> = Vec::new();
         for (index, bar) in bars.iter().enumerate() {
@@ -185,7 +185,9 @@ impl Rows<'_> {
         }
         self.y += BAR + 8.0 + lanes.count() as f64 * 12.0;
     }
+}
 
+impl Rows<&Axis> {
     fn zones(&mut self, mission: &Mission) {
         self.name("Zones");
         let mut zones: Vec<&Zone> = mission.zones.iter().take(MAX_MARKS).collect();

@@ -228,7 +228,7 @@ fn numbers_at_their_ends_do_not_break_the_page() {
             Record::Event(event) => event.lost_us = u64::MAX,
             Record::Activity(activity) => activity.t_us = u64::MAX,
             Record::End(end) => (end.margins.energy_mj, end.replans) = (i64::MIN, u64::MAX),
-            Record::Request(_) => {}
+            _ => {}
         }
     }
     assert_sound(&html(&trace));
@@ -245,4 +245,71 @@ fn thousands_of_replans_are_cut_and_said_to_be() {
     assert!(ill_formed(&page).is_none());
     assert!(page.contains("further replans are in the trace"));
     assert!(page.len() < 2_000_000, "{}", page.len());
+}
+
+fn delivery_under(faults: FaultChoice) -> Trace {
+    let text = embedded::mission("delivery").unwrap().text;
+    let options = Options { faults, planner: crate::supervised::PLANNER, ..Options::default() };
+    Trace::record("delivery", text, &options).unwrap().0
+}
+
+fn failures(modes: &[&str]) -> FaultChoice {
+    let text = embedded::mission("delivery").unwrap().text;
+    let mission = Mission::parse("delivery", text).unwrap();
+    let event = |mode: &&str| format!("[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"{mode}\"\n");
+    let body: String = modes.iter().map(event).collect();
+    let body = format!("format = \"panorama-faults/1\"\n{body}");
+    FaultChoice::Given { source: "f.toml".into(), faults: Faults::parse("f.toml", &body, &mission).unwrap() }
+}
+
+#[test]
+fn the_delivery_shows_seven_points_with_their_decisions_and_how_far_up_they_went() {
+    let page = html(&delivery_under(FaultChoice::Script));
+    assert_sound(&page);
+    // Marked in both figures, wide and narrow.
+    assert_eq!(page.matches("<circle class=\"pin point\"").count(), 7 * 4);
+    for lane in ["Failures", "Mode", "Runs", "Global", "Local", "Adapter PF", "Adapter TO", "Permit"] {
+        assert!(page.contains(&format!(">{lane}</text>")), "{lane}");
+    }
+    let decisions = page.split_once("class=\"decisions\"").unwrap().1;
+    let [table, ladder] = decisions.split("<h2>The ladder</h2>").collect::<Vec<_>>()[..] else { panic!() };
+    assert_eq!(table.matches("<tr class=\"point\">").count(), 7);
+    assert!(table.contains("<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>sonar</td><td>medium → adapter</td><td>adapter</td><td><b>adapt_sonar</b> <small>5.0\u{a0}s, sonar1</small></td><td>pf a8 <small>5.1\u{a0}s</small></td><td class=\"n\">5.2\u{a0}s</td>"));
+    let steps = |rung: &str| ladder.matches(&format!("<td class=\"step {rung}\">")).count();
+    assert_eq!(["parameter", "set", "activity", "objective", "mission"].map(steps), [1, 1, 4, 1, 0]);
+    assert!(page.contains("Point 6, SON1: sonar array, one transducer stuck at maximum range."));
+    assert!(page.contains("<dt>Failures</dt><dd>4, 4 found</dd>"));
+}
+
+#[test]
+fn a_supervised_mission_that_is_given_up_says_why() {
+    let page = html(&delivery_under(failures(&["BAT2"])));
+    assert_sound(&page);
+    assert!(
+        page.contains("The robot stands at 5.0\u{a0}m: the global supervisor ended the mission: battery"),
+        "{page}"
+    );
+    assert!(page.contains("<td class=\"step mission\">ended safely</td>"));
+    let page = html(&delivery_under(failures(&["SW3"])));
+    assert_sound(&page);
+    assert!(page.contains("the laptop is down") && page.contains("nobody noticed it"));
+    assert_sound(&html(&delivery_under(FaultChoice::None)));
+}
+
+#[test]
+fn hostile_names_and_numbers_of_supervisors_are_only_text() {
+    let mut trace = delivery_under(FaultChoice::Script);
+    let hostile = || String::from("<script>alert(1)</script>");
+    for record in &mut trace.records {
+        match record {
+            Record::Fired(it) => (it.place, it.t_us) = (hostile(), u64::MAX),
+            Record::Failure(it) => (it.mode, it.failure) = (hostile(), 1),
+            Record::Diagnosis(it) => (it.flags, it.candidates) = (vec![hostile()], vec![hostile()]),
+            Record::Decision(it) => (it.event, it.transition) = (Some(hostile()), Some(hostile())),
+            Record::Configuration(it) => (it.configuration, it.mode) = (Some(hostile()), hostile()),
+            Record::Exposure(it) => it.exposed_ms = u64::MAX,
+            _ => {}
+        }
+    }
+    assert_sound(&html(&trace));
 }

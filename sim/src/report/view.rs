@@ -1,5 +1,6 @@
 //! A trace as the report looks at it: activities with places and times, stops, stretches of one choice.
 
+use crate::supervised::story::{Point, points};
 use crate::trace::{End, Event, Plan, Record, Request, Sample, Trace};
 use cotama_models::mission::Mission;
 use std::collections::HashMap;
@@ -16,6 +17,8 @@ pub(super) struct View<'t> {
     pub(super) events: Vec<&'t Event>,
     pub(super) samples: Vec<&'t Sample>,
     pub(super) requests: Vec<&'t Request>,
+    /// The story of a supervised run; none of another one.
+    pub(super) points: Vec<Point<'t>>,
     pub(super) end: Option<&'t End>,
     /// The length of the path, in mm: nothing in the trace lies behind it.
     pub(super) length_mm: u64,
@@ -74,6 +77,7 @@ impl<'t> View<'t> {
             events: Vec::new(),
             samples: Vec::new(),
             requests: Vec::new(),
+            points: points(&trace.records),
             end: None,
             length_mm: header.path_length_mm,
         };
@@ -85,7 +89,7 @@ impl<'t> View<'t> {
                 Record::Sample(it) => view.samples.push(it),
                 Record::Request(it) => view.requests.push(it),
                 Record::End(it) => view.end = Some(it),
-                Record::Activity(_) => {}
+                _ => {}
             }
         }
         view.activities = view.steps();

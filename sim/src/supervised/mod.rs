@@ -15,22 +15,28 @@ mod effect;
 pub mod operator;
 mod plan;
 pub mod robot;
+pub mod story;
+mod summary;
 mod world;
 
 pub use effect::{Effect, Ends, Motion, effect};
 pub use operator::Answers;
 pub use world::{LONGEST, PERIOD, PLANNING};
 
+use crate::options::{Aim, Planner};
+use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, PlanMade};
 use crate::trace::Outcome;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::{Packed, Program, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, FailureMode, Module, Told, delivery, global, local,
+    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told, delivery,
+    global, local,
 };
 use cotama_models::faults::{Faults, IncidentKind};
 use cotama_models::mission::{Does, Mission};
+use world::World;
 
 /// What goes wrong, and what the operator answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -109,14 +115,34 @@ pub struct Conduct {
     pub mode: FailureMode,
     /// When.
     pub injected: Millis,
+    /// Where the robot was then.
+    pub x: Millimetres,
     /// Where the local supervisor was then.
     pub during: local::State,
     /// When its flags were raised, and what they were taken for.
     pub detected: Option<(Millis, Diagnosis)>,
+    /// The flags, with those of other failures that were seen in the same period.
+    pub flags: Flags,
+    /// How it was judged when it was detected.
+    pub judged: Option<Judged>,
     /// When the contextual supervisor had decided, and what.
     pub decided: Option<(Millis, Decided)>,
     /// When a supervisor first acted on it.
     pub answered: Option<Millis>,
+    /// For how long, in all, the robot moved while its configuration required a module that this failure breaks.
+    pub exposed: Millis,
+}
+
+/// How a diagnosis was judged: the two rules of the contextual supervisor (Durand et al., TAROS 2010, Section IV; that the
+/// worse class wins is inferred).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Judged {
+    /// The report to the contextual supervisor; none for what is recorded only.
+    pub report: Option<Report>,
+    /// How severe it is in the autonomy mode of the robot.
+    pub severity: Severity,
+    /// The class by what is still available there.
+    pub by_availability: Class,
 }
 
 /// What the contextual supervisor made of a report.
@@ -130,6 +156,18 @@ pub enum Decided {
     Local,
     /// The global supervisor ends the mission.
     Global,
+}
+
+impl Decided {
+    /// Its name: that of the class of the decision.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Record => Class::Record.name(),
+            Self::Adapter => Class::Adapter.name(),
+            Self::Local => Class::Local.name(),
+            Self::Global => Class::Global.name(),
+        }
+    }
 }
 
 impl From<&str> for Decided {
@@ -181,6 +219,7 @@ pub struct Run {
 pub struct Supervised<'m> {
     mission: &'m Mission,
     supervisors: Supervisors,
+    planner: Planner,
 }
 
 /// The decisional level, packed.
@@ -215,9 +254,13 @@ impl std::fmt::Display for Unsupervised {
 
 impl std::error::Error for Unsupervised {}
 
+/// Who plans unless it is said otherwise: the rule of the paper fills the limits, and would choose the most degraded
+/// configuration where there is time for it.
+pub const PLANNER: Planner = Planner::Exact { aim: Aim::Quality, steps: 100_000 };
+
 impl<'m> Supervised<'m> {
     /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its own where its objectives
-    /// are others.
+    /// are others; [`PLANNER`] plans.
     ///
     /// # Errors
     /// When its file names no supervision.
@@ -234,7 +277,13 @@ impl<'m> Supervised<'m> {
             let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
             Supervisors::Made(made.clone(), Box::new(packed))
         };
-        Ok(Self { mission, supervisors })
+        Ok(Self { mission, supervisors, planner: PLANNER })
+    }
+
+    /// Plans are made by this planner.
+    #[must_use]
+    pub fn with_planner(self, planner: Planner) -> Self {
+        Self { planner, ..self }
     }
 
     /// Runs it.
@@ -242,13 +291,32 @@ impl<'m> Supervised<'m> {
     /// # Errors
     /// When there is no plan at the start; nothing is run then.
     pub fn run(&self, script: &Script) -> Result<Run, NoPlan> {
+        self.run_recorded(script, Millis(1_000), &mut Silent)
+    }
+
+    /// Runs it and records what happens, with a sample after every `period`, rounded up to whole rounds.
+    ///
+    /// Records of one round are in this order: what failed, what was found, plans, what fired and what was decided, what was
+    /// told, requests, configurations, activities, samples.
+    ///
+    /// # Errors
+    /// When there is no plan at the start; nothing is run or recorded then.
+    pub fn run_recorded<R: Recorder>(
+        &self,
+        script: &Script,
+        period: Millis,
+        recorder: &mut R,
+    ) -> Result<Run, NoPlan> {
+        let (mission, planner) = (self.mission, self.planner);
         match &self.supervisors {
             Supervisors::Delivery => {
-                world::World::start(self.mission, global::NET, delivery::Program, script).map(finish)
+                let world = World::start(mission, global::NET, delivery::Program, script, planner)?;
+                Ok(finish(world, period, recorder))
             }
             Supervisors::Made(net, packed) => {
                 let view = net.view();
-                world::World::start(self.mission, view.net(), packed.code(), script).map(finish)
+                let world = World::start(mission, view.net(), packed.code(), script, planner)?;
+                Ok(finish(world, period, recorder))
             }
         }
     }
@@ -261,7 +329,23 @@ fn is_delivery(mission: &Mission) -> bool {
     does.eq([Drive, Receive, Drive, Deliver].map(Some))
 }
 
-fn finish<P: Program<W>, const W: usize>(mut world: world::World<'_, P, W>) -> Run {
-    while !world.period() {}
+fn finish<P: Program<W>, const W: usize, R: Recorder>(
+    mut world: World<'_, P, W>,
+    period: Millis,
+    recorder: &mut R,
+) -> Run {
+    let mut recorded = world::Recorded::default();
+    loop {
+        if R::WANTED {
+            world.record(&mut recorded, period, recorder);
+        }
+        if world.period() {
+            break;
+        }
+    }
+    if R::WANTED {
+        world.record(&mut recorded, period, recorder);
+        world.record_end(&mut recorded, recorder);
+    }
     world.into_run()
 }

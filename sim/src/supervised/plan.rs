@@ -94,15 +94,20 @@ impl<'m> Planning<'m> {
         let picked: Vec<Candidate<2>> =
             lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]).collect();
         let choice: Vec<u16> = picked.iter().map(|it| it.id).collect();
+        let signed_left = left.map(signed);
+        let before = (!self.made.is_empty()).then(|| {
+            let rest = self.rest(at).map(signed);
+            [signed_left[0] - rest[0], signed_left[1] - rest[1]]
+        });
         self.choice[first..].copy_from_slice(&choice);
-        let margin = |axis: usize| signed(left[axis]) - signed(found.planned.cost[axis]);
+        let margin = |axis: usize| signed_left[axis] - signed(found.planned.cost[axis]);
         self.made.push(PlanMade {
             cause,
             t_us: at.now.0.saturating_mul(1000),
             x_mm: at.x_mm,
             first_activity: first,
             choice,
-            before: None,
+            before,
             after: [margin(0), margin(1)],
             used: at.used,
             first_cost: picked.first().map_or([0; 2], |it| it.cost),
@@ -112,19 +117,33 @@ impl<'m> Planning<'m> {
         Ok(())
     }
 
+    /// What is left of the plan in force takes, in ms and mJ.
+    pub(super) fn rest(&self, at: Progress) -> [u64; 2] {
+        let mut sum = [0; 2];
+        for (activity, &id) in (at.activity..).zip(self.choice.get(at.activity..).unwrap_or_default()) {
+            let activity_table = &self.activities[activity];
+            let alternative = &activity_table.alternatives[usize::from(id)];
+            let rest = at.rest.filter(|_| activity == at.activity);
+            let cost = alternative.cost(rest.unwrap_or_else(|| activity_table.whole(alternative)));
+            for (sum, part) in sum.iter_mut().zip(cost.unwrap_or_default()) {
+                *sum += u64::from(part);
+            }
+        }
+        sum
+    }
+
+    /// The name of the alternative that is planned for an activity, its speed and its power.
+    pub(super) fn planned(&self, activity: usize) -> (&'m str, MillimetresPerSecond, Milliwatts) {
+        let id = usize::from(self.choice[activity]);
+        let alternative = &self.activities[activity].alternatives[id];
+        let label = self.mission.scenario().activities[activity].labels.get(id);
+        (label.map_or("", String::as_str), alternative.speed, alternative.power)
+    }
+
     /// The axis, the first in their order, on which the plan no longer keeps its limit.
     pub(super) fn short(&self, at: Progress) -> Option<usize> {
-        let scenario = self.mission.scenario();
-        let mut used = at.used;
-        for number in at.activity..self.activities.len() {
-            let activity = &self.activities[number];
-            let alternative = &activity.alternatives[usize::from(self.choice[number])];
-            let rest =
-                at.rest.filter(|_| number == at.activity).unwrap_or_else(|| activity.whole(alternative));
-            let cost = alternative.cost(rest)?;
-            used.iter_mut().zip(cost).for_each(|(used, cost)| *used += u64::from(cost));
-        }
-        scenario.order.into_iter().find(|&axis| used[axis] > scenario.limits[axis])
+        let (scenario, rest) = (self.mission.scenario(), self.rest(at));
+        scenario.order.into_iter().find(|&axis| at.used[axis] + rest[axis] > scenario.limits[axis])
     }
 
     /// The configuration that is planned for an activity; none for one that does not drive.

@@ -10,20 +10,23 @@ use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
 use super::{Conduct, Injection, Run, Script, When};
-use crate::options::{Aim, Planner};
+use crate::options::Planner;
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
 use cotama_core::net::{Net, PlaceId};
 use cotama_core::system::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, FailureMode, Health, Level, Losses, Modules, Situation, Told, delivery, local,
+    Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, delivery, local,
 };
 use cotama_models::mission::Mission;
 use std::collections::VecDeque;
 use telling::Objective;
 
+mod records;
 mod telling;
+
+pub(super) use records::Recorded;
 
 /// The period of the control loop, of rounds, and of the steps of the robot (stated: below 0.1 s a loop).
 pub const PERIOD: Millis = Millis(100);
@@ -35,9 +38,6 @@ pub const LONGEST: Millis = Millis(3_600_000);
 /// Clocks and slots of a player are those of the embedded mission, whatever the objectives.
 const CLOCKS: usize = delivery::SIZE.clocks;
 const SLOTS: usize = delivery::SIZE.slots;
-
-/// The most steps of one search for a plan.
-const STEPS: u64 = 100_000;
 
 /// A failure under way; its number is its place in [`Run::conduct`].
 #[derive(Clone, Copy, Debug)]
@@ -93,8 +93,9 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         global_net: Net<'m>,
         program: P,
         script: &Script,
+        planner: Planner,
     ) -> Result<Self, NoPlan> {
-        let mut planning = Planning::new(mission, Planner::Exact { aim: Aim::Quality, steps: STEPS });
+        let mut planning = Planning::new(mission, planner);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(run::Cause::Start, start, Modules::ALL)?;
         let level = Level::start(program);
@@ -206,10 +207,14 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
+                x,
                 during: self.situation.local,
                 detected: None,
+                flags: Flags::NONE,
+                judged: None,
                 decided: None,
                 answered: None,
+                exposed: Millis(0),
             });
         }
         for failure in &mut self.failures {
@@ -296,6 +301,11 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         let exposed = moving && !self.broken().available().covers(required);
         self.exposed = if exposed { Millis(self.exposed.0 + PERIOD.0) } else { Millis(0) };
         self.run.exposed = self.run.exposed.max(self.exposed);
+        if exposed {
+            let breaks = |it: &Failure| !it.over && !it.mode.health(it.part).available().covers(required);
+            let conducts = self.failures.iter().zip(&mut self.run.conduct);
+            conducts.filter(|(it, _)| breaks(it)).for_each(|(_, it)| it.exposed.0 += PERIOD.0);
+        }
         let permitted = self.level.permit().is_some();
         if self.permitted && !permitted {
             self.withdrawn = Some(self.robot.x());

@@ -1,10 +1,11 @@
 //! Recording a run, and running a recorded one again.
 
-use super::{Header, RunFaults, RunOptions, RunUpward, SCHEMA, Trace};
+use super::{Header, Record, RunFaults, RunOptions, RunUpward, SCHEMA, Trace};
 use crate::faults_text::faults_text;
 use crate::options::{FaultChoice, Options};
 use crate::run::{NoPlan, Run};
 use crate::setup::{SetupError, Simulation};
+use crate::supervised::{Script, Supervised, Unsupervised};
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::diagnostic::MissionErrors;
@@ -19,6 +20,8 @@ pub enum RecordError {
     Text(MissionErrors),
     /// The run cannot be set up.
     Setup(SetupError),
+    /// The mission has supervisors that are not simulated.
+    Unsupervised(Unsupervised),
     /// There is no plan at the start.
     Infeasible {
         /// Why.
@@ -33,6 +36,7 @@ impl fmt::Display for RecordError {
         match self {
             Self::Text(errors) => errors.fmt(f),
             Self::Setup(error) => error.fmt(f),
+            Self::Unsupervised(error) => error.fmt(f),
             Self::Infeasible { text, .. } => write!(f, "infeasible from the start: {text}"),
         }
     }
@@ -52,7 +56,8 @@ pub struct Replayed {
 }
 
 impl Trace {
-    /// Runs a mission from its text and records everything.
+    /// Runs a mission from its text and records everything: under supervisors if its file names them. Those deal with the
+    /// incidents of the faults; other faults, the seed and the search for better plans change nothing there.
     ///
     /// # Errors
     /// A [`RecordError`] for a text with errors, options that do not fit it, or no plan at the start.
@@ -68,11 +73,14 @@ impl Trace {
     /// ```
     pub fn record(mission_source: &str, text: &str, options: &Options) -> Result<(Self, Run), RecordError> {
         let mission = Mission::parse(mission_source, text).map_err(RecordError::Text)?;
-        let simulation = Simulation::new(&mission, options).map_err(RecordError::Setup)?;
+        let period = options.monitor_period.unwrap_or(mission.run.monitor_period);
         let mut records = Vec::new();
-        let run = simulation
-            .run_recorded(options.seed, &mut records)
-            .map_err(|reason| RecordError::Infeasible { reason, text: reason.text(&mission) })?;
+        let run = if mission.supervisor().is_some() {
+            supervised(&mission, options, period, &mut records)
+        } else {
+            let simulation = Simulation::new(&mission, options).map_err(RecordError::Setup)?;
+            simulation.run_recorded(options.seed, &mut records).map_err(|reason| infeasible(&mission, reason))
+        }?;
         let faults = match &options.faults {
             FaultChoice::Script => RunFaults::Script,
             FaultChoice::None => RunFaults::None,
@@ -91,7 +99,7 @@ impl Trace {
             options: RunOptions {
                 seed: options.seed,
                 faults,
-                monitor_period_ms: simulation.monitor_period().0,
+                monitor_period_ms: period.0,
                 allocator: options.planner,
                 upward,
             },
@@ -134,6 +142,30 @@ impl Trace {
             upward,
         })
     }
+}
+
+fn infeasible(mission: &Mission, reason: NoPlan) -> RecordError {
+    RecordError::Infeasible { reason, text: reason.text(mission) }
+}
+
+/// Runs a mission under its supervisors.
+fn supervised(
+    mission: &Mission,
+    options: &Options,
+    period: Millis,
+    records: &mut Vec<Record>,
+) -> Result<Run, RecordError> {
+    let ready = Supervised::new(mission).map_err(RecordError::Unsupervised)?.with_planner(options.planner);
+    if period.0 == 0 {
+        return Err(RecordError::Setup(SetupError::ZeroPeriod));
+    }
+    let script = match &options.faults {
+        FaultChoice::Script => Script::from(&mission.run.faults),
+        FaultChoice::None => Script::default(),
+        FaultChoice::Given { faults, .. } => Script::from(faults),
+    };
+    let run = ready.run_recorded(&script, period, records).map_err(|reason| infeasible(mission, reason))?;
+    Ok(run.summary(mission))
 }
 
 /// Runs a recorded mission again, from nothing but its header, and compares.

@@ -6,6 +6,7 @@
 mod matrix;
 mod other_missions;
 mod seven_points;
+mod trace;
 mod triples;
 
 use cotama_models::mission::Mission;

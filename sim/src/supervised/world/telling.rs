@@ -5,7 +5,7 @@ use crate::run::{self, NoPlan};
 use crate::supervised::effect::{Ends, effect, observable};
 use crate::supervised::operator::View;
 use crate::supervised::plan::Progress;
-use crate::supervised::{Decided, Fired, PERIOD, PLANNING};
+use crate::supervised::{Decided, Fired, Judged, PERIOD, PLANNING};
 
 /// How long the planner may take beyond what it usually does (FMECA, row PPL1).
 const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
@@ -13,7 +13,8 @@ use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
-    Severity, Told, decide, delivery, diagnose, faults, global, is_detectable, judge, local, operator,
+    Severity, Told, by_availability, decide, delivery, diagnose, faults, global, is_detectable, judge, local,
+    operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
@@ -69,6 +70,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let diagnosis = diagnose(raised, self.observing());
         for &number in &seen {
             self.run.conduct[number].detected = Some((self.now, diagnosis));
+            self.run.conduct[number].flags = raised;
         }
         let cause = Cause(first as u16 + 1);
         if diagnosis != Diagnosis::Unexplained {
@@ -106,6 +108,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
             Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => (Some(Report::Ambiguous), Severity::Hard),
         };
+        self.judge(report, severity);
         let Some(report) = report else {
             // It is recorded, and nobody has to decide.
             let conduct = usize::from(cause.0).checked_sub(1).and_then(|it| self.run.conduct.get_mut(it));
@@ -145,6 +148,17 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         } else {
             self.resigned = true;
             self.untold.push_back((Told::Failure(faults::Event::fail_hard), Cause(0)));
+        }
+    }
+
+    /// Notes how what was detected now is judged.
+    fn judge(&mut self, report: Option<Report>, severity: Severity) {
+        let left = self.known.available();
+        let operator = left.has(Module::Lan) && report != Some(Report::Refusal);
+        let situation = self.level.situation(self.lost);
+        let by_availability = by_availability(situation, left, operator);
+        for it in self.run.conduct.iter_mut().filter(|it| it.detected.is_some_and(|it| it.0 == self.now)) {
+            it.judged.get_or_insert(Judged { report, severity, by_availability });
         }
     }
 
@@ -358,8 +372,12 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let Some(at) = self.failures.iter().position(|it| it.mode == FailureMode::Opr1) else {
             return Cause(0);
         };
-        let diagnosis = Diagnosis::Unique(FailureMode::Opr1);
-        self.run.conduct[at].detected.get_or_insert((self.now, diagnosis));
+        let (diagnosis, conduct) = (Diagnosis::Unique(FailureMode::Opr1), &mut self.run.conduct[at]);
+        if conduct.detected.is_none() {
+            (conduct.detected, conduct.flags) =
+                (Some((self.now, diagnosis)), FailureMode::Opr1.rule().signature.always);
+            self.judge(FailureMode::Opr1.rule().report, self.severity(FailureMode::Opr1));
+        }
         Cause(at as u16 + 1)
     }
 

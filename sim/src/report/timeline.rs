@@ -1,0 +1,285 @@
+//! Who was in which place when: the supervisors of a mission over time, one lane each, with speed, position and margin below.
+
+use super::MAX_POINTS;
+use super::axis::{Layout, NARROW, WIDE, tick_label, ticks};
+use super::format::{clock, metres, moment, seconds};
+use super::series::{Point, Scale, below_zero, line, steps, thinned};
+use super::strip::{BAR, Bar, Lanes, Rows};
+use super::svg::Svg;
+use super::view::View;
+use crate::trace::{Record, Sample};
+use cotama_core::net::Role;
+use cotama_models::cotama::delivery;
+use std::fmt::Write;
+
+/// The nets that have a lane, with its name.
+const NETS: [(&str, &str); 5] =
+    [("gs", "Global"), ("ls", "Local"), ("pf", "Adapter PF"), ("to", "Adapter TO"), ("permit", "Permit")];
+
+/// The timeline and its key; once more from the first point to the last, if those lie close together.
+pub(super) fn section(view: &View<'_>) -> String {
+    let mut html = String::from(
+        "<section class=\"timeline\"><h2>Who was where, when</h2>\n<p class=\"note\">A lane is a supervisor, a bar a place \
+         of its net; where it rests there is none. Numbers are the points of the story below. Red in the lane of failures is \
+         the time from a failure to the first reaction.</p>\n",
+    );
+    let whole = Span { from_us: 0, to_us: view.last().1.max(1) };
+    figure(&mut html, view, whole, "The whole mission");
+    let (first, last) = (view.points.first().map(|it| it.t_us), view.points.last().map(|it| it.t_us));
+    if let (Some(first), Some(last)) = (first, last) {
+        let room = (last - first) / 12 + 1_000_000;
+        let end = leaving(view, last).saturating_add(room).min(whole.to_us);
+        let close = Span { from_us: first.saturating_sub(room), to_us: end };
+        if view.points.len() > 1 && close.to_us - close.from_us < whole.to_us / 3 * 2 {
+            figure(&mut html, view, close, "From the first point to the last");
+        }
+    }
+    html.push_str("</section>\n");
+    html
+}
+
+/// When the mode that the last point led to was left again.
+fn leaving(view: &View<'_>, from_us: u64) -> u64 {
+    let rests = view.trace.records.iter().find_map(|it| match it {
+        Record::Configuration(it) if it.t_us > from_us && it.mode == "rest" => Some(it.t_us),
+        _ => None,
+    });
+    rests.unwrap_or(from_us)
+}
+
+fn figure(html: &mut String, view: &View<'_>, span: Span, title: &str) {
+    let length = clock((span.to_us - span.from_us) / 1000);
+    let _ = write!(
+        html,
+        "<figure><figcaption><h3>{title}</h3><span class=\"note\">{length}</span></figcaption>\n{}{}</figure>\n",
+        draw(view, span, WIDE),
+        draw(view, span, NARROW)
+    );
+}
+
+/// A part of the time of a run, in µs; not empty.
+#[derive(Clone, Copy)]
+struct Span {
+    from_us: u64,
+    to_us: u64,
+}
+
+/// The axis of time.
+#[derive(Clone, Copy)]
+struct Time {
+    span: Span,
+    layout: Layout,
+}
+
+impl Time {
+    /// Where a time is drawn; those outside of the span at its ends.
+    fn at(&self, t_us: u64) -> f64 {
+        let Span { from_us, to_us } = self.span;
+        let share = (t_us.clamp(from_us, to_us) - from_us) as f64 / (to_us - from_us).max(1) as f64;
+        self.layout.left + share * (self.layout.end() - self.layout.left)
+    }
+
+    fn shows(&self, t_us: u64) -> bool {
+        (self.span.from_us..=self.span.to_us).contains(&t_us)
+    }
+
+    /// The axis line and its ticks in seconds, with grid lines up to `top`.
+    fn draw(&self, svg: &mut Svg, top: f64, bottom: f64) {
+        let ms = |us: u64| i128::from(us / 1000);
+        let (numbers, step) = ticks(ms(self.span.from_us), ms(self.span.to_us), self.layout.x_ticks);
+        svg.line("axis", [self.layout.left, bottom], [self.layout.end(), bottom]);
+        let last = numbers.last().copied();
+        for number in numbers {
+            let x = self.at(u64::try_from(number).unwrap_or(0).saturating_mul(1000));
+            svg.line("grid", [x, top], [x, bottom]);
+            svg.line("axis", [x, bottom], [x, bottom + 4.0]);
+            let unit = if Some(number) == last { " s" } else { "" };
+            svg.text("m small muted", [x, bottom + 16.0], &format!("{}{unit}", tick_label(number, step)));
+        }
+    }
+}
+
+fn draw(view: &View<'_>, span: Span, layout: Layout) -> String {
+    let time = Time { span, layout };
+    let pins = pins(view, time);
+    let top = 14.0 + pins.len() as f64 * 18.0;
+    let mut rows = Rows { svg: Svg::new(), layout, axis: time, y: top + 6.0 };
+    lane(&mut rows, "Failures", &failures(view, time));
+    let configured = |mode: bool| {
+        stretches(view, time, move |it| match it {
+            Record::Configuration(it) if mode => Some(if it.mode == "rest" { "" } else { it.mode.as_str() }),
+            Record::Configuration(it) => Some(it.configuration.as_deref().unwrap_or("")),
+            _ => None,
+        })
+    };
+    lane(&mut rows, "Mode", &configured(true));
+    lane(&mut rows, "Runs", &configured(false));
+    for (net, name) in NETS {
+        lane(&mut rows, name, &places(view, time, net));
+    }
+    rows.y += 4.0;
+    let sampled = |value: fn(&Sample) -> i64| -> Vec<(u64, i64)> {
+        view.samples.iter().map(|it| (it.t_us, value(it))).collect()
+    };
+    let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX);
+    curve(
+        &mut rows,
+        "Speed m/s",
+        44.0,
+        &sampled(|it| i64::try_from(it.speed_mm_s).unwrap_or(i64::MAX)),
+        true,
+    );
+    let place = view.samples.iter().map(|it| (it.t_us, signed(it.x_mm))).collect::<Vec<_>>();
+    curve(&mut rows, "Position m", 60.0, &place, false);
+    curve(&mut rows, "Margin s", 60.0, &sampled(|it| it.margins.duration_ms), false);
+    let bottom = rows.y;
+    let mut under = Svg::new();
+    time.draw(&mut under, top, bottom);
+    for (row, pins) in pins.iter().enumerate() {
+        for &(number, x) in pins {
+            let Some(point) = view.points.get(number - 1) else { continue };
+            let title =
+                format!("{number}: {} at {}, {}", point.title(), metres(point.x_mm), moment(point.t_us));
+            let y = 10.0 + row as f64 * 18.0;
+            under.titled(&title, |svg| {
+                svg.line("replan point", [x, y], [x, bottom]);
+                svg.circle("pin point", [x, y], 8.0);
+                svg.text("m pin", [x, y + 4.0], &number.to_string());
+            });
+        }
+    }
+    under.append(&rows.svg);
+    under.finish(
+        layout.class,
+        [layout.width, bottom + 22.0],
+        "Places of the supervisors over time, with speed and position",
+    )
+}
+
+/// The numbered pins of the points: rows from top to bottom, in each the numbers with their places.
+fn pins(view: &View<'_>, time: Time) -> Vec<Vec<(usize, f64)>> {
+    let mut lanes = Lanes::new(3);
+    let mut rows: Vec<Vec<(usize, f64)>> = vec![Vec::new()];
+    for point in view.points.iter().take(MAX_POINTS).filter(|it| time.shows(it.t_us)) {
+        let x = time.at(point.t_us);
+        let Some(row) = lanes.place(x - 8.5, x + 8.5) else { continue };
+        rows.resize(rows.len().max(row + 1), Vec::new());
+        rows[row].push((point.number, x));
+    }
+    rows
+}
+
+/// A row of bars; one without any says so.
+fn lane(rows: &mut Rows<Time>, name: &str, bars: &[Bar]) {
+    rows.name(name);
+    if bars.is_empty() {
+        rows.svg.text("small muted", [rows.layout.left, rows.y + 13.0], "–");
+    }
+    rows.bars(bars, false);
+}
+
+/// The time from each failure to the first reaction.
+fn failures(view: &View<'_>, time: Time) -> Vec<Bar> {
+    let mut bars: Vec<Bar> = Vec::new();
+    for point in view.points.iter().take(MAX_POINTS) {
+        let Some(chain) = point.chain() else { continue };
+        let to_us =
+            chain.reaction.first().map_or(chain.diagnosis.map_or(u64::MAX, |it| it.t_us), |it| it.t_us);
+        if !time.shows(point.t_us) {
+            continue;
+        }
+        let from = time.at(point.t_us).max(bars.last().map_or(0.0, |it| it.to));
+        let title = format!("{}, {}", point.title(), point.done().unwrap_or_default());
+        let to = time.at(to_us).max(from + 2.5);
+        bars.push(Bar { from, to, class: "open".into(), label: chain.failure.mode.clone(), title });
+    }
+    bars
+}
+
+/// What holds from each record on until the next one that says so; where it is empty there is no bar.
+fn stretches<'t>(view: &View<'t>, time: Time, what: impl Fn(&'t Record) -> Option<&'t str>) -> Vec<Bar> {
+    let mut bars: Vec<Bar> = Vec::new();
+    let mut add = |name: &str, from_us: u64, to_us: u64| {
+        let (from, to) = (time.at(from_us), time.at(to_us));
+        if name.is_empty() || to_us <= time.span.from_us || from_us >= time.span.to_us || to - from < 0.2 {
+            return;
+        }
+        let title = format!(
+            "{name}: {} to {}, {}",
+            moment(from_us),
+            moment(to_us),
+            seconds((to_us - from_us) / 1000)
+        );
+        let class = format!("tint {}", tint(name));
+        bars.push(Bar { from, to, class, label: name.into(), title });
+    };
+    let (mut name, mut since) = ("", 0);
+    for record in &view.trace.records {
+        let Some(next) = what(record).filter(|next| *next != name) else { continue };
+        add(name, since, record.t_us());
+        (name, since) = (next, record.t_us());
+    }
+    add(name, since, view.last().1);
+    bars
+}
+
+/// The places of a net, but for that where it rests: the one it starts in.
+fn places(view: &View<'_>, time: Time, net: &str) -> Vec<Bar> {
+    let component = delivery::SYSTEM.components.iter().find(|it| it.name == net);
+    let rest =
+        component.and_then(|it| it.net.places.iter().find(|it| it.initial > 0 && it.role == Role::State));
+    let rest = rest.map_or("", |it| it.name);
+    stretches(view, time, |record| match record {
+        Record::Fired(it) if it.net == net => Some(if it.place == rest { "" } else { it.place.as_str() }),
+        _ => None,
+    })
+}
+
+/// The colour of a place, a mode or a configuration: blue for the robot alone, as planned; amber while it waits for the
+/// operator; violet and red for what he does; green and grey for what is degraded. The label says the same.
+fn tint(name: &str) -> &'static str {
+    match name {
+        "autonomous" | "Following" | "PF.OPT" | "Optimal" | "DriveA" | "DriveB" => "f0",
+        "Planning" | "PP" | "Receive" | "Deliver" | "End" | "Done" => "f6",
+        "PF.OPTR" | "Reduced" => "f1",
+        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "Odometric" | "Granted" => "f5",
+        "hand-over" | "HandOver" | "Security" => "f2",
+        "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
+        "teleoperated" | "Teleoperated" | "TO.FULL" | "TO.DEG" | "Full" | "Safe" | "Destroyed" => "f4",
+        // Of both adapters: they serve different lanes.
+        "Degraded" => "f5",
+        _ => "f6",
+    }
+}
+
+/// A curve with its own scale; values hold until the next one, or change steadily.
+fn curve(rows: &mut Rows<Time>, name: &str, height: f64, values: &[(u64, i64)], held: bool) {
+    rows.name(name);
+    let time = rows.axis;
+    let (top, bottom) = (rows.y + 2.0, rows.y + height);
+    let shown: Vec<(u64, i64)> = values.iter().filter(|it| time.shows(it.0)).copied().collect();
+    let of = |pick: fn(i64, i64) -> i64| shown.iter().map(|it| it.1).fold(0, pick);
+    let scale = Scale { low: of(i64::min).into(), high: i128::from(of(i64::max)).max(1), top, bottom };
+    let (numbers, step) = ticks(scale.low, scale.high, (height / 18.0) as i128);
+    for number in numbers {
+        let y = scale.y(number);
+        rows.svg.line(
+            if number == 0 { "zero" } else { "grid" },
+            [rows.layout.left, y],
+            [rows.layout.end(), y],
+        );
+        // Where names stand beside the rows, the numbers stand on the other side.
+        let (class, x) = if rows.layout.names_beside {
+            ("small muted", rows.layout.end() + 4.0)
+        } else {
+            ("e small muted", rows.layout.left - 4.0)
+        };
+        rows.svg.text(class, [x, y + 4.0], &tick_label(number, step));
+    }
+    let drawn: Vec<Point> = thinned(&shown.iter().map(|&(t, value)| (time.at(t), value)).collect::<Vec<_>>());
+    if !held {
+        rows.svg.path("below", &below_zero(&drawn, scale));
+    }
+    rows.svg.path("line real", &if held { steps(&drawn, scale) } else { line(&drawn, scale) });
+    rows.y += height + BAR / 2.0;
+}

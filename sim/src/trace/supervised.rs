@@ -1,0 +1,131 @@
+//! What the supervisors of a mission leave in its trace (Durand et al., TAROS 2010): the chain from a failure to a reaction.
+//!
+//! Failures have numbers from 1 in the order of their happening; `cause` and `failure` are such numbers.
+
+use serde::{Deserialize, Serialize};
+
+/// A transition of a supervisor fired.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Fired {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// The net, by its name in the system `delivery`: `gs`, `ls`, `pf`, `to`, `permit`, `gom` or `cs`.
+    pub net: String,
+    /// The transition.
+    pub transition: String,
+    /// The place of the net that is marked after it.
+    pub place: String,
+    /// The failure that it goes back to; none for what the mission or the operator caused.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cause: Option<u16>,
+}
+
+impl Fired {
+    /// The line of the net's definition: the transition without the variant of a counter or a group, as `as2`.
+    pub fn line(&self) -> &str {
+        self.transition.split('.').next().unwrap_or_default()
+    }
+}
+
+/// The supervisors were told something, and it was accepted.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Told {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// The number of the round after which, from 1.
+    pub round: u64,
+    /// What: the net and its event, as `operator.teleoperate`.
+    pub event: String,
+}
+
+/// Something failed; nobody has noticed it yet.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Failure {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// Its number.
+    pub failure: u16,
+    /// The row of the FMECA, as `SON1`.
+    pub mode: String,
+    /// The place of the local supervisor.
+    pub during: String,
+}
+
+/// Flags were raised, and taken for something.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Diagnosis {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// The failures that raised them.
+    pub failures: Vec<u16>,
+    /// The flags.
+    pub flags: Vec<String>,
+    /// The rows of the FMECA that explain the flags: one is a unique diagnosis, several are an ambiguous one, none is an
+    /// unexplained one.
+    pub candidates: Vec<String>,
+    /// The report to the contextual supervisor; none for what is recorded only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub report: Option<String>,
+    /// How severe it is where the robot is: `weak`, `medium`, `hard` or `fatal`.
+    pub severity: String,
+    /// The class by severity: `adapter`, `local` or `global`.
+    pub by_severity: String,
+    /// The class by what is still available: `record`, `adapter`, `local` or `global`.
+    pub by_availability: String,
+}
+
+/// The contextual supervisor decided on a failure for the first time.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Decision {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// The failure.
+    pub failure: u16,
+    /// Whom it is for: `record` (nobody), `adapter`, `local` or `global`.
+    pub decision: String,
+    /// The event that it sends; none when it records only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub event: Option<String>,
+    /// The transition of the contextual supervisor.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub transition: Option<String>,
+    /// The time since the failure, in ms.
+    pub since_ms: u64,
+}
+
+/// The robot has moved while its configuration required a module that a failure breaks; written when that is over.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Exposure {
+    /// When it was over, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// The failure.
+    pub failure: u16,
+    /// For how long, in all since the failure, in ms.
+    pub exposed_ms: u64,
+}
+
+/// Other modules run from now on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Configured {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// The configuration, as `PF.OPT`; none when none runs.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub configuration: Option<String>,
+    /// The autonomy mode: `rest`, `autonomous`, `hand-over`, `teleprogrammed` or `teleoperated`.
+    pub mode: String,
+}
