@@ -53,6 +53,7 @@ fn flags_that_make_no_sense() {
     let folder = Folder::new("bad_flags");
     refused(&folder, "lost_unknown", &["plan", "patrol", "--lost", "radar"]);
     refused(&folder, "lost_many", &["run", "patrol", "--lost", "laser:3"]);
+    refused(&folder, "lost_supervised", &["run", "delivery", "--lost", "SMZ"]);
     refused(&folder, "limit_large", &["plan", "patrol", "--duration-limit", "18446744073709551615"]);
     for arguments in [
         &["plan"][..],

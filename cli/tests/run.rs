@@ -38,18 +38,94 @@ fn the_patrol_is_driven_as_in_table_7() {
 }
 
 #[test]
-fn a_supervised_mission_is_run_by_its_plans_alone_and_says_so() {
+fn the_delivery_is_driven_in_seven_points() {
     let folder = Folder::new("run_delivery");
     let run = folder.cotama(&["run", "delivery", "--json", "--trace", "t.jsonl"]);
-    let note =
-        "6 failures and answers of the operator are not simulated: the mission is run by its plans alone\n";
-    assert_eq!(run.stderr, note);
+    assert_eq!(run.stderr, "");
     let answer = run.json(0);
-    assert_eq!((&answer["outcome"], &answer["replans"]), (&json!("completed"), &json!(0)));
-    assert_eq!((&answer["duration_ms"], &answer["events"]), (&json!(326_667), &json!([])));
+    assert_eq!((&answer["outcome"], &answer["operator_requests"]), (&json!("completed"), &json!(2)));
+    assert_eq!((&answer["duration_ms"], &answer["x_mm"]), (&json!(546_300), &json!(80_000)));
+    assert_eq!(
+        (&answer["duration_margin_ms"], &answer["energy_margin_mj"]),
+        (&json!(353_700), &json!(3_794_552))
+    );
+    assert_eq!((&answer["replans"], &answer["plans"][1]["plan"][0]["choice"]), (&json!(1), &json!("PF.DEG")));
+    let supervised = &answer["supervised"];
+    let points = supervised["points"].as_array().unwrap();
+    let ladder: Vec<_> = points.iter().map(|it| it["ladder"].clone()).collect();
+    let activity = json!(["activity"]);
+    let expected = [
+        json!([]),
+        json!(["parameter"]),
+        activity.clone(),
+        activity.clone(),
+        activity.clone(),
+        json!(["set", "objective"]),
+        activity,
+    ];
+    assert_eq!(ladder, expected);
+    let sonar = json!({
+        "mode": "SON1", "t_ms": 118_300, "x_mm": 26_040, "during": "Following",
+        "detected_ms": 123_200, "flags": ["sonar far"], "diagnosis": "unique", "candidates": ["SON1"],
+        "report": "sonar", "severity": "medium", "by_severity": "adapter", "by_availability": "adapter",
+        "decided_ms": 123_300, "decision": "adapter", "event": "adapt_sonar", "transition": "sonar1",
+        "answered_ms": 123_400, "exposed_ms": 5_200,
+    });
+    assert_eq!(supervised["failures"][2], sonar);
+    assert_eq!(supervised["told"][0], json!({ "round": 1, "event": "gs.mission_received" }));
+    let fired =
+        json!({ "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3 });
+    assert!(supervised["fired"].as_array().unwrap().contains(&fired));
+    let runs: Vec<_> =
+        supervised["configurations"].as_array().unwrap().iter().map(|it| &it["configuration"]).collect();
+    assert_eq!(runs[..4], [&json!("PP"), &json!("PF.OPT"), &json!("PF.OPTR"), &Value::Null]);
+
     let again = folder.cotama(&["replay", "t.jsonl", "--json"]).json(0);
-    assert_eq!(again["identical"], true);
-    assert_eq!(folder.cotama(&["run", "delivery", "--json", "--faults", "none"]).stderr, "");
+    assert_eq!((&again["identical"], &again["supervised"]), (&json!(true), supervised));
+    let html = folder.read("report/delivery/index.html");
+    assert!(html.contains("Who was where, when"));
+    // Nothing is random: another seed is the same run.
+    let other = folder.cotama(&["run", "delivery", "--json", "--seed", "9", "--no-report"]).json(0);
+    assert_eq!(&other["supervised"], supervised);
+}
+
+#[test]
+fn supervisors_deal_with_the_failures_of_a_file() {
+    let folder = Folder::new("run_delivery_faults");
+    let faults =
+        "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"BAT2\"\n";
+    folder.write("flat.toml", faults);
+    let answer = folder.cotama(&["run", "delivery", "--faults", "flat.toml", "--json"]).json(1);
+    assert_eq!(
+        (&answer["outcome"], &answer["supervised"]["failures"][0]["decision"]),
+        (&json!("safe"), &json!("global"))
+    );
+    assert!(answer["reason"].as_str().unwrap().ends_with("(BAT2)"), "{}", answer["reason"]);
+    let twice = folder.cotama(&["replay", "flat.toml", "--mission", "delivery", "--json"]).json(1);
+    assert_eq!((&twice["identical"], &twice["supervised"]), (&json!(true), &answer["supervised"]));
+
+    let quiet = folder.cotama(&["run", "delivery", "--faults", "none", "--json"]).json(0);
+    assert_eq!((&quiet["operator_requests"], &quiet["supervised"]["failures"]), (&json!(0), &json!([])));
+    folder.write(
+        "crowd.toml",
+        "format = \"panorama-faults/1\"\nevent = [{ x_mm = 9, kind = \"obstacle\", delay_ms = 9 }]\n",
+    );
+    let run = folder.cotama(&["run", "delivery", "--faults", "crowd.toml", "--json"]);
+    assert_eq!(
+        run.stderr,
+        "1 faults that only plans know are not simulated: the mission is run by its supervisors\n"
+    );
+}
+
+#[test]
+fn a_limit_that_the_delivery_exceeds_is_a_failure() {
+    let folder = Folder::new("run_delivery_limit");
+    let answer = folder.cotama(&["run", "delivery", "--duration-limit", "400000", "--json"]).json(1);
+    assert_eq!((&answer["outcome"], &answer["duration_margin_ms"]), (&json!("failed"), &json!(-143_500)));
+    assert_eq!(answer["reason"], "duration limit exceeded by 143500 ms");
+    // Without a plan for the rest, the adapter goes on and the operator is asked.
+    let sonar = &answer["supervised"]["points"][5];
+    assert_eq!((&answer["replans"], &sonar["ladder"]), (&json!(0), &json!(["set", "activity"])));
 }
 
 #[test]

@@ -7,6 +7,8 @@ fn the_screens_of_the_patrol() {
     let folder = Folder::new("screens");
     golden("plan_patrol.txt", &folder.cotama(&["plan", "patrol"]).stdout);
     golden("run_patrol.txt", &folder.cotama(&["run", "patrol"]).stdout);
+    golden("run_delivery.txt", &folder.cotama(&["run", "delivery"]).stdout);
+    golden("run_delivery_narrow.txt", &folder.shell("COLUMNS=60 cotama run delivery").stdout);
     golden("plan_delivery.txt", &folder.cotama(&["plan", "delivery"]).stdout);
     golden("plan_patrol_narrow.txt", &folder.shell("COLUMNS=60 cotama plan patrol").stdout);
     golden("plan_infeasible.txt", &folder.cotama(&["plan", "patrol", "--lost", "kinect"]).stdout);

@@ -47,6 +47,8 @@ pub struct Chain<'t> {
     pub decision: Option<&'t Decision>,
     /// The transitions of the supervisors that acted first, all of one round.
     pub reaction: Vec<&'t Fired>,
+    /// When the operator was asked about it, in µs.
+    pub asked_us: Option<u64>,
     /// What the operator did, if the robot did not go on alone after it.
     pub operator: Vec<&'t Told>,
     /// Whether what is left was planned again.
@@ -185,6 +187,9 @@ impl<'t> Story<'t> {
                 if it.place == "HandOver" {
                     self.belongs();
                     self.asked = it.cause;
+                    if let Some(chain) = it.cause.and_then(|it| self.chain(it)) {
+                        chain.asked_us = Some(it.t_us);
+                    }
                 }
                 let acts = ["gs", "ls", "pf", "to"].contains(&it.net.as_str());
                 if let Some(chain) = it.cause.filter(|_| acts).and_then(|it| self.chain(it))
@@ -237,6 +242,7 @@ impl<'t> Chain<'t> {
             diagnosis: None,
             decision: None,
             reaction: Vec::new(),
+            asked_us: None,
             operator: Vec::new(),
             planned_again: false,
             exposed_ms: 0,
@@ -312,8 +318,10 @@ impl Point<'_> {
         let by: Vec<_> = chain.reaction.iter().map(|it| it.line()).collect();
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
         let again = if chain.planned_again { "; the rest is planned again" } else { "" };
+        let later = chain.asked_us.filter(|&it| it > first.t_us);
+        let asked = later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
         let said: String = chain.operator.iter().map(|it| format!("; {}", said(answer(it)))).collect();
-        Some(format!("after {}, {}: {runs}{again}{said}", self.since(first.t_us), by.join(" ")))
+        Some(format!("after {}, {}: {runs}{again}{asked}{said}", self.since(first.t_us), by.join(" ")))
     }
 
     /// The rungs of the ladder that were taken, the lowest first.
@@ -332,7 +340,11 @@ impl Point<'_> {
         if chain.planned_again {
             rungs.push(Rung::Objective);
         }
+        if chain.asked_us.is_some() {
+            rungs.push(Rung::Activity);
+        }
         rungs.sort_unstable();
+        rungs.dedup();
         rungs
     }
 
