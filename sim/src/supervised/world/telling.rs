@@ -73,15 +73,18 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             self.run.conduct[number].flags = raised;
         }
         let cause = Cause(first as u16 + 1);
-        if diagnosis != Diagnosis::Unexplained {
-            self.conclude(diagnosis, cause);
-            return;
-        }
         // Several at once: whatever always raises some of the flags may be among them, and is taken to be.
         let status = self.observing();
         let shown =
             |it: &FailureMode| raised.covers(it.rule().signature.always) && is_detectable(*it, status);
-        for mode in FailureMode::ALL.iter().copied().filter(shown) {
+        let modes: Vec<_> = match diagnosis {
+            Diagnosis::Unexplained => FailureMode::ALL.iter().copied().filter(shown).collect(),
+            _ => Vec::new(),
+        };
+        if modes.is_empty() {
+            self.conclude(diagnosis, cause);
+        }
+        for mode in modes {
             self.conclude(Diagnosis::Unique(mode), cause);
         }
     }
