@@ -9,7 +9,8 @@
 //!
 //! The other half of the crate are [`nets`]: ready supervisors, checked while compiling, and families of nets.
 //!
-//! Without the feature `std` only [`tables`], [`patrol_tables`] and the ready [`nets`] remain, without heap, for firmware.
+//! Without the feature `std` only [`cotama`], [`tables`], [`patrol_tables`], [`delivery_tables`] and the ready [`nets`] remain,
+//! without heap, for firmware.
 //!
 //! ```
 //! # #[cfg(feature = "std")] {
@@ -24,10 +25,11 @@
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
 
-// Printed tables name this crate, wherever they are compiled; one of them is compiled here.
+// Printed tables name this crate, wherever they are compiled; two of them are compiled here.
 extern crate self as cotama_models;
 
 pub mod cotama;
+pub mod delivery_tables;
 pub mod nets;
 pub mod patrol_tables;
 pub mod tables;

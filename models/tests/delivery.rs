@@ -19,7 +19,7 @@ fn outside() -> Vec<Of<EventId>> {
 }
 
 #[test]
-fn explored() {
+fn the_rounds_reach_14824_states() {
     let first = delivery::Player::<()>::new();
     let mut seen = HashMap::from([(*first.marking(), 0_usize)]);
     let (mut states, mut edges) = (vec![first], 0);
@@ -51,13 +51,32 @@ fn explored() {
             });
         }
     }
-    println!("{} {edges}", states.len());
-    for (it, component) in delivery::SYSTEM.components.iter().zip(0..) {
-        for (t, id) in it.net.transitions.iter().zip(0..) {
-            if !fired.contains(&(component, id)) {
-                println!("never {}.{}", it.name, t.name);
-            }
-        }
-    }
-    panic!();
+    assert_eq!((states.len(), edges), (14_824, 147_728));
+    let transitions = delivery::SYSTEM.components.iter().zip(0..).flat_map(|(it, component)| {
+        it.net
+            .transitions
+            .iter()
+            .zip(0..)
+            .map(move |(t, id)| ((component, id), format!("{}.{}", it.name, t.name)))
+    });
+    let never: Vec<_> = transitions.filter(|it| !fired.contains(&it.0)).map(|it| it.1).collect();
+    // Variants of counters that no state has, a halt that always comes after the drive is stopped, and a link that is lost
+    // where the operator drives, which ends the mission before anything else can be hard.
+    let expected = [
+        "ls.abort.End",
+        "pf.a6.level_0",
+        "pf.a6.level_1",
+        "pf.a7.level_2",
+        "pf.a8.level_0",
+        "pf.a8.level_1",
+        "pf.a9.level_2",
+        "pf.as1.level_0",
+        "pf.as1.level_1",
+        "pf.as2.level_2",
+        "permit.destroyed.Granted",
+        "cs.slow3.mcl_0",
+        "cs.hard6",
+        "cs.camera2",
+    ];
+    assert_eq!(never, expected);
 }

@@ -6,7 +6,7 @@ use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::mission::Mission;
 use cotama_models::scenario::Constraint;
 use cotama_models::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
-use cotama_models::{embedded, patrol_tables};
+use cotama_models::{delivery_tables, embedded, patrol_tables};
 
 fn patrol() -> Mission {
     let patrol = embedded::mission("patrol").unwrap();
@@ -152,21 +152,36 @@ fn a_remaining_mission_becomes_a_problem_without_heap() {
     assert_eq!(refused, Err(RemainingError::TooLarge { activity: 0 }));
 }
 
+/// Compares printed tables with the file of the crate, and what is compiled of it with the mission.
+macro_rules! assert_printed {
+    ($mission:literal, $tables:ident) => {{
+        let embedded = embedded::mission($mission).unwrap();
+        let mission = Mission::parse(embedded.name, embedded.text).unwrap();
+        let scenario = mission.scenario();
+        let printed = scenario.to_rust(&mission.name);
+        if std::env::var_os("UPDATE_GOLDEN").is_some() {
+            let file = concat!(env!("CARGO_MANIFEST_DIR"), "/src/", stringify!($tables), ".rs");
+            std::fs::write(file, &printed).unwrap();
+            return;
+        }
+        let stored = include_str!(concat!("../src/", stringify!($tables), ".rs"));
+        assert!(printed == stored, "rewrite it with UPDATE_GOLDEN=1 cargo test");
+        // And compiled, they are the same values.
+        assert_eq!($tables::ACTIVITIES[..], scenario.activities()[..]);
+        assert_eq!(($tables::LIMITS, $tables::ORDER), (scenario.limits, scenario.order));
+        assert_eq!($tables::AVAILABLE, scenario.available());
+        for (labels, activity) in $tables::LABELS.iter().zip(&scenario.activities) {
+            assert_eq!(*labels, activity.labels);
+        }
+    }};
+}
+
 #[test]
 fn the_printed_tables_are_those_of_the_mission_file() {
-    let mission = patrol();
-    let scenario = mission.scenario();
-    let printed = scenario.to_rust(&mission.name);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/src/patrol_tables.rs"), &printed).unwrap();
-        return;
-    }
-    assert!(printed == include_str!("../src/patrol_tables.rs"), "rewrite it with UPDATE_GOLDEN=1 cargo test");
-    // And compiled, they are the same values.
-    assert_eq!(patrol_tables::ACTIVITIES[..], scenario.activities()[..]);
-    assert_eq!((patrol_tables::LIMITS, patrol_tables::ORDER), (scenario.limits, scenario.order));
-    assert_eq!(patrol_tables::AVAILABLE, scenario.available());
-    for (labels, activity) in patrol_tables::LABELS.iter().zip(&scenario.activities) {
-        assert_eq!(*labels, activity.labels);
-    }
+    assert_printed!("patrol", patrol_tables);
+}
+
+#[test]
+fn the_printed_tables_of_the_delivery_are_those_of_its_file() {
+    assert_printed!("delivery", delivery_tables);
 }

@@ -10,15 +10,7 @@ const MAILBOX: Mailbox = Mailbox { event: 0, waiting: FIELD, room: FIELD, slot: 
 const CLOCK: Clock = Clock { entry: 0, event: false, earliest: 0, latest: 0 };
 
 const fn entry<const W: usize>() -> Entry<W> {
-    Entry {
-        need: [0; W],
-        take: [0; W],
-        delta: [0; W],
-        component: 0,
-        transition: 0,
-        clock: NONE,
-        routes: (0, 0),
-    }
+    Entry { need: [0; W], delta: [0; W], component: 0, transition: 0, clock: NONE, routes: (0, 0) }
 }
 
 /// [`size`], in a `const`.
@@ -37,6 +29,7 @@ pub const fn size_of(system: &System<'_>) -> Size {
 pub struct Arrays<
     const W: usize,
     const T: usize,
+    const K: usize,
     const R: usize,
     const O: usize,
     const B: usize,
@@ -46,6 +39,7 @@ pub struct Arrays<
     const E: usize,
 > {
     entries: [Entry<W>; T],
+    takes: [[u64; W]; K],
     rows: [u16; R],
     routes: [Route; O],
     mailboxes: [Mailbox; B],
@@ -61,6 +55,7 @@ pub struct Arrays<
 impl<
     const W: usize,
     const T: usize,
+    const K: usize,
     const R: usize,
     const O: usize,
     const B: usize,
@@ -68,12 +63,13 @@ impl<
     const P: usize,
     const C: usize,
     const E: usize,
-> Arrays<W, T, R, O, B, N, P, C, E>
+> Arrays<W, T, K, R, O, B, N, P, C, E>
 {
     /// Packs a system; the lengths are those of [`size_of`].
     pub const fn of(system: &System<'_>) -> Self {
         let mut it = Self {
             entries: [entry(); T],
+            takes: [[0; W]; K],
             rows: [0; R],
             routes: [ROUTE; O],
             mailboxes: [MAILBOX; B],
@@ -89,6 +85,7 @@ impl<
             system,
             &mut Lists {
                 entries: &mut it.entries,
+                takes: &mut it.takes,
                 rows: &mut it.rows,
                 routes: &mut it.routes,
                 mailboxes: &mut it.mailboxes,
@@ -108,6 +105,7 @@ impl<
         let Words { guards, bounds, initial } = self.words;
         Code {
             entries: &self.entries,
+            takes: &self.takes,
             rows: &self.rows,
             routes: &self.routes,
             mailboxes: &self.mailboxes,
@@ -129,6 +127,7 @@ impl<
 #[derive(Clone, Debug)]
 pub struct Packed<const W: usize> {
     entries: alloc::vec::Vec<Entry<W>>,
+    takes: alloc::vec::Vec<[u64; W]>,
     rows: alloc::vec::Vec<u16>,
     routes: alloc::vec::Vec<Route>,
     mailboxes: alloc::vec::Vec<Mailbox>,
@@ -156,6 +155,7 @@ impl<const W: usize> Packed<W> {
         let size = size(system).filter(|size| size.words <= W).ok_or(super::SystemDefect::TooLong)?;
         let mut it = Self {
             entries: vec![entry(); size.entries],
+            takes: vec![[0; W]; size.takes],
             rows: vec![0; size.rows],
             routes: vec![ROUTE; size.routes],
             mailboxes: vec![MAILBOX; size.mailboxes],
@@ -171,6 +171,7 @@ impl<const W: usize> Packed<W> {
             system,
             &mut Lists {
                 entries: &mut it.entries,
+                takes: &mut it.takes,
                 rows: &mut it.rows,
                 routes: &mut it.routes,
                 mailboxes: &mut it.mailboxes,
@@ -190,6 +191,7 @@ impl<const W: usize> Packed<W> {
         let Words { guards, bounds, initial } = self.words;
         Code {
             entries: &self.entries,
+            takes: &self.takes,
             rows: &self.rows,
             routes: &self.routes,
             mailboxes: &self.mailboxes,

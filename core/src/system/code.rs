@@ -15,8 +15,6 @@ pub const NONE: u16 = u16::MAX;
 pub struct Entry<const W: usize> {
     /// Tokens that must be there.
     pub need: [u64; W],
-    /// Tokens removed.
-    pub take: [u64; W],
     /// What is added to the marking, modulo 2^64 in each word.
     pub delta: [u64; W],
     /// Its component.
@@ -71,6 +69,8 @@ pub struct Mailbox {
 pub struct Code<'c, const W: usize> {
     /// Transitions by row.
     pub entries: &'c [Entry<W>],
+    /// Tokens that each of them removes: clocks ask what is there in between. Nothing is listed without clocks.
+    pub takes: &'c [[u64; W]],
     /// Where rows begin in `entries`: events counted over all nets, then for each net what fires at once by itself,
     /// then all that fires by itself in an interval.
     pub rows: &'c [u16],
@@ -105,6 +105,7 @@ pub struct Size {
     pub words: usize,
     pub components: usize,
     pub entries: usize,
+    pub takes: usize,
     pub rows: usize,
     pub routes: usize,
     pub mailboxes: usize,
@@ -120,6 +121,7 @@ pub struct Size {
 #[expect(missing_docs, reason = "they are those of `Code`")]
 pub struct Lists<'l, const W: usize> {
     pub entries: &'l mut [Entry<W>],
+    pub takes: &'l mut [[u64; W]],
     pub rows: &'l mut [u16],
     pub routes: &'l mut [Route],
     pub mailboxes: &'l mut [Mailbox],

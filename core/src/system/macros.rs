@@ -125,9 +125,11 @@ macro_rules! system {
                 system_source::check(&SYSTEM);
                 system_code::size_of(&SYSTEM)
             };
-            const ARRAYS: &system_code::Arrays<
+            // A static: of a constant each crate that uses it may keep a copy.
+            static ARRAYS: system_code::Arrays<
                 { SIZE.words },
                 { SIZE.entries },
+                { SIZE.takes },
                 { SIZE.rows },
                 { SIZE.routes },
                 { SIZE.mailboxes },
@@ -135,7 +137,7 @@ macro_rules! system {
                 { SIZE.fields },
                 { SIZE.clocks },
                 { SIZE.clears },
-            > = &system_code::Arrays::of(&SYSTEM);
+            > = system_code::Arrays::of(&SYSTEM);
             const CODE: system_code::Code<'static, { SIZE.words }> = ARRAYS.code();
 
             /// The system as a player runs it; no bytes.

@@ -59,6 +59,7 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
         words: 1,
         components: system.components.len(),
         entries: 0,
+        takes: 0,
         rows: 0,
         routes: 0,
         mailboxes: 0,
@@ -105,6 +106,7 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
         component += 1;
     }
     it.words = used.0 as usize + 1;
+    it.takes = if it.clocks == 0 { 0 } else { it.entries };
     it.rows = events + system.components.len() + 2;
     let most = u16::MAX as usize - 1;
     let long = it.entries > most || it.rows > most || it.routes > most || it.slots > most || it.fields > most;
@@ -158,9 +160,16 @@ pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>)
                     if belongs {
                         let start = route;
                         route = add_routes(system, lists, component, it.emits, route);
-                        lists.entries[entry] =
-                            packed(system, lists.fields, lists.places, &extra, component, at);
-                        lists.entries[entry].routes = (start as u16, route as u16);
+                        let Moved { need, delta, .. } =
+                            moved(system, lists.fields, lists.places, &extra, component, at);
+                        lists.entries[entry] = Entry {
+                            need,
+                            delta,
+                            component: component as u16,
+                            transition: at as u16,
+                            clock: NONE,
+                            routes: (start as u16, route as u16),
+                        };
                         insert(system, lists.entries, first, entry);
                         entry += 1;
                     }
@@ -175,6 +184,18 @@ pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>)
     lists.rows[row] = entry as u16;
     let mut at = 0;
     while at < entry {
+        if !lists.takes.is_empty() {
+            let it = &lists.entries[at];
+            let moved = moved(
+                system,
+                lists.fields,
+                lists.places,
+                &extra,
+                it.component as usize,
+                it.transition as usize,
+            );
+            lists.takes[at] = moved.take;
+        }
         let it = &mut lists.entries[at];
         let transition = &system.components[it.component as usize].net.transitions[it.transition as usize];
         if let Some(within) = transition.within {
@@ -367,14 +388,21 @@ const fn add_routes<const W: usize>(
     route
 }
 
-const fn packed<const W: usize>(
+/// What a transition asks for and does.
+struct Moved<const W: usize> {
+    need: [u64; W],
+    take: [u64; W],
+    delta: [u64; W],
+}
+
+const fn moved<const W: usize>(
     system: &System<'_>,
     fields: &[Field],
     places: &[u16],
     extra: &[Field; EXTRA],
     component: usize,
     at: usize,
-) -> Entry<W> {
+) -> Moved<W> {
     let it = &system.components[component].net.transitions[at];
     let (mut need, mut give) = ([0; W], [0; W]);
     let first = places[component] as usize;
@@ -415,15 +443,7 @@ const fn packed<const W: usize>(
         delta[word] = give[word].wrapping_sub(take[word]);
         word += 1;
     }
-    Entry {
-        need,
-        take,
-        delta,
-        component: component as u16,
-        transition: at as u16,
-        clock: NONE,
-        routes: (0, 0),
-    }
+    Moved { need, take, delta }
 }
 
 /// Whether a transition of another net, which shares the place, moves the complement itself.

@@ -323,9 +323,12 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         depth: &mut usize,
     ) {
         let Some(entry) = self.program.code().entries.get(usize::from(at)).copied() else { return };
-        let between = difference(&self.marking, &entry.take);
+        // Clocks ask what was there between taking and giving; without clocks nothing is listed.
+        let between = self.program.code().takes.get(usize::from(at)).map(|it| difference(&self.marking, it));
         self.marking = sum(&self.marking, &entry.delta);
-        self.restart(&between, entry.clock);
+        if let Some(between) = between {
+            self.restart(&between, entry.clock);
+        }
         let on = on.map(|on| self.event(on));
         witness.see(&Happening::Fired { transition: entry.id(), on, carries, at: self.now });
         if let Some(frame) = under_way.get_mut(*depth) {

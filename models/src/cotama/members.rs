@@ -105,7 +105,8 @@ macro_rules! members {
 
             /// The first in the order of declaration.
             pub const fn first(self) -> Option<$item> {
-                if self.0 == 0 { None } else { Some($item::ALL[self.0.trailing_zeros() as usize]) }
+                let at = self.0.trailing_zeros() as usize;
+                if at < $item::ALL.len() { Some($item::ALL[at]) } else { None }
             }
 
             /// One bit a member, in the order of declaration.

@@ -12,6 +12,7 @@ extern crate alloc;
 
 mod allocation;
 mod canaries;
+mod decisional_level;
 mod executive;
 mod models;
 mod on_time;

@@ -97,8 +97,12 @@ roots! {
     machine ace_accuracy: cotama_models::nets::ace::accuracy;
     machine contextual: cotama_models::cotama::contextual;
     machine environment: cotama_models::cotama::environment;
+    machine faults: cotama_models::cotama::faults;
     machine global: cotama_models::cotama::global;
     machine local: cotama_models::cotama::local;
+    machine observation: cotama_models::cotama::observation;
+    machine operator: cotama_models::cotama::operator;
     machine path_following: cotama_models::cotama::path_following;
+    machine permit: cotama_models::cotama::permit;
     machine teleoperation: cotama_models::cotama::teleoperation;
 }

@@ -68,5 +68,6 @@ macro_rules! roots {
 
 roots! {
     decision: cotama_models::cotama::decision;
+    delivery: cotama_models::cotama::delivery;
     watched: crate::on_time::watched;
 }

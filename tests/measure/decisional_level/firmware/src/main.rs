@@ -1,0 +1,143 @@
+//! Does everything that the level can do, between marks at which an emulator counts instructions. A line `batch NAME COUNT`
+//! is printed for each row of regions; that of the exploration, for each state: a round, then each event.
+#![no_std]
+#![no_main]
+
+use core::hint::black_box;
+use cortex_m_rt::entry;
+use cotama_core::executive::Executive;
+use cotama_core::hardware::Units;
+use cotama_core::units::{Micros, Millimetres, Millis};
+use cotama_models::cotama::load::Load;
+use cotama_models::cotama::{DecisionalLevel, FailureMode, Losses, Modules, Situation};
+use cotama_models::delivery_tables::ACTIVITIES;
+use cotama_models::tables::Rest;
+use decisional_level::reach::{Reached, TOLD};
+use decisional_level::{PLANNING_BYTES, Robot, TASKS};
+use entries::{
+    robot_observe, robot_plan_by_rule, robot_plan_exactly, robot_round, robot_schedule, robot_tell,
+};
+use semihosting::println;
+
+const STATES: usize = 16 * 1024;
+/// The situations of the supervisors of a drive, at most.
+const SITUATIONS: usize = 32;
+
+/// The emulator looks for this function by its name.
+// `no_mangle` counts as unsafe because two equal names would meet at link time: no other
+// function is called so.
+#[unsafe(no_mangle)]
+#[inline(never)]
+extern "C" fn icount_mark() {
+    black_box(());
+}
+
+/// What happens between two marks.
+macro_rules! counted {
+    ($act:expr) => {{
+        icount_mark();
+        let answer = black_box($act);
+        icount_mark();
+        answer
+    }};
+}
+
+#[entry]
+fn main() -> ! {
+    counted!(());
+    println!("batch empty 1");
+
+    let mut states = [DecisionalLevel::default(); STATES];
+    let mut index = [0_u32; 2 * STATES];
+    let mut reached = Reached::new(&mut states, &mut index);
+    let complete = reached.explore(
+        |level| counted!(robot_round(black_box(level))),
+        |level, told| counted!(robot_tell(level, black_box(told))),
+    );
+    assert!(complete, "more than {STATES} states");
+    println!("batch explore {}", reached.count() * (1 + TOLD.len()));
+    println!("states {}", reached.count());
+    for (number, told) in TOLD.iter().enumerate() {
+        println!("event {number} {told:?}");
+    }
+
+    let Some(robot) = Robot::new(black_box(Load::Busy)) else { panic!("the modules do not fit") };
+    let (situations, count) = situations(&reached);
+    let mut observed = 0;
+    for &level in &situations[..count] {
+        for lost in (0..=Losses::ALL.bits()).filter_map(Losses::from_bits) {
+            for &mode in FailureMode::ALL {
+                let mut robot = robot.at(level, lost.health());
+                let flags = mode.rule().signature.always;
+                counted!(robot_observe(&mut robot, black_box(flags), Modules::NONE));
+                observed += 1;
+            }
+        }
+    }
+    println!("batch observe {observed}");
+    println!("situations {count}");
+    schedule(&robot);
+    plan(&robot);
+    println!("bytes robot {}", size_of::<Robot>());
+    println!("bytes supervisors {}", size_of::<DecisionalLevel>());
+    println!("bytes executive {}", size_of::<Executive<TASKS>>());
+    println!("bytes rule {}", PLANNING_BYTES[0]);
+    println!("bytes exact {}", PLANNING_BYTES[1]);
+    semihosting::process::exit(0)
+}
+
+/// A reachable level for each situation of the supervisors of a drive.
+fn situations(reached: &Reached<'_>) -> ([DecisionalLevel; SITUATIONS], usize) {
+    let mut found = [(Situation::AT_REST, DecisionalLevel::default()); SITUATIONS];
+    let mut count = 0;
+    for number in 0..reached.count() {
+        let Some(level) = reached.state(number) else { break };
+        let situation = level.situation(Losses::NONE);
+        if found[..count].iter().all(|it| it.0 != situation) {
+            found[count] = (situation, level);
+            count += 1;
+        }
+    }
+    (found.map(|it| it.1), count)
+}
+
+/// Ten seconds of the control loop: every job is done after half of its budget, or hangs.
+fn schedule(robot: &Robot) {
+    let mut regions = 0;
+    for hangs in [false, true] {
+        let mut robot = robot.at(DecisionalLevel::default(), Losses::NONE.health());
+        for now in (0..10_000_000).step_by(500).map(Micros) {
+            while counted!(robot_schedule(&mut robot, black_box(now), None, None)).is_some() {
+                regions += 1;
+            }
+            regions += 1;
+            if let (false, Some(task)) = (hangs, robot.running()) {
+                let _ = counted!(robot_schedule(&mut robot, black_box(now), Some(task), None));
+                regions += 1;
+            }
+        }
+    }
+    println!("batch schedule {regions}");
+}
+
+/// From each activity on, with each set of modules.
+fn plan(robot: &Robot) {
+    let regions = ACTIVITIES.len() << 11;
+    let each = |name: &str, plans: fn(&mut Robot, usize, Rest, Units) -> bool| {
+        for (first, activity) in ACTIVITIES.iter().enumerate() {
+            let rest = match activity.length() {
+                Millimetres(0) => Rest::Time(Millis(30_000)),
+                length => Rest::Travel(length),
+            };
+            for kinds in 0..1_u32 << 11 {
+                let have = (0..11).filter(|kind| kinds >> kind & 1 == 1);
+                let units = have.fold(Units::NONE, |units, kind| units.with(kind, 1).unwrap_or(units));
+                let mut robot = robot.at(DecisionalLevel::default(), Losses::NONE.health());
+                counted!(plans(&mut robot, first, black_box(rest), black_box(units)));
+            }
+        }
+        println!("batch {name} {regions}");
+    };
+    each("rule", robot_plan_by_rule);
+    each("exact", robot_plan_exactly);
+}

@@ -1,0 +1,94 @@
+//! The roots of the decisional level: the supervisors with names, diagnosis, decision and what follows from losses.
+//!
+//! Flags, losses and situations come as their caller can make them at worst, also those that no run has.
+
+use cotama_core::net::PlaceId;
+use cotama_core::system::{Happening, Offered, Turned};
+use cotama_core::units::Millis;
+use cotama_models::cotama::{
+    Cause, Configuration, Configurations, Decision, DecisionalLevel, Diagnosis, FailureMode, FailureModes,
+    Flags, Health, Losses, Modules, Report, Resources, Severity, Situation, StatusVector, Told, available,
+    by_rules, decide, diagnose, judge, lost_after, undetectable,
+};
+
+#[unsafe(no_mangle)]
+fn root_level_tell(
+    level: &mut DecisionalLevel,
+    now: Millis,
+    told: Told,
+    cause: Cause,
+    seen: &mut Option<Happening<Cause>>,
+) -> Offered {
+    level.tell(now, told, cause, &mut |it: &Happening<Cause>| *seen = Some(*it))
+}
+
+#[unsafe(no_mangle)]
+fn root_level_round(level: &mut DecisionalLevel, now: Millis, seen: &mut Option<Happening<Cause>>) -> Turned {
+    level.round(now, &mut |it: &Happening<Cause>| *seen = Some(*it))
+}
+
+#[unsafe(no_mangle)]
+fn root_level_situation(level: &DecisionalLevel, lost: Losses) -> (Situation, PlaceId, bool, bool) {
+    (level.situation(lost), level.global(), level.permit().is_some(), level.halted())
+}
+
+#[unsafe(no_mangle)]
+fn root_level_fired(happening: &Happening<Cause>) -> Option<(&'static str, &'static str, Cause)> {
+    cotama_models::cotama::fired(happening)
+}
+
+#[unsafe(no_mangle)]
+fn root_diagnose(raised: Flags, status: Modules) -> Diagnosis {
+    diagnose(raised, status)
+}
+
+#[unsafe(no_mangle)]
+fn root_diagnosis_health(diagnosis: Diagnosis, part: Modules) -> Health {
+    diagnosis.health(part)
+}
+
+#[unsafe(no_mangle)]
+fn root_undetectable(status: Modules) -> FailureModes {
+    undetectable(status)
+}
+
+#[unsafe(no_mangle)]
+fn root_failure_health(mode: FailureMode, part: Modules) -> Health {
+    mode.health(part)
+}
+
+#[unsafe(no_mangle)]
+fn root_decide(report: Report, situation: Situation) -> (Decision, Losses) {
+    (decide(report, situation), lost_after(report, situation))
+}
+
+#[unsafe(no_mangle)]
+fn root_judge(report: Report, severity: Severity, situation: Situation) -> [Decision; 2] {
+    [judge(report, severity, situation), by_rules(report, situation)]
+}
+
+#[unsafe(no_mangle)]
+fn root_available(faulty: Modules, lost: Resources) -> Modules {
+    available(faulty, lost)
+}
+
+#[unsafe(no_mangle)]
+fn root_health_status(health: Health) -> StatusVector {
+    health.status_vector()
+}
+
+#[unsafe(no_mangle)]
+fn root_losses_lacking(left: Modules) -> Losses {
+    Losses::lacking(left)
+}
+
+#[unsafe(no_mangle)]
+fn root_losses_of_health(health: Health) -> (Losses, Modules) {
+    let lost = Losses::from(health);
+    (lost, lost.available())
+}
+
+#[unsafe(no_mangle)]
+fn root_configurations(left: Modules, situation: Situation) -> (Configurations, Option<Configuration>) {
+    (Configuration::running_on(left), situation.configuration())
+}
