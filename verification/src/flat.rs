@@ -21,6 +21,7 @@ pub use observer::{Looks, Observer};
 pub use rounds::{Part, Rounds, rounds};
 pub use walk::{Happened, Size};
 
+use crate::property::PropertyError;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Defect, EventId, Net, OutputId, PlaceId, Role, Transition};
 use cotama_core::system::{Delivery, Of, System, SystemDefect};
@@ -71,6 +72,13 @@ pub enum FlatError {
         /// The observer.
         observer: String,
     },
+    /// What an observer looks at cannot be read.
+    Text {
+        /// The observer.
+        observer: String,
+        /// What is wrong with it.
+        error: Box<PropertyError>,
+    },
 }
 
 impl fmt::Display for FlatError {
@@ -94,6 +102,7 @@ impl fmt::Display for FlatError {
             Self::Endless { net } => {
                 write!(f, "the net {net} does not settle: its transitions without event fire again and again")
             }
+            Self::Text { observer, error } => write!(f, "the observer {observer}: {error}"),
             Self::Condition { observer } => {
                 write!(
                     f,

@@ -126,7 +126,7 @@ net! {
             l13 on local_event: Teleprogrammed => HandOver emit op_request;
             l14 on tick: End => Idle emit drive_done;
             /// What runs is stopped; only where it runs does it hear of it.
-            abort on gs_abort: Driving => Idle emit pf_stop & to_stop;
+            abort on gs_abort: Driving => Idle emit stop_pp & pf_stop & to_stop;
         }
         laws {
             invariant(Idle & Planning & Following & HandOver & Teleprogrammed & Teleoperated & End = 1);

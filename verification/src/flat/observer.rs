@@ -69,6 +69,35 @@ impl Rounds {
         }
     }
 
+    /// Adds an [`Observer`] that counts in how many rounds something [lasts](Observer::lasting), with its conditions as texts.
+    ///
+    /// # Errors
+    /// When a condition is no formula about one marking, or the net would be too large.
+    ///
+    /// ```
+    /// use cotama_models::cotama::delivery;
+    /// use cotama_verification::flat::{self, Looks};
+    ///
+    /// let mut rounds = flat::rounds(&delivery::SYSTEM)?;
+    /// rounds.watch("secured", Looks::AtEnd, ("gs.global_event.waiting", "gs.Security | gs.Safe"), 2)?;
+    /// assert!(rounds.watch("lost", Looks::AtEnd, ("gs.Lost", "gs.Safe"), 2).is_err());
+    /// # Ok::<(), cotama_verification::flat::FlatError>(())
+    /// ```
+    pub fn watch(
+        &mut self,
+        name: &str,
+        looks: Looks,
+        (begins, ends): (&str, &str),
+        most: u32,
+    ) -> Result<(), FlatError> {
+        let condition = |text| {
+            let error = |error| FlatError::Text { observer: name.to_owned(), error: Box::new(error) };
+            self.condition(text).map_err(error)
+        };
+        let observer = Observer::lasting(name, looks, &condition(begins)?, &condition(ends)?, most);
+        self.observe(&observer)
+    }
+
     /// Adds an observer.
     ///
     /// # Errors

@@ -3,5 +3,6 @@
 
 mod conformance;
 mod decision;
+mod delivery;
 mod mutants;
 mod responses;
