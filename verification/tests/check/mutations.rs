@@ -172,6 +172,8 @@ fn formula_of(formula: &certificate::Formula, pt: &Pt) -> Formula {
         Said::Or(all) => Formula::Or(list(all)),
         Said::Exists(it) => Formula::Exists(boxed(it)),
         Said::All(it) => Formula::All(boxed(it)),
+        Said::ExistsNext(it) => Formula::Exists(Box::new(Formula::Next(boxed(it)))),
+        Said::AllNext(it) => Formula::All(Box::new(Formula::Next(boxed(it)))),
         Said::Next(it) => Formula::Next(boxed(it)),
         Said::Finally(it) => Formula::Finally(boxed(it)),
         Said::Globally(it) => Formula::Globally(boxed(it)),
