@@ -134,5 +134,5 @@ fn every_state_of_the_rounds_is_one_of_the_interleavings() {
 fn the_decisional_level_is_one_net_too() {
     let net = flat(&decision::SYSTEM).unwrap();
     assert_eq!(net.view().net().defect(), None);
-    assert_eq!((net.places.len(), net.transitions.len()), (101, 4_066));
+    assert_eq!((net.places.len(), net.transitions.len()), (105, 4_077));
 }

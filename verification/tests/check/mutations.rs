@@ -170,13 +170,42 @@ fn formula_of(formula: &certificate::Formula, pt: &Pt) -> Formula {
         Said::Not(it) => Formula::Not(boxed(it)),
         Said::And(all) => Formula::And(list(all)),
         Said::Or(all) => Formula::Or(list(all)),
-        Said::Exists(it) => Formula::Exists(boxed(it)),
-        Said::All(it) => Formula::All(boxed(it)),
+        // `X` of a certificate speaks of a run, in which a deadlock is repeated for ever; after `E` and `A` that of the
+        // property language asks for a marking that follows.
+        Said::Exists(it) => match &**it {
+            Said::Next(a) if !speaks_of_runs(a) => {
+                let a = formula_of(a, pt);
+                let repeated = Formula::And(vec![Formula::Atom(Atom::Deadlock), a.clone()]);
+                Formula::Or(vec![Formula::Exists(Box::new(Formula::Next(Box::new(a)))), repeated])
+            }
+            _ => Formula::Exists(boxed(it)),
+        },
+        Said::All(it) => match &**it {
+            Said::Next(a) if !speaks_of_runs(a) => {
+                let a = formula_of(a, pt);
+                let goes_on = Formula::Not(Box::new(Formula::Atom(Atom::Deadlock)));
+                let repeated = Formula::Or(vec![goes_on, a.clone()]);
+                Formula::And(vec![Formula::All(Box::new(Formula::Next(Box::new(a)))), repeated])
+            }
+            _ => Formula::All(boxed(it)),
+        },
         Said::ExistsNext(it) => Formula::Exists(Box::new(Formula::Next(boxed(it)))),
         Said::AllNext(it) => Formula::All(Box::new(Formula::Next(boxed(it)))),
         Said::Next(it) => Formula::Next(boxed(it)),
         Said::Finally(it) => Formula::Finally(boxed(it)),
         Said::Globally(it) => Formula::Globally(boxed(it)),
         Said::Until(both) => Formula::Until(boxed(&both.0), boxed(&both.1)),
+    }
+}
+
+/// Whether a formula needs a run to be true of.
+fn speaks_of_runs(formula: &certificate::Formula) -> bool {
+    use certificate::Formula as Said;
+    match formula {
+        Said::AtMost(_) | Said::Fireable(_) | Said::Deadlock => false,
+        Said::Exists(_) | Said::All(_) | Said::ExistsNext(_) | Said::AllNext(_) => false,
+        Said::Not(it) => speaks_of_runs(it),
+        Said::And(all) | Said::Or(all) => all.iter().any(speaks_of_runs),
+        Said::Next(_) | Said::Finally(_) | Said::Globally(_) | Said::Until(_) => true,
     }
 }
