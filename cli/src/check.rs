@@ -6,7 +6,7 @@ mod files;
 mod questions;
 
 use crate::answers::check::{
-    Amount, CheckAnswer, EvidenceName, Infinite, ResponseRow, ResultRow, VerdictName,
+    Amount, CheckAnswer, EvidenceName, Infinite, OtherwiseRow, ResponseRow, ResultRow, VerdictName,
 };
 use crate::args::{CheckArgs, EngineName};
 use crate::budget::Budget;
@@ -15,6 +15,7 @@ use crate::output::Screen;
 use crate::progress::Progress;
 use crate::render::{self, visible};
 use crate::subject::Subject;
+use cotama_models::cotama::{REQUIREMENTS, delivery};
 use cotama_verification::certificate::Evidence;
 use cotama_verification::check::{Answer, Checker, Choice, Extent, Options, Reason, Verdict};
 use cotama_verification::diagnosis::Diagnosis;
@@ -43,15 +44,19 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
     files.of = asked.properties.len();
     let (budget, progress) = (Budget::start(args.budget), Progress::new());
     let (mut results, mut texts) = (Vec::new(), Vec::new());
-    let checker = Checker::new(&subject.model);
+    let plain = Checker::new(&subject.model);
     for (position, property) in asked.properties.iter().enumerate() {
+        let watched = asked.watched.get(position).and_then(Option::as_ref);
+        let own = watched.map(|it| Checker::new(&it.model));
+        let (subject, checker) = (watched.unwrap_or(&subject), own.as_ref().unwrap_or(&plain));
+        let requirement = asked.requirements.get(position);
         let budget = budget.share(asked.properties.len() - position);
         let show = |it| progress.show(it);
         let options = Options {
             engine,
             limits: budget.limits,
             jobs: budget.jobs,
-            evidence: args.certificate.is_some(),
+            evidence: args.certificate.is_some() || requirement.is_some(),
             progress: &show,
         };
         let begun = Instant::now();
@@ -61,13 +66,14 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         if args.mcc {
             screen.print(&(line(property, &answer, budget.jobs) + "\n"))?;
         }
-        let mut row = row(&subject, property, &answer, seconds);
-        row.certificate = files.certificate(position, &subject, property, &answer, screen)?;
+        let mut row = row(subject, property, &answer, seconds);
+        (row.id, row.sentence) = (requirement.map(|it| it.id), requirement.map(|it| it.sentence));
+        row.certificate = files.certificate(position, subject, property, &answer, screen)?;
         let mut text = None;
-        match explained::diagnosis(&subject, property, &answer) {
+        match explained::diagnosis(subject, property, &answer) {
             Some(Ok(diagnosis)) => {
                 files.trace(position, &diagnosis, screen)?;
-                row.explained_by(&subject, &diagnosis, &answer);
+                row.explained_by(subject, &diagnosis, &answer);
                 text = Some(match &subject.rounds {
                     Some(rounds) => explained::in_rounds(rounds, &diagnosis, &answer),
                     None => diagnosis.to_string(),
@@ -76,22 +82,24 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
             Some(Err(error)) => {
                 screen.note(&format!("the run for {} cannot be shown: {error}", visible(&property.name)));
             }
-            None => match explained::unused(&checker, property, &answer, &options) {
+            None => match explained::unused(checker, property, &answer, &options) {
                 Some(unused) => {
-                    files.unused(position, &subject, &unused, screen)?;
+                    files.unused(position, subject, &unused, screen)?;
                     row.unused = Some(explained::unused_row(&unused));
                     text = Some(unused.to_string());
                 }
                 None => files.no_trace(property, screen),
             },
         }
-        if !args.mcc {
-            row.vacuous = explained::vacuity(&checker, &subject, property, &answer, &options);
+        // Requirements name cells that are never reached on purpose.
+        if !args.mcc && requirement.is_none() {
+            row.vacuous = explained::vacuity(checker, subject, property, &answer, &options);
             progress.clear();
         }
         texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
         results.push(row);
     }
+    let otherwise = otherwise(&asked);
     let answer = CheckAnswer {
         schema: "cotama/check/1",
         model: subject.name.clone(),
@@ -100,6 +108,7 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         notes: subject.notes,
         left_out: asked.left_out,
         results,
+        otherwise,
     };
     if args.json.json {
         Screen::json(&answer)?;
@@ -107,6 +116,25 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         screen.print(&render::check::screen(&answer, &texts, asked.is_usual, screen.width()))?;
     }
     Ok(ended(&answer.results))
+}
+
+/// What is known of requirements without a checker. That transitions say what they must is looked up in the nets.
+fn otherwise(asked: &questions::Asked) -> Vec<OtherwiseRow> {
+    if asked.requirements.is_empty() {
+        return Vec::new();
+    }
+    let rows = REQUIREMENTS.iter().flat_map(|it| {
+        let unsaid: Vec<_> = it.said.iter().flat_map(|said| said.unsaid(&delivery::SYSTEM)).collect();
+        let said = match (it.said.len(), unsaid.as_slice()) {
+            (0, _) => None,
+            (_, []) => Some("each transition that must says so".to_owned()),
+            (_, unsaid) => Some(format!("not said by {}", unsaid.join(", "))),
+        };
+        let tests = it.tests.map(|file| format!("tests, {file}"));
+        let row = |how| OtherwiseRow { id: it.id, sentence: it.sentence, how };
+        said.into_iter().chain(tests).map(row).collect::<Vec<_>>()
+    });
+    rows.collect()
 }
 
 fn engine(name: EngineName) -> Result<Choice, Failure> {
@@ -154,6 +182,8 @@ fn row(subject: &Subject, property: &Property, answer: &Answer, seconds: f64) ->
     };
     ResultRow {
         name: property.name.clone(),
+        id: None,
+        sentence: None,
         property: property.question.display(pt).to_string(),
         verdict,
         reason,

@@ -7,8 +7,9 @@ use crate::file_errors::FileErrors;
 use crate::input;
 use crate::model;
 use cotama_core::net::owned::OwnedNet;
+use cotama_models::cotama::Watch;
 use cotama_verification::check::Model;
-use cotama_verification::flat::{self, Rounds, flat};
+use cotama_verification::flat::{self, FlatError, Looks, Rounds, flat};
 use cotama_verification::property::Ids;
 use cotama_verification::tina;
 use cotama_verification::tpn::TimeNet;
@@ -34,9 +35,13 @@ pub(crate) struct Subject {
 
 impl Subject {
     /// The model of this name, or of the file at this path; without its intervals where that is wanted.
-    pub(crate) fn load(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
-        let loaded = Self::found(name, untimed, semantics)?;
-        if semantics == Semantics::Rounds && loaded.semantics.is_none() {
+    pub(crate) fn load(name: &str, untimed: bool, semantics: Option<Semantics>) -> Result<Self, Failure> {
+        let usual = match catalogue::requirements(name) {
+            [] => Semantics::Interleaving,
+            _ => Semantics::Rounds,
+        };
+        let loaded = Self::found(name, untimed, semantics.unwrap_or(usual))?;
+        if semantics == Some(Semantics::Rounds) && loaded.semantics.is_none() {
             return Err(Failure::new(format!(
                 "`{name}` is one net: rounds are those of several that work together"
             ))
@@ -99,6 +104,18 @@ impl Subject {
     fn noted(mut self, note: &str) -> Self {
         self.notes.push(note.to_owned());
         self
+    }
+
+    /// The same system in rounds, with what it takes to remember; nothing of other models.
+    pub(crate) fn watched(&self, watches: &[Watch]) -> Result<Option<Self>, FlatError> {
+        let Some(mut rounds) = self.rounds.clone() else { return Ok(None) };
+        for it in watches {
+            let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
+            rounds.watch(it.name, looks, (it.begins, it.ends), it.most)?;
+        }
+        let net = rounds.net()?;
+        let subject = Self::new(&self.name, Model::from(&net.view().net()), Some(net));
+        Ok(Some(Self { semantics: self.semantics, rounds: Some(rounds), ..subject }))
     }
 
     /// What its file called places and transitions.

@@ -1,11 +1,11 @@
-//! The shipped supervisors, explored in rounds.
+//! The shipped supervisors, explored in rounds by players.
 #![allow(missing_docs)]
 
 use cotama_core::net::{EventId, TransitionId};
 use cotama_core::system::{Happening, Of, Offered};
 use cotama_core::units::Millis;
 use cotama_models::cotama::delivery;
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashSet};
 
 const NOW: Millis = Millis(0);
 
@@ -18,10 +18,11 @@ fn outside() -> Vec<Of<EventId>> {
     all.filter(|event| system.delivery(*event).is_none()).collect()
 }
 
+/// The checker counts the same on the net of rounds.
 #[test]
-fn the_rounds_reach_14824_states() {
+fn the_shipped_supervisors_reach_14824_states_by_147728_steps() {
     let first = delivery::Player::<()>::new();
-    let mut seen = HashMap::from([(*first.marking(), 0_usize)]);
+    let mut seen = HashSet::from([*first.marking()]);
     let (mut states, mut edges) = (vec![first], 0);
     let mut fired = BTreeSet::new();
     let outside = outside();
@@ -45,25 +46,20 @@ fn the_rounds_reach_14824_states() {
                 }
             }
             edges += 1;
-            seen.entry(*next.marking()).or_insert_with(|| {
+            if seen.insert(*next.marking()) {
                 states.push(next);
-                states.len() - 1
-            });
+            }
         }
     }
     assert_eq!((states.len(), edges), (14_824, 147_728));
-    let transitions = delivery::SYSTEM.components.iter().zip(0..).flat_map(|(it, component)| {
-        it.net
-            .transitions
-            .iter()
-            .zip(0..)
-            .map(move |(t, id)| ((component, id), format!("{}.{}", it.name, t.name)))
+    let all = delivery::SYSTEM.components.iter().zip(0..).flat_map(|(it, component)| {
+        it.net.transitions.iter().zip(0..).map(move |(t, id)| ((component, id), format!("{}.{}", it.name, t.name)))
     });
-    let never: Vec<_> = transitions.filter(|it| !fired.contains(&it.0)).map(|it| it.1).collect();
-    // Variants of counters that no state has, a halt that always comes after the drive is stopped, and a link that is lost
-    // where the operator drives, which ends the mission before anything else can be hard.
-    let expected = [
+    let never: Vec<_> = all.filter(|it| !fired.contains(&it.0)).map(|it| it.1).collect();
+    let unused = [
+        // The drive ends in the round after its goal, before anything can abort it.
         "ls.abort.End",
+        // The level is what the place says: full in `Optimal`, fewer in `Reduced`.
         "pf.a6.level_0",
         "pf.a6.level_1",
         "pf.a7.level_2",
@@ -73,10 +69,13 @@ fn the_rounds_reach_14824_states() {
         "pf.as1.level_0",
         "pf.as1.level_1",
         "pf.as2.level_2",
+        // The abort comes first and takes the permit back.
         "permit.destroyed.Granted",
+        // Too slow without localisation: nothing runs that could be.
         "cs.slow3.mcl_0",
+        // Who drives without a link has been stopped by the loss of the link.
         "cs.hard6",
         "cs.camera2",
     ];
-    assert_eq!(never, expected);
+    assert_eq!(never, unused);
 }

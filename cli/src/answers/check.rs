@@ -20,12 +20,30 @@ pub(crate) struct CheckAnswer {
     pub(crate) left_out: Vec<String>,
     /// An answer to each property, in their order.
     pub(crate) results: Vec<ResultRow>,
+    /// What else is known of the requirements of a system.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) otherwise: Vec<OtherwiseRow>,
+}
+
+/// A requirement, or a part of one, that is no question to a checker.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct OtherwiseRow {
+    pub(crate) id: &'static str,
+    pub(crate) sentence: &'static str,
+    /// How it is known: that each transition which must says it, or the file of the tests.
+    pub(crate) how: String,
 }
 
 /// The answer to a property.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
 pub(crate) struct ResultRow {
     pub(crate) name: String,
+    /// The number of a requirement.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) id: Option<&'static str>,
+    /// What it requires, in a sentence.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) sentence: Option<&'static str>,
     /// The question, written out.
     pub(crate) property: String,
     /// `true` also of a bound that is known.
@@ -133,6 +151,22 @@ pub(crate) enum EvidenceName {
     Growth,
     /// Evidence for parts.
     Parts,
+}
+
+impl EvidenceName {
+    /// As in JSON.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::State => "state",
+            Self::Trace => "trace",
+            Self::Lasso => "lasso",
+            Self::Refutation => "refutation",
+            Self::Graph => "graph",
+            Self::Growth => "growth",
+            Self::Parts => "parts",
+        }
+    }
 }
 
 /// A firing.

@@ -21,8 +21,9 @@ By name: deadlock, live, quasi_live, one_safe, stable.
 
 A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with #
 are left out. A property file of the Model Checking Contest (XML) is read as well. Without
-properties, the laws of the model are checked; where it has none, the usual three questions:
-is there no deadlock, is it 1-safe or else how many tokens are there, can each transition fire.
+properties, the laws of the model are checked, or the requirements of the system `delivery`; where it
+has none, the usual three questions: is there no deadlock, is it 1-safe or else how many tokens are
+there, can each transition fire.
 
 Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
 pass through markings.
@@ -48,6 +49,7 @@ Examples:
   $ printf 'ends: EF deadlock\\nlive\\n' > two.txt
   $ cotama check kanban:2 --properties two.txt --mcc   # it has no deadlock: exit code 1
   $ cotama check watchdog --property 'bound(w1 -> Fault)'
+  $ cotama check delivery
   $ cotama check decision --semantics rounds --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
@@ -111,9 +113,9 @@ pub(crate) struct CheckArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together
-    #[arg(long, value_enum, value_name = "MEANING", default_value_t = Semantics::Interleaving)]
-    pub(crate) semantics: Semantics,
+    /// What it means that nets of a system work together [default: interleaving; rounds where a system has requirements]
+    #[arg(long, value_enum, value_name = "MEANING")]
+    pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
     pub(crate) budget: BudgetArgs,
     /// Writes evidence for the verdict that `cotama verify` checks again
@@ -136,9 +138,9 @@ pub(crate) struct StatespaceArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together
-    #[arg(long, value_enum, value_name = "MEANING", default_value_t = Semantics::Interleaving)]
-    pub(crate) semantics: Semantics,
+    /// What it means that nets of a system work together [default: interleaving; rounds where a system has requirements]
+    #[arg(long, value_enum, value_name = "MEANING")]
+    pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
     pub(crate) budget: BudgetArgs,
     /// Prints the lines of the Model Checking Contest

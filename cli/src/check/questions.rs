@@ -1,6 +1,7 @@
 //! What is asked: properties from the command line, from a file, or the laws of the model.
 
 use crate::args::CheckArgs;
+use crate::catalogue;
 use crate::exit::Failure;
 use crate::file_errors::{FileError, FileErrors, Mark};
 use crate::input;
@@ -8,6 +9,7 @@ use crate::models::law;
 use crate::subject::Subject;
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::OwnedNet;
+use cotama_models::cotama::Requirement;
 use cotama_verification::property::{self, Atom, Formula, Property, PropertyError, Question, mcc};
 use cotama_verification::pt::Pt;
 
@@ -21,6 +23,10 @@ pub(super) struct Asked {
     pub(super) are_laws: bool,
     /// Whether nobody asked: these are the laws or the usual questions.
     pub(super) is_usual: bool,
+    /// The requirements that the properties stand for, one each.
+    pub(super) requirements: Vec<&'static Requirement>,
+    /// Of each of them the model that remembers what it takes, unless it takes nothing.
+    pub(super) watched: Vec<Option<Subject>>,
 }
 
 /// What is asked on the command line or in a file; without either, the laws of the model, or the usual questions.
@@ -36,11 +42,34 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     if !properties.is_empty() {
         return Ok(Asked { properties, ..Asked::default() });
     }
+    let required = catalogue::requirements(&subject.name);
+    if subject.rounds.is_some() && !required.is_empty() {
+        return requirements(required, subject);
+    }
     let laws = subject.net.as_ref().map(laws).unwrap_or_default();
     if laws.are_laws {
         return Ok(laws);
     }
     Ok(Asked { properties: usual(pt), is_usual: true, ..laws })
+}
+
+/// The requirements of a system.
+fn requirements(all: &'static [Requirement], subject: &Subject) -> Result<Asked, Failure> {
+    let mut asked = Asked { is_usual: true, ..Asked::default() };
+    for requirement in all {
+        let Some(it) = requirement.asked else { continue };
+        let refused = |error: String| Failure::new(format!("{}: {error}", requirement.id));
+        let watched = match it.watches {
+            [] => None,
+            watches => subject.watched(watches).map_err(|error| refused(error.to_string()))?,
+        };
+        let pt = watched.as_ref().unwrap_or(subject).model.pt();
+        let property = property::parse(it.text, pt).map_err(|error| refused(error.to_string()))?;
+        asked.properties.push(Property { name: requirement.id.to_owned(), ..property });
+        asked.requirements.push(requirement);
+        asked.watched.push(watched);
+    }
+    Ok(asked)
 }
 
 /// A property that was typed, or a question by its name.
@@ -178,7 +207,7 @@ fn laws(net: &OwnedNet) -> Asked {
         }
     }
     let are_laws = !properties.is_empty();
-    Asked { properties, left_out, are_laws, is_usual: are_laws }
+    Asked { properties, left_out, are_laws, is_usual: are_laws, ..Asked::default() }
 }
 
 /// What is usually asked of a net: is there no deadlock, is it 1-safe, or else how many tokens are there, can each

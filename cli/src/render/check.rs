@@ -3,7 +3,7 @@
 use super::numbers::grouped;
 use super::style::{BAD, FAINT, GOOD, HEADING, NOTICE};
 use super::{visible, wrapped};
-use crate::answers::check::{Amount, CheckAnswer, ResponseRow, ResultRow, VerdictName};
+use crate::answers::check::{Amount, CheckAnswer, EvidenceName, ResponseRow, ResultRow, VerdictName};
 use anstyle::Style;
 use std::fmt::Write;
 
@@ -31,6 +31,12 @@ pub(crate) fn screen(
                     writeln!(text, "{}", if line.is_empty() { String::new() } else { format!("  {line}") });
             }
         }
+    }
+    if !answer.otherwise.is_empty() {
+        let _ = writeln!(text, "\n{HEADING}without a checker{HEADING:#}");
+    }
+    for row in &answer.otherwise {
+        text += &wrapped(&format!("  {}: {} ({})", row.id, row.sentence, row.how), width, "      ");
     }
     if !answer.left_out.is_empty() {
         text += &wrapped(
@@ -63,7 +69,9 @@ fn result(row: &ResultRow, is_usual: bool, width: usize) -> String {
         (VerdictName::Unknown, ..) => (NOTICE, "unknown".to_owned()),
     };
     let (name, property) = (visible(&row.name), visible(&row.property));
-    let claim = if is_usual {
+    let claim = if let Some(sentence) = row.sentence {
+        format!("{name}: {sentence}")
+    } else if is_usual {
         name
     } else if name == property {
         property
@@ -79,6 +87,9 @@ fn result(row: &ResultRow, is_usual: bool, width: usize) -> String {
     how.extend(row.reason.clone());
     if !row.techniques.is_empty() {
         how.push(format!("by {}", row.techniques.join(", ")));
+    }
+    if row.sentence.is_some() && row.evidence != EvidenceName::None {
+        how.push(format!("evidence: {}", row.evidence.name()));
     }
     if row.states > 0 {
         how.push(format!("{} states", grouped(&row.states.to_string())));

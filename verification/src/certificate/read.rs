@@ -13,7 +13,7 @@ use std::slice::from_ref;
 pub const MAX_BYTES: usize = 1 << 26;
 
 /// The most work: about so many arcs and terms are looked at, and bytes are used.
-pub const MAX_WORK: u64 = 1 << 30;
+pub const MAX_WORK: u64 = 1 << 31;
 
 pub(super) type Checked<T> = Result<T, VerifyError>;
 

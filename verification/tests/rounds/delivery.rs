@@ -1,44 +1,162 @@
 //! The requirements of the shipped decisional level, as questions to its net of rounds.
+//!
+//! The environment is every sequence of faults, answers and progress, one a round, at any time; so what holds here holds for
+//! every pair of faults, and for all that follow one another, wherever they come.
 
+use crate::golden;
 use cotama_core::system::System;
-use cotama_models::cotama::{REQUIREMENTS, Watch, delivery};
+use cotama_models::cotama::{REQUIREMENTS, Requirement, Watch, delivery};
 use cotama_verification::certificate::{Evidence, verify};
 use cotama_verification::check::{Checker, Model, Options, Verdict};
 use cotama_verification::explicit::{Graph, Limits};
-use cotama_verification::flat::{Looks, Rounds, Size, rounds};
+use cotama_verification::flat::{FlatError, Looks, Rounds, Size, rounds};
 use cotama_verification::property;
 use cotama_verification::pt::Pt;
+use std::fmt::Write;
 
 /// The rounds of a system, with what it takes to remember.
-pub(crate) fn watched<'w>(system: &System<'_>, watches: impl Iterator<Item = &'w Watch>) -> Rounds {
-    let mut rounds = rounds(system).unwrap();
+pub(crate) fn watched(system: &System<'_>, watches: &[Watch]) -> Result<Rounds, FlatError> {
+    let mut rounds = rounds(system)?;
     for it in watches {
         let looks = if it.at_end { Looks::AtEnd } else { Looks::BeforeOutside };
-        rounds.watch(it.name, looks, (it.begins, it.ends), it.most).unwrap();
+        rounds.watch(it.name, looks, (it.begins, it.ends), it.most)?;
     }
-    rounds
+    Ok(rounds)
+}
+
+/// The net of rounds and its graph.
+pub(crate) fn explored(rounds: &Rounds) -> (Pt, Graph) {
+    let pt = Pt::from(&rounds.net().unwrap().view().net());
+    let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
+    (pt, graph)
+}
+
+fn requirement(id: &str) -> &'static Requirement {
+    REQUIREMENTS.iter().find(|it| it.id == id).unwrap()
 }
 
 #[test]
-fn scratch() {
-    let t = std::time::Instant::now();
-    let all = REQUIREMENTS.iter().filter_map(|it| it.asked.as_ref()).flat_map(|it| it.watches);
-    let rounds = watched(&delivery::SYSTEM, all);
-    let pt = Pt::from(&rounds.net().unwrap().view().net());
-    let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-    println!("{} {} {} {:?} {:?}", pt.places.len(), pt.transitions.len(), graph.states(), rounds.size(&graph), t.elapsed());
-    for it in REQUIREMENTS {
-        for s in it.said { println!("{} unsaid {:?}", it.id, s.unsaid(&delivery::SYSTEM).collect::<Vec<_>>()); }
-        let Some(asked) = it.asked else { continue };
-        let t = std::time::Instant::now();
-        let rounds = watched(&delivery::SYSTEM, asked.watches.iter());
+fn the_shipped_supervisors_have_14824_states_between_rounds() {
+    let rounds = rounds(&delivery::SYSTEM).unwrap();
+    let net = rounds.net().unwrap();
+    assert_eq!(net.view().net().defect(), None);
+    let (pt, graph) = explored(&rounds);
+    assert_eq!((pt.places.len(), pt.transitions.len()), (200, 1_864));
+    assert_eq!((graph.states(), graph.arcs()), (45_234, 59_474));
+    assert_eq!(rounds.size(&graph), Size { states: 14_824, edges: 147_728 });
+}
+
+/// By which engine, among how many markings, with which evidence; `said` counts what transitions must say.
+fn known(of: &Requirement) -> String {
+    let mut line = of.id.to_owned();
+    if let Some(asked) = of.asked {
+        let rounds = watched(&delivery::SYSTEM, asked.watches).unwrap();
         let model = Model::from(&rounds.net().unwrap().view().net());
-        let property = match property::parse(asked.text, model.pt()) { Ok(p) => p, Err(e) => { println!("{} {e}", it.id); continue } };
-        let answer = Checker::new(&model).answer(&property, &Options { evidence: true, ..Options::default() });
-        let e = t.elapsed();
-        println!("{} {:?} {} {} {} {e:?}", it.id, answer.verdict, answer.engine(), answer.states, model.pt().transitions.len());
-        if answer.verdict == Verdict::Holds(false) && let Some(run) = &answer.run {
-            for r in rounds.told(&run.stem) { println!("    {:?} {:?}", r.turns, r.outside); }
-        }
+        let property = property::parse(asked.text, model.pt()).unwrap();
+        let options = Options { evidence: true, ..Options::default() };
+        let answer = Checker::new(&model).answer(&property, &options);
+        assert_eq!(answer.verdict, Verdict::Holds(true), "{}", of.id);
+        let text = answer.certificate(model.pt(), &property).unwrap().text();
+        assert!(verify(&text).unwrap().verdict, "{}", of.id);
+        let evidence = match answer.evidence {
+            Evidence::Refutation(_) => "refutation",
+            Evidence::Graph(_) => "graph",
+            Evidence::Each(_) => "parts",
+            Evidence::One(_) => "part",
+            other => panic!("{}: {other:?}", of.id),
+        };
+        let _ = write!(line, " {} {} {evidence}", answer.engine(), answer.states);
     }
+    for said in of.said {
+        assert_eq!(said.unsaid(&delivery::SYSTEM).next(), None, "{}", of.id);
+    }
+    if !of.said.is_empty() {
+        let _ = write!(line, " said {}", of.said.len());
+    }
+    if let Some(file) = of.tests {
+        assert!(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file).exists(), "{file}");
+        let _ = write!(line, " {file}");
+    }
+    line + "\n"
+}
+
+#[test]
+fn every_requirement_holds_and_the_small_checker_is_convinced() {
+    let known: String = REQUIREMENTS.iter().map(known).collect();
+    golden("requirements.txt", &known);
+}
+
+/// The most that the watches in a requirement's text count when they may count further: the worst cases of its duties in rounds.
+fn worst(id: &str) -> Vec<u32> {
+    const MANY: u32 = 6;
+    let asked = requirement(id).asked.unwrap();
+    let watches = asked.watches;
+    let of = |(at, it): (usize, &Watch)| {
+        let mut watches = watches.to_vec();
+        watches.truncate(at + 1);
+        let uses = |of: &Watch| it.begins.split_whitespace().any(|word| word == of.name);
+        watches.retain(|of| uses(of) || of.name == it.name);
+        watches.last_mut().unwrap().most = MANY;
+        let (pt, graph) = explored(&watched(&delivery::SYSTEM, &watches).unwrap());
+        let place = pt.place(it.name).unwrap().0 as usize;
+        (0..graph.states() as u32).map(|state| graph.marking(state)[place]).max().unwrap()
+    };
+    watches.iter().enumerate().filter(|it| asked.text.contains(it.1.name)).map(of).collect()
+}
+
+/// GS3: the round in which the event is mailed is the first one. How long the robot takes to stand is for its brakes to say.
+#[test]
+fn a_global_event_is_answered_in_the_next_round() {
+    assert_eq!(worst("GS3"), [1]);
+}
+
+/// LS3: the round of the failure is over once, the round of the decision is over once; then the operator is asked.
+#[test]
+fn a_hard_failure_is_answered_after_two_rounds() {
+    assert_eq!(worst("LS3"), [1]);
+}
+
+/// LS4: what bounds how long the robot waits is the patience of whoever says that no answer comes; no round does. Once it is
+/// said, the mission stops after two rounds.
+#[test]
+fn a_refusal_stops_the_mission_after_two_rounds() {
+    assert_eq!(worst("LS4"), [2]);
+}
+
+/// AS2, by loss: localisation, sonars, camera, link, what is vital.
+#[test]
+fn what_is_lost_is_used_for_two_rounds_at_most() {
+    assert_eq!(worst("AS2"), [2, 2, 2, 2, 2]);
+}
+
+#[test]
+fn nobody_waits_for_an_operator_who_cannot_be_reached_for_more_than_two_rounds() {
+    assert_eq!(worst("CS5"), [2]);
+}
+
+/// AS5 and CS3: in the round after it was mailed an adapter event is read before the contextual supervisor decides again, and a flag
+/// is reported and decided upon before anything else comes from outside.
+#[test]
+fn an_adapter_event_and_a_report_take_one_round() {
+    let (pt, graph) = explored(&rounds(&delivery::SYSTEM).unwrap());
+    let places = |part: &str| {
+        let is = |it: &(usize, &String)| it.1.contains(part) && it.1.ends_with(".waiting");
+        pt.places.iter().enumerate().filter(is).map(|it| it.0).collect::<Vec<_>>()
+    };
+    let adapters = places(".adapt_");
+    let reports: Vec<_> = places("cs.").into_iter().chain(places("_flag")).collect();
+    assert_eq!((adapters.len(), reports.len()), (5, 21));
+    let turns = pt.places.iter().enumerate().filter(|it| it.1.starts_with("turn.cs."));
+    let turns: Vec<_> = turns.map(|it| it.0).collect();
+    let outside = pt.place("turn.outside").unwrap().0 as usize;
+    let mut decided = 0;
+    for state in 0..graph.states() as u32 {
+        let marking = graph.marking(state);
+        let waits = |places: &[usize]| places.iter().any(|&it| marking[it] > 0);
+        let decides = waits(&turns);
+        decided += u32::from(decides);
+        assert!(!(decides && waits(&adapters)));
+        assert!(!(marking[outside] > 0 && waits(&reports)));
+    }
+    assert!(decided > 1_000);
 }

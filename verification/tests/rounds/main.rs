@@ -1,8 +1,25 @@
 //! A system as a net that acts in rounds: it does what a player does, and COTAMA's decisional level keeps its properties in it.
+//!
+//! `UPDATE_GOLDEN=1` writes the tables in `tests/golden/rounds` anew; that of mutants with `--ignored`.
 #![allow(missing_docs)]
 
 mod conformance;
 mod decision;
 mod delivery;
+mod delivery_mutants;
 mod mutants;
+mod mutations;
+mod reactions;
 mod responses;
+
+/// Compares a table with the one that is kept.
+fn golden(name: &str, text: &str) {
+    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/rounds").join(name);
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(&path, text).unwrap();
+        return;
+    }
+    let stored = std::fs::read_to_string(&path).unwrap_or_default();
+    assert!(stored == text, "{name} differs; UPDATE_GOLDEN=1 writes it anew. It is now:\n{text}");
+}

@@ -51,7 +51,8 @@ impl Numbered<'_> {
 
     fn enabled(&self, at: &Marking, transition: usize) -> Checked<bool> {
         let take = &self.arcs[transition][0];
-        self.spend(1 + take.len()).map(|()| take.iter().all(|(place, weight)| at[*place] >= *weight))
+        let met = take.iter().take_while(|it| at[*it.0] >= *it.1).count();
+        self.spend(1 + met).map(|()| met == take.len())
     }
 
     /// The marking after a transition that is enabled.
