@@ -1,6 +1,7 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
+use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
@@ -32,6 +33,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Check => schemas.into_root_schema_for::<CheckAnswer>(),
         SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
         SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
+        SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
     };
     Screen::json(&schema)?;
     Ok(Exit::Success)

@@ -1,9 +1,11 @@
 //! The command line.
 
 mod check;
+mod fmeca;
 mod model;
 
-pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, StatespaceArgs, VerifyArgs};
+pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
+pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -136,6 +138,12 @@ Examples:
     /// nor time does nothing by itself: there, each transition is fired by its name.
     #[command(after_long_help = model::SIMULATE_EXAMPLES)]
     Simulate(SimulateArgs),
+    /// Shows what can fail on the delivery robot, how it is seen, what is done, and what looks alike
+    ///
+    /// The failure modes, effects and criticality analysis (FMECA) of COTAMA's delivery robot, from the same typed data
+    /// that its diagnosis and its decisions run on. The diagrams are of causes and effects (Ishikawa), one a function.
+    #[command(after_long_help = fmeca::FMECA_EXAMPLES)]
+    Fmeca(FmecaArgs),
     /// Prints the tables of a mission as Rust source, for firmware
     #[command(after_long_help = "\
 Examples:
@@ -326,6 +334,7 @@ pub(crate) enum SchemaName {
     Check,
     Statespace,
     Verify,
+    Fmeca,
 }
 
 /// Who plans.

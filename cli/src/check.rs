@@ -28,7 +28,7 @@ use std::time::Instant;
 pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     let engine = engine(args.engine)?;
     let mut files = Files::new(args)?;
-    let subject = Subject::load(&args.model, args.untimed)?;
+    let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
     let asked = questions::asked(args, &subject)?;
     if let Some(it) =
         asked.properties.iter().find(|it| args.mcc && matches!(it.question, Question::Response { .. }))
@@ -67,13 +67,23 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         match explained::diagnosis(&subject, property, &answer) {
             Some(Ok(diagnosis)) => {
                 files.trace(position, &diagnosis, screen)?;
-                row.explained_by(&diagnosis);
-                text = Some(diagnosis.to_string());
+                row.explained_by(&subject, &diagnosis, &answer);
+                text = Some(match &subject.rounds {
+                    Some(rounds) => explained::in_rounds(rounds, &diagnosis, &answer),
+                    None => diagnosis.to_string(),
+                });
             }
             Some(Err(error)) => {
                 screen.note(&format!("the run for {} cannot be shown: {error}", visible(&property.name)));
             }
-            None => files.no_trace(property, screen),
+            None => match explained::unused(&checker, property, &answer, &options) {
+                Some(unused) => {
+                    files.unused(position, &subject, &unused, screen)?;
+                    row.unused = Some(explained::unused_row(&unused));
+                    text = Some(unused.to_string());
+                }
+                None => files.no_trace(property, screen),
+            },
         }
         if !args.mcc {
             row.vacuous = explained::vacuity(&checker, &subject, property, &answer, &options);
@@ -86,6 +96,7 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         schema: "cotama/check/1",
         model: subject.name.clone(),
         timed: subject.is_timed(),
+        semantics: subject.semantics,
         notes: subject.notes,
         left_out: asked.left_out,
         results,
@@ -158,14 +169,16 @@ fn row(subject: &Subject, property: &Property, answer: &Answer, seconds: f64) ->
         cause: None,
         trace: None,
         rest: None,
+        unused: None,
     }
 }
 
 impl ResultRow {
-    fn explained_by(&mut self, diagnosis: &Diagnosis) {
+    fn explained_by(&mut self, subject: &Subject, diagnosis: &Diagnosis, answer: &Answer) {
+        let shown = explained::shown(subject, answer, diagnosis.trace.len());
         self.cause = Some(diagnosis.cause.clone()).filter(|it| !it.is_empty());
-        self.trace = Some(explained::firings(diagnosis));
-        self.rest = Some(explained::rest(diagnosis));
+        self.trace = Some(explained::firings(diagnosis, &shown));
+        self.rest = Some(explained::rest(diagnosis, &shown));
     }
 }
 

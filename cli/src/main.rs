@@ -13,6 +13,7 @@ mod check;
 mod exit;
 mod export;
 mod file_errors;
+mod fmeca;
 mod infeasible;
 mod input;
 mod list;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         Command::Statespace(args) => statespace::statespace(&args, &screen),
         Command::Verify(args) => verify::verify(&args, &screen),
         Command::Simulate(args) => simulate::simulate(&args, &screen),
+        Command::Fmeca(args) => fmeca::fmeca(&args, &screen),
         Command::Table(args) => about::table(&args),
         Command::Schema(args) => about::schema(&args),
         Command::Completions(args) => about::completions(&args),

@@ -1,6 +1,6 @@
 //! `cotama statespace`: how large a model is.
 
-use crate::answers::check::{ExploredRow, GrowthRow, StatespaceAnswer};
+use crate::answers::check::{ExploredRow, GrowthRow, RoundsRow, StatespaceAnswer};
 use crate::args::StatespaceArgs;
 use crate::budget::Budget;
 use crate::check::{contest, limit_in_words};
@@ -19,14 +19,18 @@ use std::time::Instant;
 
 /// Counts what is reachable.
 pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let subject = Subject::load(&args.model, args.untimed)?;
+    let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
     let (budget, progress, begun) = (Budget::start(args.budget), Progress::new(), Instant::now());
     let found = match &subject.model {
         Model::Plain(pt) => markings(pt, &budget, &progress),
         Model::Timed { net, untimed } => classes(net, untimed, &budget),
     };
+    let graph = |pt| explicit::Graph::new(pt, &budget.limits, &|it| progress.show(it)).ok();
+    let rounds = subject.rounds.as_ref().and_then(|rounds| Some(rounds.size(&graph(subject.model.pt())?)));
     progress.clear();
     let answer = StatespaceAnswer {
+        semantics: subject.semantics,
+        rounds: rounds.map(|it| RoundsRow { states: it.states.to_string(), edges: it.edges.to_string() }),
         model: subject.name,
         notes: subject.notes,
         seconds: begun.elapsed().as_secs_f64(),
@@ -79,6 +83,7 @@ fn markings(pt: &Pt, budget: &Budget, progress: &Progress) -> StatespaceAnswer {
         schema: "cotama/statespace/1",
         model: String::new(),
         timed: false,
+        semantics: None,
         notes: Vec::new(),
         states: count(space.states),
         arcs: count(space.arcs),
@@ -92,6 +97,7 @@ fn markings(pt: &Pt, budget: &Budget, progress: &Progress) -> StatespaceAnswer {
         markings: count(space.states),
         classes: None,
         edges: None,
+        rounds: None,
         growth,
         explored: ExploredRow { states: space.states.to_string(), arcs: space.arcs.to_string() },
         limit: space.limit.map(limit_in_words),
@@ -123,6 +129,7 @@ fn classes(net: &TimeNet, untimed: &Pt, budget: &Budget) -> StatespaceAnswer {
         schema: "cotama/statespace/1",
         model: String::new(),
         timed: true,
+        semantics: None,
         notes: Vec::new(),
         states: count(graph.classes()),
         arcs: count(graph.edges()),
@@ -136,6 +143,7 @@ fn classes(net: &TimeNet, untimed: &Pt, budget: &Budget) -> StatespaceAnswer {
         markings: count(graph.markings()),
         classes: count(graph.classes()),
         edges: count(graph.edges()),
+        rounds: None,
         growth: None,
         explored: ExploredRow { states: graph.classes().to_string(), arcs: graph.edges().to_string() },
         limit: graph.stopped().map(|it| it.to_string()),

@@ -1,5 +1,6 @@
 //! What is checked: a net with or without time, from the command line.
 
+use crate::args::Semantics;
 use crate::catalogue::{self, Entry, Kind};
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
@@ -7,7 +8,7 @@ use crate::input;
 use crate::model;
 use cotama_core::net::owned::OwnedNet;
 use cotama_verification::check::Model;
-use cotama_verification::flat::flat;
+use cotama_verification::flat::{self, Rounds, flat};
 use cotama_verification::property::Ids;
 use cotama_verification::tina;
 use cotama_verification::tpn::TimeNet;
@@ -23,18 +24,41 @@ pub(crate) struct Subject {
     pub(crate) net: Option<OwnedNet>,
     /// What to know about the model as it is checked.
     pub(crate) notes: Vec<String>,
+    /// What it means that its nets work together; of a system.
+    pub(crate) semantics: Option<Semantics>,
+    /// A system that acts in rounds.
+    pub(crate) rounds: Option<Rounds>,
     place_ids: Vec<String>,
     transition_ids: Vec<String>,
 }
 
 impl Subject {
     /// The model of this name, or of the file at this path; without its intervals where that is wanted.
-    pub(crate) fn load(name: &str, untimed: bool) -> Result<Self, Failure> {
+    pub(crate) fn load(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
+        let loaded = Self::found(name, untimed, semantics)?;
+        if semantics == Semantics::Rounds && loaded.semantics.is_none() {
+            return Err(Failure::new(format!(
+                "`{name}` is one net: rounds are those of several that work together"
+            ))
+            .help("leave --semantics out"));
+        }
+        Ok(loaded)
+    }
+
+    fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
         if let Some(Entry { kind: Kind::System(system), .. }) = catalogue::entry(name) {
-            let net = flat(system)
-                .map_err(|error| Failure::new(format!("`{name}` cannot be checked as one net: {error}")))?;
-            let note = "nets of a system are checked in every interleaving, rounds among them, at any time";
-            return Ok(Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note));
+            let refused = |error| Failure::new(format!("`{name}` cannot be checked as one net: {error}"));
+            let (net, rounds, note) = if semantics == Semantics::Rounds {
+                let rounds = flat::rounds(system).map_err(refused)?;
+                let note = "nets of a system act in rounds, as they are executed";
+                (rounds.net().map_err(refused)?, Some(rounds), note)
+            } else {
+                let note =
+                    "nets of a system are checked in every interleaving, rounds among them, at any time";
+                (flat(system).map_err(refused)?, None, note)
+            };
+            let subject = Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note);
+            return Ok(Self { semantics: Some(semantics), rounds, ..subject });
         }
         if Path::new(name).extension().is_some_and(|end| end.eq_ignore_ascii_case("net")) {
             return Ok(Self::new(name, time_net(name, untimed)?, None));
@@ -60,7 +84,16 @@ impl Subject {
 
     fn new(name: &str, model: Model, net: Option<OwnedNet>) -> Self {
         let (place_ids, transition_ids) = (Vec::new(), Vec::new());
-        Self { name: name.to_owned(), model, net, notes: Vec::new(), place_ids, transition_ids }
+        Self {
+            name: name.to_owned(),
+            model,
+            net,
+            notes: Vec::new(),
+            semantics: None,
+            rounds: None,
+            place_ids,
+            transition_ids,
+        }
     }
 
     fn noted(mut self, note: &str) -> Self {

@@ -15,6 +15,10 @@ const CONTEST: &str = "<?xml version=\"1.0\"?>\n<property-set>\n<property><id>ne
     <property><id>most</id><formula><place-bound><place>p0</place></place-bound></formula></property>\n\
     </property-set>\n";
 
+/// Nobody makes smoke, and the quick test is over before the late one can begin.
+const ALARM: &str = "net alarm\ntr ring smoke -> smoke noise\ntr quick [1,2] idle -> tested\n\
+    tr late [3,4] idle -> old\ntr again tested -> idle\npl idle (1)\n";
+
 #[test]
 fn the_screens_of_a_check() {
     let folder = Folder::new("check_screens");
@@ -84,6 +88,7 @@ fn time_is_measured_where_there_are_intervals() {
         check(&folder, "race.net", &["bound(fast -> done)", "bound(late -> idle)"], &["--json"]).json(0);
     let [first, second] = [0, 1].map(|it| &answer["results"][it]);
     assert_eq!((&first["min"], &first["max"]), (&json!(5), &json!(7)));
+    assert_eq!(first["states"], 3);
     assert_eq!((&second["min"], &second["max"]), (&json!("inf"), &json!("inf")));
     let answer = check(&folder, "race.net", &["EF done"], &["--json"]).json(0);
     assert_eq!(answer["results"][0]["trace"][1]["time"], "6");
@@ -112,6 +117,59 @@ fn a_file_without_laws_is_asked_the_usual_questions() {
     };
     assert_eq!(usual("lamp.net", 0), "deadlock_free true null; one_safe true null; quasi_live true null");
     assert_eq!(usual("pump.net", 0), "deadlock_free true null; bounds true inf; quasi_live true null");
+}
+
+#[test]
+fn a_run_leads_to_where_what_should_stay_possible_is_lost() {
+    let folder = Folder::new("check_lost");
+    folder.write(
+        "fuse.net",
+        "net fuse\ntr on off -> lit\ntr out lit -> off\ntr burn lit -> dark\npl off (1)\n",
+    );
+    let answer =
+        check(&folder, "fuse.net", &["AG EF lit"], &["--untimed", "--json", "--trace", "it.svg"]).json(1);
+    let row = &answer["results"][0];
+    let fired: Vec<_> = row["trace"].as_array().unwrap().iter().map(|it| &it["transition"]).collect();
+    assert_eq!(fired, ["on", "burn"]);
+    assert!(folder.read("it.svg").starts_with("<svg xmlns="));
+}
+
+#[test]
+fn what_never_fires_and_is_never_marked_is_named() {
+    let folder = Folder::new("check_unused");
+    folder.write("alarm.net", ALARM);
+    golden("check_unused.txt", &folder.cotama(&["check", "alarm.net"]).stdout);
+    let more = ["--json", "--trace", "it.html"];
+    let answer = check(&folder, "alarm.net", &["quasi_live"], &more).json(1);
+    let unused = &answer["results"][0]["unused"];
+    let ring = json!({"name": "ring", "why": "needs `smoke`, which is never marked"});
+    assert_eq!((&unused["transitions"][0], &unused["is_complete"]), (&ring, &json!(true)));
+    assert_eq!(unused["places"][0], json!({"name": "smoke", "why": "no transition marks it"}));
+    let page = folder.read("it.html");
+    assert!(
+        page.starts_with("<!DOCTYPE html>") && page.contains("<code>ring</code>") && page.contains("<svg")
+    );
+    let more = ["--untimed", "--trace", "it.json"];
+    assert_eq!(check(&folder, "alarm.net", &["live"], &more).code, Some(1));
+    let written: serde_json::Value = serde_json::from_str(&folder.read("it.json")).unwrap();
+    assert_eq!((&written["net"], &written["transitions"][0]), (&json!("alarm"), &ring));
+}
+
+#[test]
+fn at_a_limit_what_the_structure_shows_is_named() {
+    let folder = Folder::new("check_unused_limit");
+    folder.write("alarm.net", ALARM);
+    let more = ["--untimed", "--max-states", "1", "--json"];
+    let answer = check(&folder, "alarm.net", &["quasi_live"], &more).json(1);
+    let unused = &answer["results"][0]["unused"];
+    let names = |it: &serde_json::Value| {
+        it.as_array().unwrap().iter().map(|it| it["name"].clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        (names(&unused["transitions"]), names(&unused["places"])),
+        (vec![json!("ring")], vec![json!("smoke"), json!("noise")])
+    );
+    assert_eq!(unused["is_complete"], false);
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use crate::common::Folder;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 16] = [
     "list",
     "plan",
     "run",
@@ -14,6 +14,7 @@ const COMMANDS: [&str; 15] = [
     "check",
     "statespace",
     "verify",
+    "fmeca",
     "table",
     "schema",
     "completions",

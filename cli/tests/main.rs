@@ -9,6 +9,7 @@ mod broken_pnml;
 mod check;
 mod common;
 mod export;
+mod fmeca;
 mod help;
 mod models;
 mod plan;

@@ -4,8 +4,19 @@ use crate::common::{Folder, compare};
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 10] =
-    ["list", "plan", "run", "allocate", "replay", "models", "simulate", "check", "statespace", "verify"];
+const COMMANDS: [&str; 11] = [
+    "list",
+    "plan",
+    "run",
+    "allocate",
+    "replay",
+    "models",
+    "simulate",
+    "check",
+    "statespace",
+    "verify",
+    "fmeca",
+];
 
 fn stored(command: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("schemas/{command}.json"))

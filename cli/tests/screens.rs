@@ -54,6 +54,8 @@ fn a_reader_who_goes_away_is_no_error() {
         "simulate door Call",
         "check door --json",
         "statespace door --mcc",
+        "fmeca",
+        "fmeca --format html",
     ] {
         let ended = folder.shell(&format!("( cotama {command}; echo $? >&2 ) | head -c 1 > one"));
         assert_eq!((ended.code, ended.stderr.as_str()), (Some(0), "0\n"), "{command}");

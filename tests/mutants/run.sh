@@ -9,15 +9,17 @@
 #   mutant: what is wrong, in plain words
 #   file: path below verification/src
 #   test: the target that kills it, where it is not the one of the engine
-#   by: the test that kills it, tried first; the whole test target is run only when it does not; `time` when it hangs
+#   by: the test that kills it, tried first; the whole test target is run only when it does not; `time` when the target hangs
 #   - text that occurs exactly once in the file, of one or more lines
 #   + text in its place
 #   equivalent: why no test can tell the difference; then it is not run
 #
-# Each mutant costs one build of the crate and of one test target. SECONDS_PER_RUN (default 120) is how long tests may
-# take: one that hangs is killed by time. Exits 1 when a mutant survives, does not compile, or its text is not found.
+# Each mutant costs one incremental build of the crate and of one test target, and one test. Before, the tests that are named
+# in a list are run once without a defect; a test that kills and is not named is run again without the defect, after it.
+# SECONDS_PER_RUN (default 120) is how long tests may take: one that hangs is killed by time. Exits 1 when a mutant survives,
+# does not compile, or its text is not found, or when a test fails without a defect.
 set -euo pipefail
-export LC_ALL=C CARGO_PROFILE_DEV_DEBUG=0 CARGO_TERM_COLOR=never
+export LC_ALL=C CARGO_PROFILE_DEV_DEBUG=0 CARGO_INCREMENTAL=1 CARGO_TERM_COLOR=never
 unset COTAMA_MCC_DIR COTAMA_TPN_DIR # the suite alone must do
 lists=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$lists/../.." && pwd)
@@ -50,6 +52,14 @@ first_failure() {
     case $status in 0) ;; 124) echo time ;; *) echo "a crash" ;; esac
 }
 
+# Ends it all when tests of a target fail without a defect.
+sound() {
+    local tests failure
+    tests=$(build "$1")
+    failure=$(first_failure "$tests" "${@:2}")
+    [[ -z $failure ]] || { echo "$engine: without a defect $failure fails in $1" >&2; exit 1; }
+}
+
 report() { printf '%s: %s: %s\n' "$engine" "$mutant" "$1"; }
 
 # Runs the mutant that was read, if one was.
@@ -70,8 +80,16 @@ try() {
     cp -p "$path" "$work/original"
     printf %s "$before$new${after%x}" >"$path"
     if tests=$(build "$target") && [[ -n $tests ]]; then
-        [[ -z $by ]] || killer=$(first_failure "$tests" --exact "$by")
-        [[ -n $killer ]] || killer=$(first_failure "$tests")
+        [[ -z $by || $by == time ]] || killer=$(first_failure "$tests" --exact "$by")
+        if [[ -z $killer ]]; then
+            killer=$(first_failure "$tests")
+            cat "$work/original" >"$path"
+            case $killer in
+                '') ;;
+                time | 'a crash') sound "$target" ;;
+                *) sound "$target" --exact "$killer" ;;
+            esac
+        fi
         if [[ -n $killer ]]; then
             report "killed by $killer"
         else
@@ -88,13 +106,14 @@ try() {
 
 run() {
     engine=$1 usual=${target_of[$1]:-$1}
-    local tests failure line
-    tests=$(build "$usual")
-    failure=$(first_failure "$tests")
-    if [[ -n $failure ]]; then
-        echo "$engine: without a defect $failure fails" >&2
-        exit 1
-    fi
+    local line name names
+    for name in $({ echo "$usual"; sed -n 's/^test: //p' "$lists/$engine.txt"; } | sort -u); do
+        mapfile -t names < <(awk -v usual="$usual" -v wanted="$name" '
+            /^mutant: / { target = usual }
+            /^test: / { target = $2 }
+            /^by: / && $2 != "time" && target == wanted { print $2 }' "$lists/$engine.txt" | sort -u)
+        [[ ${#names[@]} == 0 ]] || sound "$name" --exact "${names[@]}"
+    done
     mutant=
     while IFS= read -r line; do
         case $line in
@@ -139,6 +158,8 @@ fi
 mkdir -p "$copy"
 rm -rf "${copy:?}"/*
 (cd "$root" && tar cf - --exclude=./target --exclude='./.*' .) | tar xf - -C "$copy"
+# Newer than what an earlier run may have built of a mutant.
+find "$copy/verification" -name '*.rs' -exec touch {} +
 [[ $# -gt 0 ]] || set -- "${all[@]}"
 for name in "$@"; do run "$name"; done
 exit $bad

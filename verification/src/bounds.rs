@@ -7,6 +7,7 @@
 use crate::pt::Pt;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
+use std::rc::Rc;
 
 /// The most sums that are kept at a time, and that one transition may add.
 const SUMS: usize = 2_000;
@@ -62,7 +63,7 @@ struct Sums<'p> {
     /// For each place the tokens at the start.
     initial: &'p [u32],
     /// In the order in which they were made; `None` for those that were given up.
-    all: Vec<Option<Sum>>,
+    all: Vec<Option<Rc<Sum>>>,
     kept: usize,
     /// For each transition the sums that it changes, and maybe some that were given up.
     changed: Vec<Vec<u32>>,
@@ -86,14 +87,17 @@ struct Cost {
     down: usize,
 }
 
-/// A combination of two sums.
-struct Combined {
-    sum: Sum,
+/// Two sums to be combined: all combinations at once would take more memory than all that are kept.
+struct Pair {
+    up: Rc<Sum>,
+    down: Rc<Sum>,
+    /// How many places the combination has.
+    length: usize,
     /// The one of them that shrinks, if the combination says all that it says.
     replaces: Option<usize>,
 }
 
-fn sums(pt: &Pt) -> Vec<Sum> {
+fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
     let (places, transitions) = (pt.places.len(), pt.transitions.len());
     let mut sums = Sums {
         initial: &pt.initial,
@@ -111,10 +115,12 @@ fn sums(pt: &Pt) -> Vec<Sum> {
         sums.keep(Sum { weights: vec![(place, 1)], grows, places: 1 << (place % 64) });
     }
     while let Some((_, transition)) = sums.open.first().copied().filter(|_| sums.work < WORK) {
-        for Combined { sum, replaces } in sums.settle(transition) {
+        for pair in sums.settle(transition) {
+            let Some(sum) = balanced(&pair.up, &pair.down, transition) else { continue };
+            sums.work += sum.weights.len() + sum.grows.len();
             if sums.kept < places + SUMS && !sums.has_within(&sum) {
                 sums.keep(sum);
-                sums.give_up(replaces);
+                sums.give_up(pair.replaces);
             }
         }
     }
@@ -130,7 +136,7 @@ impl Sums<'_> {
         }
         self.count(&sum, usize::wrapping_add);
         self.kept += 1;
-        self.all.push(Some(sum));
+        self.all.push(Some(Rc::new(sum)));
     }
 
     /// Counts a sum in, or out, of the costs of the transitions that change it.
@@ -163,8 +169,8 @@ impl Sums<'_> {
             && up.grows.iter().filter(|it| it.1 > 0).count() == 1
     }
 
-    /// Gives up the sums that a transition increases; returns, short ones first, what takes their place.
-    fn settle(&mut self, transition: u32) -> Vec<Combined> {
+    /// Gives up the sums that a transition increases; returns what takes their place, short ones first.
+    fn settle(&mut self, transition: u32) -> Vec<Pair> {
         self.settled[transition as usize] = true;
         let (mut grown, mut shrunk) = (Vec::new(), Vec::new());
         for number in std::mem::take(&mut self.changed[transition as usize]) {
@@ -194,13 +200,14 @@ impl Sums<'_> {
         for up in &grown {
             let adds_nothing = self.adds_nothing(up);
             for &number in &shrunk {
-                let sum = self.all[number].as_ref().and_then(|down| balanced(up, down, transition));
-                let replaces = adds_nothing.then_some(number);
-                new.extend(sum.map(|sum| Combined { sum, replaces }));
+                let Some(down) = &self.all[number] else { continue };
+                let Some([a, b]) = factors(up, down, transition) else { continue };
+                let Some(weights) = combined(&up.weights, a, &down.weights, b) else { continue };
+                let (up, down, length) = (Rc::clone(up), Rc::clone(down), weights.len());
+                new.push(Pair { up, down, length, replaces: adds_nothing.then_some(number) });
             }
         }
-        new.sort_by_key(|it| it.sum.weights.len());
-        self.work += new.iter().map(|it| it.sum.weights.len() + it.sum.grows.len()).sum::<usize>();
+        new.sort_by_key(|it| it.length);
         new
     }
 
@@ -222,18 +229,25 @@ fn change(sum: &Sum, transition: u32) -> i64 {
     sum.grows.binary_search_by_key(&transition, |it| it.0).map_or(0, |at| sum.grows[at].1)
 }
 
+/// By what two sums are multiplied so that a transition changes them by the same.
+fn factors(up: &Sum, down: &Sum, transition: u32) -> Option<[i64; 2]> {
+    let (a, b) = (change(down, transition).checked_neg()?, change(up, transition));
+    let divisor = gcd(a.unsigned_abs(), b.unsigned_abs()).cast_signed();
+    Some([a / divisor, b / divisor])
+}
+
 /// The smallest combination of a sum that grows and one that shrinks that does neither; `None` when numbers get too
 /// large.
 fn balanced(up: &Sum, down: &Sum, transition: u32) -> Option<Sum> {
-    let (a, b) = (change(down, transition).checked_neg()?, change(up, transition));
-    let divisor = gcd(a.unsigned_abs(), b.unsigned_abs()).cast_signed();
-    let (a, b) = (a / divisor, b / divisor);
+    let [a, b] = factors(up, down, transition)?;
     let mut weights = combined(&up.weights, a, &down.weights, b)?;
     let mut grows = combined(&up.grows, a, &down.grows, b)?;
     let all = weights.iter().chain(&grows).fold(0, |all, &(_, it)| gcd(all, it.unsigned_abs())).cast_signed();
     if all > 1 {
         weights.iter_mut().chain(&mut grows).for_each(|it| it.1 /= all);
     }
+    weights.shrink_to_fit();
+    grows.shrink_to_fit();
     Some(Sum { weights, grows, places: up.places | down.places })
 }
 

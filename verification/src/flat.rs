@@ -9,9 +9,21 @@
 //! never happens in a round. Places keep their names, as `net.place`; a place whose absence decides something gets a
 //! complement, `net.place.absent`.
 
+mod branch;
+mod lowered;
+mod observer;
+mod places;
+mod rounds;
+mod turn;
+mod walk;
+
+pub use observer::{Looks, Observer};
+pub use rounds::{Part, Rounds, rounds};
+pub use walk::{Happened, Size};
+
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{EventId, Net, OutputId, Place, PlaceId, Role, Transition};
-use cotama_core::system::{Delivery, Of, System, SystemDefect, Target};
+use cotama_core::net::{Defect, EventId, Net, OutputId, PlaceId, Role, Transition};
+use cotama_core::system::{Delivery, Of, System, SystemDefect};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
@@ -30,6 +42,35 @@ pub enum FlatError {
     },
     /// It would have more than [`MOST_TRANSITIONS`] transitions.
     TooMany,
+    /// A net of a system whose rounds are asked for is not sound.
+    Net {
+        /// Its name in the system.
+        net: String,
+        /// What is wrong with it.
+        defect: Defect,
+    },
+    /// Rounds have no time, and this transition has an interval.
+    Interval {
+        /// The transition, as `net.transition`.
+        transition: String,
+    },
+    /// A transition changes a place and not its declared complement, or the other way round.
+    Complement {
+        /// The place, as `net.place`.
+        place: String,
+        /// The transition, as `net.transition`.
+        transition: String,
+    },
+    /// So many transitions of a net as [`SETTLE`](cotama_core::system::SETTLE) fire at once by themselves, one after another.
+    Endless {
+        /// The net.
+        net: String,
+    },
+    /// What an observer looks at is not a formula about one marking that compares sums of tokens.
+    Condition {
+        /// The observer.
+        observer: String,
+    },
 }
 
 impl fmt::Display for FlatError {
@@ -43,6 +84,22 @@ impl fmt::Display for FlatError {
                 )
             }
             Self::TooMany => write!(f, "as one net it has more than {MOST_TRANSITIONS} transitions"),
+            Self::Net { net, defect } => write!(f, "the net {net} is not sound: {defect:?}"),
+            Self::Interval { transition } => {
+                write!(f, "rounds have no time, and {transition} has an interval: check the interleavings")
+            }
+            Self::Complement { place, transition } => {
+                write!(f, "{transition} changes {place} and does not change its complement to match")
+            }
+            Self::Endless { net } => {
+                write!(f, "the net {net} does not settle: its transitions without event fire again and again")
+            }
+            Self::Condition { observer } => {
+                write!(
+                    f,
+                    "{observer} can only look at one marking, and compare sums of tokens of bounded places"
+                )
+            }
         }
     }
 }
@@ -141,105 +198,6 @@ impl<'s> Flat<'s> {
 
     fn components(&self) -> u16 {
         self.system.components.len() as u16
-    }
-
-    fn add_places(&mut self) {
-        for at in 0..self.components() {
-            let (name, net) = self.component(at);
-            let own = |place: &Place<'_>| match place.role {
-                Role::Shared => false,
-                Role::Complement(of) => net.places[of.0 as usize].role != Role::Shared,
-                _ => true,
-            };
-            let mut ids = vec![PlaceId(u32::MAX); net.places.len()];
-            for (place, id) in net.places.iter().zip(&mut ids).filter(|(place, _)| own(place)) {
-                let Place { name: of, doc, initial, bound, role } = *place;
-                *id = self.push(OwnedPlace {
-                    name: format!("{name}.{of}"),
-                    doc: doc.to_owned(),
-                    initial,
-                    bound,
-                    role,
-                });
-            }
-            for (place, &id) in net.places.iter().zip(&ids).filter(|(place, _)| own(place)) {
-                if let Role::Complement(of) = place.role {
-                    let of = ids[of.0 as usize];
-                    self.net.places[id.0 as usize].role = Role::Complement(of);
-                    self.absent.insert(of, id);
-                }
-            }
-            self.places.push(ids);
-        }
-        for at in 0..self.components() {
-            let (name, net) = self.component(at);
-            for (event, number) in net.events.iter().zip(0..) {
-                let Some(Delivery::Mail { capacity }) =
-                    self.system.delivery(Of { component: at, id: EventId(number) })
-                else {
-                    continue;
-                };
-                let bound = u32::from(capacity);
-                let label = |what: &str| format!("{name}.{}.{what}", event.name);
-                let waiting = self.push(OwnedPlace {
-                    name: label("waiting"),
-                    doc: event.doc.to_owned(),
-                    initial: 0,
-                    bound,
-                    role: Role::Mailbox,
-                });
-                let role = Role::Complement(waiting);
-                let room = self.push(OwnedPlace {
-                    name: label("room"),
-                    doc: String::new(),
-                    initial: bound,
-                    bound,
-                    role,
-                });
-                self.absent.insert(waiting, room);
-                self.mailboxes.insert((at, number), (waiting, room, capacity));
-            }
-        }
-        self.bind();
-    }
-
-    /// Shared places are where they are bound to.
-    fn bind(&mut self) {
-        for binding in self.system.bindings {
-            let target = match binding.target {
-                Target::Place(of) => self.places[usize::from(of.component)][of.id.0 as usize],
-                Target::Mailbox(of) => self.mailboxes[&(of.component, of.id.0)].0,
-            };
-            self.places[usize::from(binding.shared.component)][binding.shared.id.0 as usize] = target;
-        }
-    }
-
-    /// The place that holds what this one lacks to its bound; it may have to be made.
-    fn complement(&mut self, place: PlaceId) -> Result<PlaceId, FlatError> {
-        if let Some(&complement) = self.absent.get(&place) {
-            return Ok(complement);
-        }
-        let of = &self.net.places[place.0 as usize];
-        if let Role::Complement(of) = of.role {
-            return Ok(of);
-        }
-        if of.bound == Place::UNBOUNDED {
-            return Err(FlatError::Unbounded { place: of.name.clone() });
-        }
-        self.wanted.insert(place);
-        Ok(place) // of the first pass only, whose net is thrown away
-    }
-
-    /// The place of a component, complements of shared places among them.
-    fn place(&mut self, component: u16, place: PlaceId) -> Result<PlaceId, FlatError> {
-        let (_, net) = self.component(component);
-        if let Role::Complement(of) = net.places[place.0 as usize].role
-            && net.places[of.0 as usize].role == Role::Shared
-        {
-            let of = self.places[usize::from(component)][of.0 as usize];
-            return self.complement(of);
-        }
-        Ok(self.places[usize::from(component)][place.0 as usize])
     }
 
     fn build(&mut self) -> Result<(), FlatError> {

@@ -1,5 +1,6 @@
 //! The answers of the commands that check.
 
+use crate::args::Semantics;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -11,6 +12,8 @@ pub(crate) struct CheckAnswer {
     pub(crate) model: String,
     /// Whether transitions fire within their intervals; otherwise in any order, at any time.
     pub(crate) timed: bool,
+    /// What it means that the nets of a system work together; null of one net.
+    pub(crate) semantics: Option<Semantics>,
     /// What to know about the model as it was checked.
     pub(crate) notes: Vec<String>,
     /// Laws of the model that are checked only while a program is compiled.
@@ -53,6 +56,27 @@ pub(crate) struct ResultRow {
     pub(crate) trace: Option<Vec<FiringRow>>,
     /// How the run goes on.
     pub(crate) rest: Option<RestRow>,
+    /// What no run uses, where a property is false because of it.
+    pub(crate) unused: Option<UnusedRow>,
+}
+
+/// What no run uses.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct UnusedRow {
+    /// Transitions that never fire.
+    pub(crate) transitions: Vec<NeverRow>,
+    /// Places that are never marked.
+    pub(crate) places: Vec<NeverRow>,
+    /// Whether these are all; otherwise a limit was reached, and there may be more.
+    pub(crate) is_complete: bool,
+}
+
+/// A transition that never fires, or a place that is never marked.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct NeverRow {
+    pub(crate) name: String,
+    /// Why, as far as single places and transitions tell; names stand in backticks.
+    pub(crate) why: String,
 }
 
 /// The time from a firing to a marking, of `bound(t -> p)`; null if the transition never fires.
@@ -156,6 +180,8 @@ pub(crate) struct StatespaceAnswer {
     pub(crate) model: String,
     /// Whether transitions fire within their intervals; otherwise in any order, at any time.
     pub(crate) timed: bool,
+    /// What it means that the nets of a system work together; null of one net.
+    pub(crate) semantics: Option<Semantics>,
     /// What to know about the model as it was explored.
     pub(crate) notes: Vec<String>,
     /// Reachable markings, of a time net state classes. This and what follows is null where it is not known or has no end.
@@ -182,6 +208,9 @@ pub(crate) struct StatespaceAnswer {
     pub(crate) classes: Option<String>,
     /// Firings between them, of a time net.
     pub(crate) edges: Option<String>,
+    /// What is counted in rounds, of a system with that meaning.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) rounds: Option<RoundsRow>,
     /// How tokens grow without end.
     pub(crate) growth: Option<GrowthRow>,
     /// What was met.
@@ -193,6 +222,15 @@ pub(crate) struct StatespaceAnswer {
     pub(crate) seconds: f64,
     /// Memory at the end for each state, if it was measured.
     pub(crate) bytes_per_state: Option<f64>,
+}
+
+/// Rounds of a system.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub(crate) struct RoundsRow {
+    /// Markings between two rounds.
+    pub(crate) states: String,
+    /// Pairs of one of them and what can come from outside in the round after it, nothing among it.
+    pub(crate) edges: String,
 }
 
 /// What a search met.

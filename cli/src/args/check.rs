@@ -2,6 +2,8 @@
 
 use super::Json;
 use clap::{Args, ValueEnum};
+use schemars::JsonSchema;
+use serde::Serialize;
 use std::path::PathBuf;
 use std::time::Duration;
 
@@ -25,8 +27,14 @@ is there no deadlock, is it 1-safe or else how many tokens are there, can each t
 Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
 pass through markings.
 
+Systems: with --semantics rounds the place `round` is marked between two rounds, and `turn.outside`
+when it is the turn of what is outside. What happens in a round is shown, not the way of its token.
+
 Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
+
+Where quasi_live or live is false because transitions never fire, these are listed, and the places
+that are never marked; in --json as `unused`.
 
 Exit codes: 0 all are true, or their bounds are known; 1 one is false; 3 none is false and one is
 not known; 2 bad input.
@@ -39,7 +47,8 @@ Examples:
   $ cotama check kanban:2000 --property 'AG !deadlock' --certificate it.json; cotama verify it.json
   $ printf 'ends: EF deadlock\\nlive\\n' > two.txt
   $ cotama check kanban:2 --properties two.txt --mcc   # it has no deadlock: exit code 1
-  $ cotama check watchdog --property 'bound(w1 -> Fault)'";
+  $ cotama check watchdog --property 'bound(w1 -> Fault)'
+  $ cotama check decision --semantics rounds --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
 What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an unbounded
@@ -48,6 +57,7 @@ net, it is shown which firings can be repeated to add tokens for ever.
 Examples:
   $ cotama statespace door
   $ cotama statespace kanban:3 --json
+  $ cotama statespace decision --semantics rounds
   $ cotama statespace door --untimed --mcc
   $ cotama export philosophers:4 --output four.pnml && cotama statespace four.pnml --jobs 2";
 
@@ -101,12 +111,15 @@ pub(crate) struct CheckArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
+    /// What it means that nets of a system work together
+    #[arg(long, value_enum, value_name = "MEANING", default_value_t = Semantics::Interleaving)]
+    pub(crate) semantics: Semantics,
     #[command(flatten)]
     pub(crate) budget: BudgetArgs,
     /// Writes evidence for the verdict that `cotama verify` checks again
     #[arg(long, value_name = "FILE")]
     pub(crate) certificate: Option<PathBuf>,
-    /// Writes the run that shows the verdict: as a page (.html) or as JSON (.json)
+    /// Writes the run that shows the verdict: as a page (.html), a drawing (.svg) or JSON (.json)
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
     /// Prints the lines of the Model Checking Contest
@@ -123,6 +136,9 @@ pub(crate) struct StatespaceArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
+    /// What it means that nets of a system work together
+    #[arg(long, value_enum, value_name = "MEANING", default_value_t = Semantics::Interleaving)]
+    pub(crate) semantics: Semantics,
     #[command(flatten)]
     pub(crate) budget: BudgetArgs,
     /// Prints the lines of the Model Checking Contest
@@ -138,6 +154,16 @@ pub(crate) struct VerifyArgs {
     pub(crate) certificate: String,
     #[command(flatten)]
     pub(crate) json: Json,
+}
+
+/// What it means that nets of a system work together.
+#[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize, ValueEnum)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum Semantics {
+    /// They act in any order, at any time: what never happens so never happens in rounds
+    Interleaving,
+    /// As they are executed: each net settles and reads its mailboxes in its turn, then one event comes from outside, or none
+    Rounds,
 }
 
 /// Which engine looks for the answer.

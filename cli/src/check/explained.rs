@@ -1,16 +1,22 @@
 //! Why a verdict is as it is: by a run, or that it holds for a reason that is none.
 
-use crate::answers::check::{ChangeRow, FiringRow, RestRow};
+use crate::answers::check::{ChangeRow, FiringRow, NeverRow, RestRow, UnusedRow};
+use crate::render::visible;
 use crate::subject::Subject;
 use cotama_verification::check::{Answer, Checker, Options, Verdict};
-use cotama_verification::diagnosis::{Case, Diagnosis, NotARun, Run, Step, vacuous};
+use cotama_verification::diagnosis::{Case, Diagnosis, Never, NotARun, Run, Step, Unused, vacuous};
 use cotama_verification::explicit::Limits;
+use cotama_verification::flat::{Part, Rounds};
 use cotama_verification::property::{Property, Question};
 use cotama_verification::temporal::Rest;
+use std::fmt::Write;
 
 /// What may be asked to find out whether a property holds vacuously: so many questions, each among so many markings.
 const QUESTIONS: usize = 8;
 const MARKINGS: u64 = 100_000;
+
+/// Among so many markings it is looked for all that no run uses, where the verdict did not need them all.
+const UNUSED: u64 = 1_000_000;
 
 /// The run of an answer, explained, if there is one.
 pub(super) fn diagnosis(
@@ -36,8 +42,36 @@ pub(super) fn diagnosis(
     Some(if explained == Err(NotARun::Net) { Diagnosis::new(&case) } else { explained })
 }
 
-/// The firings of a run, a loop once.
-pub(super) fn firings(diagnosis: &Diagnosis) -> Vec<FiringRow> {
+/// Which firings of a run are shown: of a system in rounds not those in which its token only goes on.
+pub(super) fn shown(subject: &Subject, answer: &Answer, count: usize) -> Vec<bool> {
+    let (Some(rounds), Some(run)) = (&subject.rounds, &answer.run) else { return vec![true; count] };
+    let run = Run::from(run.clone());
+    run.firings().map(|it| rounds.part(it) != Some(Part::Between)).collect()
+}
+
+/// A run of a system in rounds, as what happens in each of them.
+pub(super) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer) -> String {
+    let run = answer.run.clone().map(Run::from).unwrap_or_default();
+    let firings: Vec<_> = run.firings().collect();
+    let mut text = format!("{}\n", diagnosis.summary);
+    for (round, number) in rounds.told(&firings).into_iter().zip(1..) {
+        let outside = round.outside.map(|(event, fired)| match event {
+            Some(event) => format!("from outside {event}: {fired}"),
+            None => "nothing from outside".to_owned(),
+        });
+        let all: Vec<_> = round.turns.into_iter().chain(outside).collect();
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "  round {number}  {}", visible(&all.join("; ")));
+    }
+    if run.cycle.as_ref().is_some_and(|it| !it.is_empty()) {
+        let before = rounds.told(&run.stem).len();
+        let _ = writeln!(text, "  what follows round {before} repeats for ever");
+    }
+    text
+}
+
+/// The firings of a run that are shown, a loop once.
+pub(super) fn firings(diagnosis: &Diagnosis, shown: &[bool]) -> Vec<FiringRow> {
     let row = |step: &Step| FiringRow {
         transition: step.transition.clone(),
         event: step.event.clone(),
@@ -49,15 +83,38 @@ pub(super) fn firings(diagnosis: &Diagnosis) -> Vec<FiringRow> {
             .map(|it| ChangeRow { place: it.place.clone(), before: it.before, after: it.after })
             .collect(),
     };
-    diagnosis.trace.iter().map(row).collect()
+    diagnosis.trace.iter().zip(shown).filter(|it| *it.1).map(|it| row(it.0)).collect()
 }
 
 /// How a run goes on.
-pub(super) fn rest(diagnosis: &Diagnosis) -> RestRow {
+pub(super) fn rest(diagnosis: &Diagnosis, shown: &[bool]) -> RestRow {
     match diagnosis.cycle_starts_at {
-        Some(at) => RestRow::LoopFrom(at as u64),
+        Some(at) => RestRow::LoopFrom(shown.iter().take(at).filter(|it| **it).count() as u64),
         None if diagnosis.deadlock => RestRow::Deadlock,
         None => RestRow::Any,
+    }
+}
+
+/// What no run uses, if a property is false because of it.
+pub(super) fn unused<'m>(
+    checker: &Checker<'m>,
+    property: &Property,
+    answer: &Answer,
+    options: &Options<'_>,
+) -> Option<Unused<'m>> {
+    let asks = matches!(property.question, Question::QuasiLiveness | Question::Liveness);
+    let limits = Limits { states: options.limits.states.min(UNUSED), ..options.limits };
+    let options = Options { limits, ..*options };
+    let asked = (asks && answer.verdict == Verdict::Holds(false)).then(|| checker.unused(&options));
+    asked.filter(|it| !it.transitions.is_empty())
+}
+
+pub(super) fn unused_row(unused: &Unused<'_>) -> UnusedRow {
+    let rows = |all: Vec<Never>| all.into_iter().map(|it| NeverRow { name: it.name, why: it.why }).collect();
+    UnusedRow {
+        transitions: rows(unused.never_fired()),
+        places: rows(unused.never_marked()),
+        is_complete: unused.is_complete,
     }
 }
 

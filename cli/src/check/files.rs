@@ -6,9 +6,10 @@ use crate::output::{self, Screen};
 use crate::render::style::NAME;
 use crate::render::visible;
 use crate::subject::Subject;
+use cotama_core::net::owned::OwnedNet;
 use cotama_verification::certificate::{self, Certificate};
 use cotama_verification::check::{Answer, Model};
-use cotama_verification::diagnosis::Diagnosis;
+use cotama_verification::diagnosis::{Diagnosis, Unused};
 use cotama_verification::property::Property;
 use std::path::{Path, PathBuf};
 
@@ -16,7 +17,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug)]
 pub(super) struct Files {
     certificate: Option<PathBuf>,
-    trace: Option<PathBuf>,
+    trace: Option<(PathBuf, Form)>,
     /// How many properties there are: of several, each has a file of its own.
     pub(super) of: usize,
 }
@@ -24,13 +25,11 @@ pub(super) struct Files {
 impl Files {
     /// The files that are wanted.
     pub(super) fn new(args: &CheckArgs) -> Result<Self, Failure> {
-        if let Some(path) = &args.trace
-            && !matches!(extension(path).as_str(), "json" | "html")
-        {
-            let message = format!("{}: the end of this name says no form of a trace", path.display());
-            return Err(Failure::new(message).help("a trace is written as .json or as .html"));
-        }
-        Ok(Self { certificate: args.certificate.clone(), trace: args.trace.clone(), of: 1 })
+        let trace = match &args.trace {
+            Some(path) => Some((path.clone(), Form::of(path)?)),
+            None => None,
+        };
+        Ok(Self { certificate: args.certificate.clone(), trace, of: 1 })
     }
 
     fn path(&self, wanted: &Path, position: usize) -> PathBuf {
@@ -76,11 +75,37 @@ impl Files {
         diagnosis: &Diagnosis,
         screen: &Screen,
     ) -> Result<(), Failure> {
-        let Some(wanted) = &self.trace else { return Ok(()) };
-        let is_page = extension(wanted) == "html";
-        let text = if is_page { diagnosis.html() } else { diagnosis.json() };
+        self.write(position, screen, |form| match form {
+            Form::Html => diagnosis.html(),
+            Form::Svg => diagnosis.svg(),
+            Form::Json => diagnosis.json(),
+        })
+    }
+
+    /// Writes what no run uses, where that is why a property is false.
+    pub(super) fn unused(
+        &self,
+        position: usize,
+        subject: &Subject,
+        unused: &Unused<'_>,
+        screen: &Screen,
+    ) -> Result<(), Failure> {
+        let view = subject.net.as_ref().map(OwnedNet::view);
+        let net = view
+            .as_ref()
+            .map(|it| it.net())
+            .filter(|it| it.transitions.len() == subject.model.pt().transitions.len());
+        self.write(position, screen, |form| match form {
+            Form::Html => unused.html(net.as_ref()),
+            Form::Svg => unused.svg(net.as_ref()),
+            Form::Json => unused.json(),
+        })
+    }
+
+    fn write(&self, position: usize, screen: &Screen, text: impl Fn(Form) -> String) -> Result<(), Failure> {
+        let Some((wanted, form)) = &self.trace else { return Ok(()) };
         let path = self.path(wanted, position);
-        output::file(&path, text.as_bytes())?;
+        output::file(&path, text(*form).as_bytes())?;
         screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
         Ok(())
     }
@@ -93,8 +118,27 @@ impl Files {
     }
 }
 
-fn extension(path: &Path) -> String {
-    path.extension().map_or_else(String::new, |end| end.to_string_lossy().to_lowercase())
+/// A form of a trace.
+#[derive(Clone, Copy, Debug)]
+enum Form {
+    Html,
+    Svg,
+    Json,
+}
+
+impl Form {
+    /// The form that the end of a name says.
+    fn of(path: &Path) -> Result<Self, Failure> {
+        match path.extension().map(|end| end.to_string_lossy().to_lowercase()).as_deref() {
+            Some("html") => Ok(Self::Html),
+            Some("svg") => Ok(Self::Svg),
+            Some("json") => Ok(Self::Json),
+            _ => {
+                let message = format!("{}: the end of this name says no form of a trace", path.display());
+                Err(Failure::new(message).help("a trace is written as .html, .svg or .json"))
+            }
+        }
+    }
 }
 
 fn certified(subject: &Subject, property: &Property, answer: &Answer) -> Result<Certificate, String> {

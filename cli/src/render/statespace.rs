@@ -23,6 +23,10 @@ pub(crate) fn screen(answer: &StatespaceAnswer, width: usize) -> String {
         line(NOTICE, "not complete", limit);
         line(FAINT, "explored", &explored(answer));
     }
+    if let Some(rounds) = &answer.rounds {
+        let said = format!("{} states, {} edges", grouped(&rounds.states), grouped(&rounds.edges));
+        line(FAINT, "rounds", &said);
+    }
     let counts = if answer.timed {
         vec![("state classes", &answer.classes), ("edges", &answer.edges), ("markings", &answer.markings)]
     } else {

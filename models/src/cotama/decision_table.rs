@@ -21,6 +21,8 @@ net! {
             ambiguous, camera, collision,
             /// Any other failure that is hard where it happens.
             hard,
+            /// The operator's avoidance is lost, and the sonars are not.
+            avoidance,
             mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
         }
         outputs { global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, adapt_sonar_teleoperation }
@@ -33,6 +35,7 @@ net! {
             mcl2 on mcl_lost [reduced]: Ready => Ready emit adapt_mcl;
             sonar1 on sonar [following & !degraded]: Ready => Ready emit adapt_sonar;
             sonar2 on sonar [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
+            avoidance on avoidance [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
             ambiguous1 on ambiguous [planning & wifi]: Ready => Ready emit local_event;
             ambiguous2 on ambiguous [planning & !wifi]: Ready => Ready emit global_event;
             ambiguous3 on ambiguous [following & wifi]: Ready => Ready emit local_event;

@@ -45,6 +45,7 @@ system! {
             gom.hard => cs.hard mail 1;
             gom.mcl_lost => cs.mcl_lost mail 1;
             gom.sonar_lost => cs.sonar mail 1;
+            gom.avoidance_lost => cs.avoidance mail 1;
             gom.camera => cs.camera mail 1;
             gom.wifi_lost => cs.wifi_lost mail 1;
             gom.vital => cs.vital mail 1;
@@ -52,6 +53,7 @@ system! {
             faults.wifi_flag => gom.wifi_flag mail 1;
             faults.camera_flag => gom.camera_flag mail 1;
             faults.sonar_flag => gom.sonar_flag mail 1;
+            faults.avoidance_flag => gom.avoidance_flag mail 1;
             faults.mcl_flag => gom.mcl_flag mail 1;
             faults.drift_flag => gom.drift_flag mail 1;
             faults.bumper_flag => gom.bumper_flag mail 1;
@@ -68,7 +70,8 @@ system! {
         shared {
             ls.camera = gom.camera;
             ls.wifi & cs.wifi = gom.wifi;
-            pf.sonar & to.sonar = gom.sonar;
+            pf.sonar = gom.sonar;
+            to.sonar = gom.avoidance;
             pf.mcl & cs.mcl = gom.mcl;
             operator.camera = faults.camera;
             operator.wifi = faults.wifi;

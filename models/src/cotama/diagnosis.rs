@@ -104,7 +104,7 @@ pub const fn are_confusable(a: FailureMode, b: FailureMode, status: Modules) -> 
 /// The groups of failure modes that share a set of flags: the largest ambiguous diagnoses, in the order of [`FailureMode`].
 /// Two modes are confusable exactly when some group holds both.
 pub fn ambiguity_groups(status: Modules) -> impl Iterator<Item = FailureModes> {
-    pairs(status).filter_map(move |(a, b)| {
+    confusable_pairs(status).filter_map(move |(a, b)| {
         // Signatures are intervals of sets, and intervals that meet in pairs meet all at once. So a group grown one by one from
         // a pair is as large as it can be, and it is told where its first pair is met.
         let group = FailureModes::ALL.iter().fold(FailureModes::of(&[a, b]), |group, next| {
@@ -119,8 +119,35 @@ pub fn ambiguity_groups(status: Modules) -> impl Iterator<Item = FailureModes> {
     })
 }
 
+/// The flags that leave it open which of several failure modes it is: all of the first set are raised, and some of the second,
+/// which holds the first. `None` when any flags rule one of them out, or when one of them is not detectable.
+///
+/// ```
+/// use cotama_models::cotama::{FailureMode::{Loc1, Odo2, Son1}, FailureModes, Modules, shared_flags};
+/// let (least, most) = shared_flags(FailureModes::of(&[Odo2, Loc1]), Modules::ALL).unwrap();
+/// assert_eq!((least.to_string(), most.to_string()), ("pose growth".into(), "pose growth backward".into()));
+/// assert_eq!(shared_flags(FailureModes::of(&[Odo2, Son1]), Modules::ALL), None);
+/// ```
+#[must_use]
+pub const fn shared_flags(modes: FailureModes, status: Modules) -> Option<(Flags, Flags)> {
+    let (mut fewest, mut widest, mut at) = (Flags::NONE, Flags::ALL, 0);
+    while at < RULES.len() {
+        let mode = FailureMode::ALL[at];
+        if modes.has(mode) {
+            if !is_detectable(mode, status) {
+                return None;
+            }
+            let (least, most) = bounds(mode, status);
+            fewest = fewest.union(least);
+            widest = widest.common(most);
+        }
+        at += 1;
+    }
+    if widest.covers(fewest) { Some((fewest, widest)) } else { None }
+}
+
 /// The pairs of confusable failure modes, the earlier one first.
-fn pairs(status: Modules) -> impl Iterator<Item = (FailureMode, FailureMode)> {
+pub fn confusable_pairs(status: Modules) -> impl Iterator<Item = (FailureMode, FailureMode)> {
     FailureModes::ALL.iter().flat_map(move |a| {
         FailureModes::ALL.iter().filter(move |&b| a < b && are_confusable(a, b, status)).map(move |b| (a, b))
     })
@@ -215,7 +242,7 @@ impl Probes {
     }
 
     /// The fewest that tell all confusable failure modes apart, the first in the order of [`Probe`] among equals; `None` when
-    /// not even all of them do. Exact: every subset is tried.
+    /// not even all of them do.
     ///
     /// ```
     /// use cotama_models::cotama::{Modules, Probes};
@@ -224,12 +251,23 @@ impl Probes {
     /// ```
     #[must_use]
     pub fn least(status: Modules) -> Option<Self> {
+        let can = |(a, b)| !Self::that_separate(a, b, status).is_empty();
+        confusable_pairs(status).all(can).then(|| Self::least_that_help(status))
+    }
+
+    /// The fewest that tell all those failure modes apart that any probe can, the first in the order of [`Probe`] among equals.
+    /// Exact: every subset is tried.
+    #[must_use]
+    pub fn least_that_help(status: Modules) -> Self {
         let separates = |set: &Self| {
-            pairs(status).all(|(a, b)| !Self::that_separate(a, b, status).common(*set).is_empty())
+            confusable_pairs(status)
+                .map(|(a, b)| Self::that_separate(a, b, status))
+                .all(|probes| probes.is_empty() || !probes.common(*set).is_empty())
         };
         (0..=Self::ALL.bits())
             .filter_map(Self::from_bits)
             .filter(separates)
             .min_by_key(|set| (set.len(), set.bits()))
+            .unwrap_or(Self::ALL)
     }
 }

@@ -36,11 +36,11 @@ members! {
         Runaway = "runaway",
         /// O-LOC: odometric and MCL pose are far apart.
         PoseDistance = "pose distance",
-        /// O-LOC: they move apart quickly.
+        /// O-LOC: odometric and MCL pose move apart quickly.
         PoseGrowth = "pose growth",
-        /// O-LOC: they moved apart for a moment.
+        /// O-LOC: odometric and MCL pose moved apart for a moment.
         PosePeak = "pose peak",
-        /// O-LOC: they move apart slowly, always the same way.
+        /// O-LOC: odometric and MCL pose move apart slowly, always the same way.
         SlowDrift = "slow drift",
         /// O-LOC: a pose jumped.
         PoseJump = "pose jump",

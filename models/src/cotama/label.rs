@@ -10,3 +10,14 @@ pub enum Label {
     /// A free choice, mostly of timing and rates.
     Assumed,
 }
+
+impl Label {
+    /// Its name in print.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Stated => "stated",
+            Self::Inferred => "inferred",
+            Self::Assumed => "assumed",
+        }
+    }
+}

@@ -12,11 +12,16 @@ use cotama_core::units::Millis;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cause(pub u16);
 
+/// The event of a global supervisor made from a mission in which the robot waits, behind those of [`global`].
+pub(super) const WAIT_OVER: EventId = EventId(global::NET.events.len() as u32);
+
 /// What the level is told. Each is an event that no supervisor causes; one a round keeps the runs those that were checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Told {
     /// The mission, or what becomes of it.
     Mission(global::Event),
+    /// The time to wait is over: only of missions in which the robot waits, whose global supervisor is made from their file.
+    WaitOver,
     /// What becomes of a drive: a path is there, the goal is reached.
     Drive(local::Event),
     /// A failure was diagnosed.
@@ -30,6 +35,9 @@ impl Told {
     pub fn event(&self) -> Of<EventId> {
         match self {
             Self::Mission(event) => delivery::on::gs(event),
+            Self::WaitOver => {
+                Of { component: delivery::on::gs(&global::Event::stopped).component, id: WAIT_OVER }
+            }
             Self::Drive(event) => delivery::on::ls(event),
             Self::Failure(event) => delivery::on::faults(event),
             Self::Operator(event) => delivery::on::operator(event),

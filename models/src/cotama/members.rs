@@ -5,13 +5,13 @@ macro_rules! members {
     (
         $(#[$one:meta])* $item:ident,
         $(#[$many:meta])* $set:ident($bits:ty) {
-            $($(#[$doc:meta])* $member:ident = $name:expr,)+
+            $($(#[doc = $doc:expr])+ $member:ident = $name:expr,)+
         }
     ) => {
         $(#[$one])*
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[repr(u8)]
-        pub enum $item { $($(#[$doc])* $member,)+ }
+        pub enum $item { $($(#[doc = $doc])+ $member,)+ }
 
         impl $item {
             /// All of them, in the order of their declaration.
@@ -20,6 +20,11 @@ macro_rules! members {
             /// Its name in print.
             pub const fn name(self) -> &'static str {
                 match self { $(Self::$member => $name,)+ }
+            }
+
+            /// What it is, in words: its documentation.
+            pub const fn doc(self) -> &'static str {
+                match self { $(Self::$member => concat!($($doc),+).trim_ascii(),)+ }
             }
 
             /// The one of this name.

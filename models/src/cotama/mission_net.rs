@@ -25,13 +25,13 @@ use crate::mission::{Does, Objective};
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, Defect, EventId, Ignored, OutputId, PlaceId};
 
-/// The places of every global supervisor beside its objectives: before them and after them.
+/// The place before the objectives: no mission yet.
 pub const WAIT: &str = "Wait";
-/// The mission is accomplished.
+/// The place behind them: the mission is accomplished.
 pub const DONE: &str = "Done";
-/// Stopping for good.
+/// The place of stopping for good.
 pub const SECURITY: &str = "Security";
-/// Stopped for good, alarm given.
+/// The place of having stopped for good, alarm given.
 pub const SAFE: &str = "Safe";
 /// The names that no objective may have.
 pub const RESERVED: [&str; 4] = [WAIT, DONE, SECURITY, SAFE];
@@ -114,12 +114,12 @@ const WARN: [OutputId; 2] = [OutputId(3), OutputId(4)];
 
 /// The event with which an objective ends.
 const fn ends_with(does: Does) -> EventId {
-    EventId(match does {
-        Does::Drive => 1,
-        Does::Receive => 3,
-        Does::Deliver => 4,
-        Does::Wait => 6,
-    })
+    match does {
+        Does::Drive => EventId(1),
+        Does::Receive => EventId(3),
+        Does::Deliver => EventId(4),
+        Does::Wait => super::level::WAIT_OVER,
+    }
 }
 
 /// What each objective does, in their order.

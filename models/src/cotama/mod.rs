@@ -45,7 +45,8 @@ pub use configurations::{
 pub use decision_table::contextual;
 pub use delivery_system::delivery;
 pub use diagnosis::{
-    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, diagnose, is_detectable, undetectable,
+    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose, is_detectable,
+    shared_flags, undetectable,
 };
 pub use flags::{Flag, Flags};
 pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
@@ -112,6 +113,7 @@ system! {
             env.report_collision => cs.collision mail 1;
             env.report_planner => cs.planner mail 1;
             env.report_hard => cs.hard mail 1;
+            env.report_avoidance => cs.avoidance mail 1;
             env.report_refusal => cs.refusal mail 1;
             env.report_mcl => cs.mcl_lost mail 1;
             env.report_sonar => cs.sonar mail 1;

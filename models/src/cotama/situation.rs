@@ -125,21 +125,28 @@ impl Losses {
 
 impl Losses {
     /// What the shipped supervisors are told when only these modules are left: closed under the needs of modules, and so that
-    /// no configuration they can choose lacks a module for long. Avoidance is one loss for the robot and for the operator,
-    /// whichever module of it is gone (inferred).
+    /// no path following that they can choose lacks a module for long. When none is left, nothing vital is (inferred: the
+    /// robot does not wait for an operator who would have to drive it all the way).
     ///
     /// ```
-    /// use cotama_models::cotama::{Losses, Modules, Module::{Dvz, Gui}};
-    /// assert_eq!(Losses::lacking(Modules::ALL.without(Modules::of(&[Dvz]))).to_string(), "mcl sonar");
-    /// assert_eq!(Losses::lacking(Modules::ALL.without(Modules::of(&[Gui]))).to_string(), "-");
+    /// use cotama_models::cotama::{Losses, Modules, Module::{Gui, Mcl, Ust}};
+    /// let lacking = |modules: &[_]| Losses::lacking(Modules::ALL.without(Modules::of(modules))).to_string();
+    /// assert_eq!(lacking(&[Mcl]), "mcl");
+    /// assert_eq!(lacking(&[Gui]), "-"); // it guides in PF.DEG alone
+    /// assert_eq!(lacking(&[Gui, Ust]), "mcl sonar vital");
     /// ```
     #[must_use]
     pub const fn lacking(left: Modules) -> Self {
         let mut lost = Self::NONE;
-        if !Configuration::FollowingOptimal.runs_on(left) {
+        let [optimal, odometric, degraded] = [
+            Configuration::FollowingOptimal.runs_on(left),
+            Configuration::FollowingOdometric.runs_on(left),
+            Configuration::FollowingDegraded.runs_on(left),
+        ];
+        if !optimal {
             lost = lost.with(Loss::Mcl);
         }
-        if !Configuration::FollowingOdometric.runs_on(left) || !left.has(Module::Dvz) {
+        if !odometric {
             lost = lost.with(Loss::Sonar).with(Loss::Mcl);
         }
         if !left.has(Module::Cam) {
@@ -148,7 +155,7 @@ impl Losses {
         if !left.has(Module::Lan) {
             lost = lost.with(Loss::Wifi);
         }
-        if !left.has(Module::P3d) || !left.has(Module::Nav) {
+        if !optimal && !odometric && !degraded {
             lost = lost.with(Loss::Vital);
         }
         lost

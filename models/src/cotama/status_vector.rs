@@ -6,7 +6,7 @@ net! {
     /// Global observation module (Durand et al., TAROS 2010, Section V): collects flags, diagnoses, keeps the module status
     /// vector, and reports what is new. A flag that tells nothing new is ignored.
     ///
-    /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation by particles along; a
+    /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation by particles and avoidance along; a
     /// diagnosis that is not unique makes its candidates suspect until the robot sets out again, and is reported once.
     pub mod observation {
         places {
@@ -18,6 +18,8 @@ net! {
             mcl: true,
             /// The sonars are.
             sonar: true,
+            /// Avoidance for the operator is: it needs the sonars too.
+            avoidance: true,
             /// The camera is.
             camera: true,
             /// The operator can be reached.
@@ -30,7 +32,7 @@ net! {
         events {
             /// The vital parts: power, micro-controller, effectors.
             vital_flag,
-            wifi_flag, camera_flag, sonar_flag, mcl_flag,
+            wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
             /// Odometry and localisation drift apart while the robot goes backward for too long.
             drift_flag,
             bumper_flag, planner_flag,
@@ -41,13 +43,13 @@ net! {
             /// A path is planned or followed anew: what was suspected is settled, and may be suspected again.
             settle,
         }
-        outputs { vital, wifi_lost, camera, sonar_lost, mcl_lost, ambiguous, collision, planner, hard, slow }
+        outputs { vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision, planner, hard, slow }
         transitions {
             vital on vital_flag [vital]: Watching => Watching do vital = false emit vital;
             wifi on wifi_flag [wifi]: Watching => Watching do wifi = false emit wifi_lost;
             camera on camera_flag [camera]: Watching => Watching do camera = false emit camera;
-            sonar on sonar_flag [sonar & mcl]: Watching => Watching do sonar = false & mcl = false emit sonar_lost;
-            sonar_alone on sonar_flag [sonar & !mcl]: Watching => Watching do sonar = false emit sonar_lost;
+            sonar on sonar_flag [sonar]: Watching => Watching do sonar = false & mcl = false & avoidance = false emit sonar_lost;
+            avoidance on avoidance_flag [avoidance]: Watching => Watching do avoidance = false emit avoidance_lost;
             mcl on mcl_flag [mcl]: Watching => Watching do mcl = false emit mcl_lost;
             drift on drift_flag [!suspected]: Watching => Watching do suspected = true emit ambiguous;
             bumper on bumper_flag: Watching => Watching emit collision;

@@ -14,6 +14,8 @@ net! {
             mcl: true,
             /// The sonars work.
             sonar: true,
+            /// The operator's avoidance works.
+            avoidance: true,
             /// The camera works.
             camera: true,
             /// The operator can be reached.
@@ -22,7 +24,7 @@ net! {
             vital: true,
         }
         events {
-            lose_vital, lose_wifi, lose_camera, lose_sonar, lose_mcl,
+            lose_vital, lose_wifi, lose_camera, lose_sonar, lose_avoidance, lose_mcl,
             /// Odometry and localisation drift apart; why is not known.
             drift,
             bump, no_path,
@@ -31,7 +33,7 @@ net! {
             overload,
         }
         outputs {
-            vital_flag, wifi_flag, camera_flag, sonar_flag, mcl_flag,
+            vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
             drift_flag, bumper_flag, planner_flag, hard_flag, deadline_flag,
         }
         transitions {
@@ -39,6 +41,7 @@ net! {
             wifi on lose_wifi [wifi]: Ready => Ready do wifi = false emit wifi_flag;
             camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
             sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
+            avoidance on lose_avoidance [avoidance]: Ready => Ready do avoidance = false emit avoidance_flag;
             mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
             drift on drift: Ready => Ready emit drift_flag;
             bump on bump: Ready => Ready emit bumper_flag;

@@ -37,8 +37,8 @@ net! {
             mission, path, goal, object, delivery, stand,
             teleprogram, teleoperate, waypoints, new_path, operator_goal,
             report_slow, report_ambiguous, report_collision, report_planner, report_refusal,
-            /// Never: this environment has no failure beyond the listed ones.
-            report_hard,
+            /// Never, both: this environment has no failure beyond the listed ones.
+            report_hard, report_avoidance,
             report_mcl, report_sonar, report_camera, report_wifi, report_vital,
         }
         transitions {

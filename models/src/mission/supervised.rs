@@ -166,7 +166,7 @@ fn could_block(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> 
             let needed = |kind: usize| activity.alternatives.iter().all(|it| it.needs.of(kind) > 0);
             let kinds = definition.hardware.iter().enumerate().filter(|(kind, _)| needed(*kind));
             let names = kinds.map(|(_, module)| module.name.as_str());
-            names.filter(|name| !vital(name) && !(drives && rescued(name))).collect::<Vec<_>>()
+            names.filter(|name| !(vital(name) || drives && rescued(name))).collect::<Vec<_>>()
         };
         let mut places = of(scenario, index).map(|activity| (activity, blocking(activity)));
         let Some((activity, modules)) = places.find(|(_, modules)| !modules.is_empty()) else { continue };

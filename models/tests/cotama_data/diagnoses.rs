@@ -2,7 +2,8 @@
 
 use cotama_models::cotama::{
     Diagnosis, FailureMode, FailureModes, Flag, Flags, Health, Modules, Probes, Resource, Resources,
-    ambiguity_groups, are_confusable, available, diagnose, is_detectable, undetectable,
+    ambiguity_groups, are_confusable, available, confusable_pairs, diagnose, is_detectable, shared_flags,
+    undetectable,
 };
 use proptest::prelude::*;
 
@@ -117,6 +118,37 @@ fn the_least_probes_separate_all() {
         assert!(set.len() >= 4 || !separate(set), "{set}");
     }
     assert!(separate(least));
+}
+
+/// Where nothing tells a stall against an obstacle from one on a carpet edge, the rest can still be told apart.
+#[test]
+fn what_no_probe_separates_does_not_hide_what_some_do() {
+    let no_sonar = without(Resource::SonarArrays);
+    assert!(Probes::that_separate(FailureMode::Bmp1, FailureMode::Mot3, no_sonar).is_empty());
+    assert_eq!(Probes::least_that_help(no_sonar).to_string(), "frame time at source reckoning limit");
+    assert_eq!(Some(Probes::least_that_help(Modules::ALL)), Probes::least(Modules::ALL));
+}
+
+/// The shared flags of two failure modes are flags that both explain, the fewest and the most.
+#[test]
+fn what_is_shared_leaves_it_open() {
+    for status in [Modules::ALL, without(Resource::SonarArrays), without(Resource::Map)] {
+        let pairs: Vec<_> = confusable_pairs(status).collect();
+        for (a, b) in FailureMode::ALL.iter().flat_map(|&a| FailureMode::ALL.iter().map(move |&b| (a, b))) {
+            let shared = shared_flags(FailureModes::of(&[a, b]), status);
+            assert_eq!(shared.is_some() && a != b, are_confusable(a, b, status));
+            assert_eq!(pairs.contains(&(a, b)), a < b && are_confusable(a, b, status));
+            for raised in shared.into_iter().filter(|_| a != b).flat_map(|(least, most)| [least, most]) {
+                let found = diagnose(raised, status);
+                assert!(matches!(found, Diagnosis::Ambiguous(set) if set.has(a) && set.has(b)), "{found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_flag_says_in_words_what_was_seen() {
+    assert_eq!(Flag::Backward.doc(), "O-PF: backward for too long.");
 }
 
 /// GM3: what was told once is not told again.

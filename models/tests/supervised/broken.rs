@@ -2,6 +2,7 @@
 
 use crate::file::{File, Objective, failure, operator};
 use cotama_models::mission::{MAX_SUPERVISED_OBJECTIVES, Mission};
+use std::fmt::Write;
 use std::path::PathBuf;
 
 /// A way to break a mission: its name, what the message about it says, and what it does.
@@ -107,7 +108,7 @@ const BREAKINGS: [Breaking; 38] = [
             format!("[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_tio = \"in\"\n");
     }),
     ("no option for a task", "no option implements the task `DLV`", |file| {
-        file.options.retain(|it| it.task != "DLV")
+        file.options.retain(|it| it.task != "DLV");
     }),
     ("standing without a time", "missing key `duration_ms`", |file| {
         file.options.last_mut().unwrap().more = "power_mw = 1\n".into();
@@ -161,7 +162,7 @@ fn each_way_to_break_a_mission_has_its_own_message() {
                 "{name}"
             );
         }
-        said += &format!("# {name}\n{errors}\n\n");
+        write!(said, "# {name}\n{errors}\n\n").unwrap();
     }
     let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden/supervised.txt");
     if std::env::var_os("UPDATE_GOLDEN").is_some() {

@@ -1,6 +1,6 @@
 //! A mission file as its parts, so that it can be generated, broken and printed.
 
-use std::fmt;
+use std::fmt::{self, Write};
 
 /// `SplitMix64` (Steele, Lea, Flood, OOPSLA 2014).
 pub(crate) struct Random(pub(crate) u64);
@@ -132,7 +132,8 @@ impl File {
             let end = start + 1 + random.below(x - start);
             let hardware =
                 random.one_of(&["", "require_hardware = \"UST\"\n", "require_hardware = \"P3D\"\n"]);
-            zones += &format!(
+            let _ = write!(
+                zones,
                 "[[zone]]\nid = \"zone{zone}\"\nx_start_mm = {start}\nx_end_mm = {end}\nspeed_max_mm_s = 200\n{hardware}"
             );
         }

@@ -25,7 +25,7 @@ fn mutants(net: &OwnedNet) -> Vec<(String, OwnedNet)> {
         for place in ids(net.places.len()).map(PlaceId) {
             if transition.take[0].place != place {
                 add(format!("{name} takes from {place:?}"), &|it| {
-                    it.transitions[number].take[0].place = place
+                    it.transitions[number].take[0].place = place;
                 });
             }
             if transition.give[0].place != place {

@@ -76,11 +76,10 @@ pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool) 
     let uses = |module: Module| running.is_some_and(|it| it.facts().required.has(module));
     match mode {
         F::Son1 | F::Son3 | F::Odo1 | F::Odo2 | F::Odo3 | F::Odo4 | F::Mot2 => moving,
-        F::Mot1 | F::Mot3 | F::Whl1 | F::Bmp1 | F::Bmp2 => wants_to_move(running),
+        F::Mot1 | F::Mot3 | F::Whl1 | F::Bmp1 | F::Bmp2 | F::Col1 => wants_to_move(running),
         F::Rt1 | F::Loc1 => uses(Module::Mcl),
         F::Loc2 | F::Hum1 => matches!(situation.local, local::State::Following),
         F::Loc3 => matches!(running, Some(Configuration::FollowingDegraded)) && wants_to_move(running),
-        F::Col1 => wants_to_move(running),
         F::Ppl1 => matches!(situation.local, local::State::Planning),
         F::Opr1 => false, // the patience of the robot is the operator's side of the simulation
         F::Cam2 => matches!(situation.local, local::State::Teleoperated),

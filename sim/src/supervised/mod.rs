@@ -27,12 +27,16 @@ use crate::options::{Aim, Planner};
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, PlanMade};
 use crate::trace::Outcome;
+use cotama_core::net::owned::OwnedNet;
+use cotama_core::system::{Packed, Program, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
-    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told, local,
+    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told, delivery,
+    global, local,
 };
 use cotama_models::faults::{Faults, IncidentKind};
 use cotama_models::mission::{Does, Mission};
+use world::World;
 
 /// What goes wrong, and what the operator answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -92,14 +96,14 @@ pub enum When {
 }
 
 /// A transition of a supervisor that fired.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Fired {
     /// When.
     pub at: Millis,
     /// The net, as `ls`.
     pub net: &'static str,
     /// The transition, as `l5`.
-    pub transition: &'static str,
+    pub transition: String,
     /// What it goes back to: 0, or the number of a failure in [`Run::conduct`], from 1.
     pub cause: Cause,
 }
@@ -211,60 +215,74 @@ pub struct Run {
 }
 
 /// A supervised mission, ready to be run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Supervised<'m> {
     mission: &'m Mission,
+    supervisors: Supervisors,
     planner: Planner,
 }
 
-/// Why a mission is not run under supervisors.
+/// The decisional level, packed.
+#[derive(Clone, Debug)]
+enum Supervisors {
+    /// That of the embedded mission.
+    Delivery,
+    /// The same with a global supervisor that was made from the mission.
+    Made(OwnedNet, Box<Packed<WORDS>>),
+}
+
+/// Words of a marking that suffice for the most objectives of a mission.
+const WORDS: usize = 16;
+
+/// Why a mission has no supervisors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unsupervised {
     /// Its file says nothing of them.
-    NoTable,
-    /// Its objectives are others than those of the global supervisor that is simulated.
-    OtherObjectives,
+    Plain,
+    /// Its global supervisor does not fit the others.
+    Unfit(SystemDefect),
 }
 
 impl std::fmt::Display for Unsupervised {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::NoTable => "the mission is not supervised: it has no [supervision] table",
-            Self::OtherObjectives => {
-                "only supervised missions with the objectives drive, receive, drive, deliver are simulated"
-            }
-        })
+        match self {
+            Self::Plain => f.write_str("the mission is not supervised: it has no [supervision] table"),
+            Self::Unfit(defect) => write!(f, "its global supervisor does not fit the others: {defect:?}"),
+        }
     }
 }
 
 impl std::error::Error for Unsupervised {}
-
-/// The objectives of the embedded global supervisor, in their order.
-const OBJECTIVES: [Does; 4] = [Does::Drive, Does::Receive, Does::Drive, Does::Deliver];
 
 /// Who plans unless it is said otherwise: the rule of the paper fills the limits, and would choose the most degraded
 /// configuration where there is time for it.
 pub const PLANNER: Planner = Planner::Exact { aim: Aim::Quality, steps: 100_000 };
 
 impl<'m> Supervised<'m> {
-    /// Makes a mission ready; [`PLANNER`] plans.
+    /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its own where its objectives
+    /// are others; [`PLANNER`] plans.
     ///
     /// # Errors
-    /// When its file names no supervision, or its objectives are not those of the embedded global supervisor.
+    /// When its file names no supervision.
     pub fn new(mission: &'m Mission) -> Result<Self, Unsupervised> {
-        if mission.supervisor().is_none() {
-            return Err(Unsupervised::NoTable);
-        }
-        let does = mission.objectives.iter().map(|it| it.does.as_ref().map(|it| it.value));
-        if !does.eq(OBJECTIVES.map(Some)) {
-            return Err(Unsupervised::OtherObjectives);
-        }
-        Ok(Self { mission, planner: PLANNER })
+        let made = mission.supervisor().ok_or(Unsupervised::Plain)?;
+        let supervisors = if is_delivery(mission) {
+            Supervisors::Delivery
+        } else {
+            let view = made.view();
+            let net = view.net();
+            let mut components = delivery::SYSTEM.components.to_vec();
+            components[0].net = &net;
+            let system = System { components: &components, ..delivery::SYSTEM };
+            let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
+            Supervisors::Made(made.clone(), Box::new(packed))
+        };
+        Ok(Self { mission, supervisors, planner: PLANNER })
     }
 
     /// Plans are made by this planner.
     #[must_use]
-    pub const fn with_planner(self, planner: Planner) -> Self {
+    pub fn with_planner(self, planner: Planner) -> Self {
         Self { planner, ..self }
     }
 
@@ -289,20 +307,45 @@ impl<'m> Supervised<'m> {
         period: Millis,
         recorder: &mut R,
     ) -> Result<Run, NoPlan> {
-        let mut world = world::World::start(self.mission, script, self.planner)?;
-        let mut recorded = world::Recorded::default();
-        loop {
-            if R::WANTED {
-                world.record(&mut recorded, period, recorder);
+        let (mission, planner) = (self.mission, self.planner);
+        match &self.supervisors {
+            Supervisors::Delivery => {
+                let world = World::start(mission, global::NET, delivery::Program, script, planner)?;
+                Ok(finish(world, period, recorder))
             }
-            if world.period() {
-                break;
+            Supervisors::Made(net, packed) => {
+                let view = net.view();
+                let world = World::start(mission, view.net(), packed.code(), script, planner)?;
+                Ok(finish(world, period, recorder))
             }
         }
+    }
+}
+
+/// Whether the objectives are those of the embedded mission, in their order.
+fn is_delivery(mission: &Mission) -> bool {
+    use Does::{Deliver, Drive, Receive};
+    let does = mission.objectives.iter().map(|it| it.does.as_ref().map(|it| it.value));
+    does.eq([Drive, Receive, Drive, Deliver].map(Some))
+}
+
+fn finish<P: Program<W>, const W: usize, R: Recorder>(
+    mut world: World<'_, P, W>,
+    period: Millis,
+    recorder: &mut R,
+) -> Run {
+    let mut recorded = world::Recorded::default();
+    loop {
         if R::WANTED {
             world.record(&mut recorded, period, recorder);
-            world.record_end(&mut recorded, recorder);
         }
-        Ok(world.into_run())
+        if world.period() {
+            break;
+        }
     }
+    if R::WANTED {
+        world.record(&mut recorded, period, recorder);
+        world.record_end(&mut recorded, recorder);
+    }
+    world.into_run()
 }

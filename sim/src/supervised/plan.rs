@@ -140,6 +140,12 @@ impl<'m> Planning<'m> {
         (label.map_or("", String::as_str), alternative.speed, alternative.power)
     }
 
+    /// The axis, the first in their order, on which the plan no longer keeps its limit.
+    pub(super) fn short(&self, at: Progress) -> Option<usize> {
+        let (scenario, rest) = (self.mission.scenario(), self.rest(at));
+        scenario.order.into_iter().find(|&axis| at.used[axis] + rest[axis] > scenario.limits[axis])
+    }
+
     /// The configuration that is planned for an activity; none for one that does not drive.
     pub(super) fn configuration(&self, activity: usize) -> Option<Configuration> {
         self.configurations[activity][usize::from(self.choice[activity])]

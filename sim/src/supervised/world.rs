@@ -13,10 +13,11 @@ use super::{Conduct, Injection, Run, Script, When};
 use crate::options::Planner;
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
-use cotama_core::net::PlaceId;
+use cotama_core::net::{Net, PlaceId};
+use cotama_core::system::Program;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, DecisionalLevel, FailureMode, Flags, Health, Losses, Modules, Situation, Told, local,
+    Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, delivery, local,
 };
 use cotama_models::mission::Mission;
 use std::collections::VecDeque;
@@ -34,6 +35,10 @@ pub const PLANNING: Millis = Millis(2_000);
 /// A run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
 
+/// Clocks and slots of a player are those of the embedded mission, whatever the objectives.
+const CLOCKS: usize = delivery::SIZE.clocks;
+const SLOTS: usize = delivery::SIZE.slots;
+
 /// A failure under way; its number is its place in [`Run::conduct`].
 #[derive(Clone, Copy, Debug)]
 struct Failure {
@@ -46,10 +51,12 @@ struct Failure {
 }
 
 /// A mission under way.
-pub(super) struct World<'m> {
+pub(super) struct World<'m, P, const W: usize> {
     mission: &'m Mission,
+    /// The net of the global supervisor.
+    global_net: Net<'m>,
     waiting: Vec<Injection>,
-    level: DecisionalLevel,
+    level: Level<P, W, CLOCKS, SLOTS>,
     now: Millis,
     robot: Robot,
     operator: Operator,
@@ -71,19 +78,30 @@ pub(super) struct World<'m> {
     /// The place at which the permit was withdrawn.
     withdrawn: Option<Millimetres>,
     exposed: Millis,
+    /// How often the planner gave no answer.
+    plannings_failed: u32,
+    /// A limit cannot be kept, and the operator knows.
+    resigned: bool,
     energy_uj: u64,
     run: Run,
 }
 
-impl<'m> World<'m> {
+impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
     /// A robot at the start of its mission, with its plan.
-    pub(super) fn start(mission: &'m Mission, script: &Script, planner: Planner) -> Result<Self, NoPlan> {
+    pub(super) fn start(
+        mission: &'m Mission,
+        global_net: Net<'m>,
+        program: P,
+        script: &Script,
+        planner: Planner,
+    ) -> Result<Self, NoPlan> {
         let mut planning = Planning::new(mission, planner);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(run::Cause::Start, start, Modules::ALL)?;
-        let level = DecisionalLevel::default();
+        let level = Level::start(program);
         let mut world = Self {
             mission,
+            global_net,
             waiting: script.injections.clone(),
             situation: level.situation(Losses::NONE),
             global: level.global(),
@@ -102,6 +120,8 @@ impl<'m> World<'m> {
             permitted: false,
             withdrawn: None,
             exposed: Millis(0),
+            plannings_failed: 0,
+            resigned: false,
             energy_uj: 0,
             run: Run {
                 outcome: Outcome::Failed,
@@ -130,6 +150,7 @@ impl<'m> World<'m> {
         self.travel();
         if self.thinks() {
             self.observe();
+            self.watch_margins();
             self.take_a_round();
         }
         self.now.0 += PERIOD.0;
@@ -206,7 +227,7 @@ impl<'m> World<'m> {
     /// What is broken, known or not.
     fn broken(&self) -> Health {
         let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.health(it.part));
-        broken.fold(Health::SOUND, |all, it| all.union(it))
+        broken.fold(Health::SOUND, Health::union)
     }
 
     /// The robot goes on for a period.
@@ -225,14 +246,13 @@ impl<'m> World<'m> {
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
             match effect(failure.mode).motion {
-                Motion::Free => {}
                 Motion::Blocked => blocked |= observable(failure.mode, self.situation, true),
                 Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
                 Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
                 Motion::Silent | Motion::Mindless if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 => {
                     towards = MillimetresPerSecond(0);
                 }
-                Motion::Runaway | Motion::Silent | Motion::Mindless => {}
+                Motion::Free | Motion::Runaway | Motion::Silent | Motion::Mindless => {}
                 Motion::Dead => {
                     self.robot.stand();
                     towards = MillimetresPerSecond(0);
@@ -292,11 +312,11 @@ impl<'m> World<'m> {
         if self.permitted && !permitted {
             self.withdrawn = Some(self.robot.x());
         }
-        if permitted || self.robot.speed().0 == 0 {
-            if let Some(from) = self.withdrawn.take() {
-                let way = Millimetres(self.robot.x().0 - from.0);
-                self.run.braked = self.run.braked.max(way);
-            }
+        if (permitted || self.robot.speed().0 == 0)
+            && let Some(from) = self.withdrawn.take()
+        {
+            let way = Millimetres(self.robot.x().0 - from.0);
+            self.run.braked = self.run.braked.max(way);
         }
         self.permitted = permitted;
     }

@@ -4,8 +4,10 @@
 #![allow(missing_docs, clippy::pedantic, clippy::unwrap_used)]
 
 mod matrix;
+mod other_missions;
 mod seven_points;
 mod trace;
+mod triples;
 
 use cotama_models::mission::Mission;
 

@@ -28,7 +28,8 @@ fn the_supervisors_fire_as_the_reconstruction_says() {
     // The sonars stay lost: the second drive is degraded from its start.
     let second_drive = "g3 l1 l2 a3 l3 as4 l14 g4 g5";
     let both: Vec<_> = first_drive.split(' ').chain(second_drive.split(' ')).collect();
-    assert_eq!(sequence(&run()), both);
+    let run = run();
+    assert_eq!(sequence(&run), both);
 }
 
 #[test]

@@ -8,6 +8,7 @@ use crate::pt::Pt;
 use crate::temporal::{Rest, Run};
 use crate::{coverability, explicit};
 use cotama_core::net::TransitionId;
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// An answer to a question.
@@ -135,7 +136,44 @@ impl Question {
     }
 }
 
+/// Whether a formula needs a run to speak of.
+fn speaks_of_runs(formula: &property::Formula) -> bool {
+    use property::Formula as Asked;
+    match formula {
+        Asked::Not(a) => speaks_of_runs(a),
+        Asked::And(all) | Asked::Or(all) => all.iter().any(speaks_of_runs),
+        Asked::Atom(_) | Asked::Exists(_) | Asked::All(_) => false,
+        Asked::Next(_) | Asked::Finally(_) | Asked::Globally(_) | Asked::Until(..) | Asked::Within(..) => {
+            true
+        }
+    }
+}
+
 impl Formula {
+    /// `AG`: always, whatever happens.
+    pub fn always(a: Self) -> Self {
+        Self::All(Box::new(Self::Globally(Box::new(a))))
+    }
+
+    /// `EF`: it can be reached.
+    pub fn reached(a: Self) -> Self {
+        Self::Exists(Box::new(Self::Finally(Box::new(a))))
+    }
+
+    /// That these places hold so many tokens together, or more; one that is named twice counts twice.
+    pub fn at_least(tokens: i64, places: &[String]) -> Self {
+        let mut weights = BTreeMap::new();
+        for it in places {
+            *weights.entry(it.clone()).or_default() -= 1;
+        }
+        Self::AtMost(Linear { constant: tokens, weights: weights.into_iter().collect() })
+    }
+
+    /// That these places hold fewer tokens together.
+    pub fn fewer(tokens: i64, places: &[String]) -> Self {
+        Self::Not(Box::new(Self::at_least(tokens, places)))
+    }
+
     /// A formula of the property language.
     ///
     /// # Errors
@@ -157,8 +195,14 @@ impl Formula {
             Asked::Not(a) => Self::Not(boxed(a)?),
             Asked::And(all) => Self::And(list(all)?),
             Asked::Or(all) => Self::Or(list(all)?),
-            Asked::Exists(a) => Self::Exists(boxed(a)?),
-            Asked::All(a) => Self::All(boxed(a)?),
+            Asked::Exists(path) => match &**path {
+                Asked::Next(a) if !speaks_of_runs(a) => Self::ExistsNext(boxed(a)?),
+                path => Self::Exists(boxed(path)?),
+            },
+            Asked::All(path) => match &**path {
+                Asked::Next(a) if !speaks_of_runs(a) => Self::AllNext(boxed(a)?),
+                path => Self::All(boxed(path)?),
+            },
             Asked::Next(a) => Self::Next(boxed(a)?),
             Asked::Finally(a) => Self::Finally(boxed(a)?),
             Asked::Globally(a) => Self::Globally(boxed(a)?),
@@ -173,6 +217,11 @@ impl Linear {
     pub fn new(pt: &Pt, constant: i64, weights: impl IntoIterator<Item = (u32, i64)>) -> Self {
         let named = weights.into_iter().map(|(place, weight)| (pt.places[place as usize].clone(), weight));
         Self { constant, weights: named.collect() }
+    }
+
+    /// `1 - sum of tokens <= 0`: one of these places is marked.
+    pub fn trap(places: &[String]) -> Self {
+        Self { constant: 1, weights: places.iter().map(|it| (it.clone(), -1)).collect() }
     }
 }
 

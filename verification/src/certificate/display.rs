@@ -66,6 +66,8 @@ impl fmt::Display for Formula {
             Self::And(all) => f.write_str(&list(all, " & ")),
             Self::Or(all) => f.write_str(&list(all, " | ")),
             Self::Not(a) => write!(f, "!({a})"),
+            Self::ExistsNext(a) => write!(f, "E(X({a}))"),
+            Self::AllNext(a) => write!(f, "A(X({a}))"),
             Self::Exists(a) => write!(f, "E({a})"),
             Self::All(a) => write!(f, "A({a})"),
             Self::Next(a) => write!(f, "X({a})"),

@@ -26,9 +26,8 @@
 //!
 //! # Meaning
 //!
-//! Runs are maximal; after a deadlock the last marking lasts for ever. Right after a quantifier, `X` of something that
-//! needs no run speaks of the successors, of which a deadlock has none: `EX` is false there, `AX` true. The global
-//! questions stand for formulas:
+//! Runs are maximal; after a deadlock the last marking lasts for ever. `EX` and `AX` speak of the markings that follow, of which
+//! a deadlock has none: `EX` is false there, `AX` true. The global questions stand for formulas:
 //!
 //! | question | formula |
 //! | --- | --- |
@@ -39,12 +38,16 @@
 //! | `one_safe` | `AG` of `p <= 1` for each place |
 //! | `unbounded` | `EF sum >= n` for each number `n` |
 //!
+//! Verdicts of LTL that are true have no certificate: no run is a counterexample, and to see that, the checker would have to search
+//! the product of the markings with an automaton, as the engine does. Those that are false have a [`Lasso`].
+//!
 //! Each kind of [`Evidence`] says what it shows, and why that is so.
 
 mod build;
-mod claim;
 mod display;
+mod read;
 mod structural;
+mod sum;
 mod verified;
 pub mod verify;
 
@@ -154,7 +157,13 @@ pub enum Formula {
     /// On every run.
     #[serde(rename = "A")]
     All(Box<Formula>),
-    /// In the next marking.
+    /// In some marking that follows; a deadlock has none.
+    #[serde(rename = "EX")]
+    ExistsNext(Box<Formula>),
+    /// In every marking that follows; true of a deadlock.
+    #[serde(rename = "AX")]
+    AllNext(Box<Formula>),
+    /// In the next marking of the run.
     #[serde(rename = "X")]
     Next(Box<Formula>),
     /// At some time.

@@ -1,14 +1,15 @@
 //! Evidence from proofs of the structural engine.
 
-use super::claim::Claim;
-use super::verify::net::{self, Net};
-use super::verify::refutation::Known;
+use super::read::Numbered;
+use super::sum::{ONE, Sum};
+use super::verify::Known;
 use super::{Case, Evidence, Fact, Formula, Linear, Refutation};
 use crate::property;
 use crate::pt::Pt;
 use crate::structural::certificate::{self as proof, Bound, DeadTransitions, DeadlockFree, disabled};
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::{BTreeMap, BTreeSet};
+use std::iter::once;
 
 /// A case whose inequalities are not numbered yet, as more facts may be found.
 enum Draft {
@@ -84,11 +85,11 @@ impl Evidence {
         parts: &[(Vec<property::Linear>, proof::Refutation)],
     ) -> Option<Self> {
         let named = super::Net::from(pt);
-        let net = Net::read(&named).ok()?;
-        let goal = net.claim(&Formula::new(pt, goal).ok()?).ok()?;
-        let linear = |it: &property::Linear| net::Linear {
-            constant: it.constant.into(),
-            weights: it.weights.iter().map(|it| (it.0.0 as usize, it.1.into())).collect(),
+        let net = Numbered::new(&named).ok()?;
+        let goal = net.written_out(&Formula::new(pt, goal).ok()?).ok()?;
+        let linear = |it: &property::Linear| {
+            let weights = it.weights.iter().map(|it| (ONE + 1 + it.0.0 as usize, it.1.into()));
+            Sum(once((ONE, it.constant.into())).chain(weights).collect())
         };
         let parts: Vec<_> =
             parts.iter().map(|(goal, by)| (goal.iter().map(linear).collect::<Vec<_>>(), by)).collect();
@@ -224,30 +225,30 @@ impl<'a> Draught<'a> {
         Some(())
     }
 
-    /// Assumes a claim; refutes it by the part that is assumed then, or else by the cases of the first `or` that is still open.
+    /// Assumes a goal; refutes it by the part that is assumed then, or else by the cases of the first `or` that is still open.
     fn goal<'c>(
         &mut self,
-        net: &Net<'_>,
-        (claim, truth): (&'c Claim, bool),
+        net: &Numbered<'_>,
+        (goal, holds): (&'c Formula, bool),
         known: &mut Known<'c>,
         split: usize,
-        parts: &[(Vec<net::Linear>, &proof::Refutation)],
+        parts: &[(Vec<Sum>, &proof::Refutation)],
     ) -> Option<()> {
-        let (linears, lists) = (known.linears.len(), known.lists.len());
-        net.assume(claim, truth, known).ok()?;
-        let at = |it: &net::Linear| known.linears.iter().position(|known| known == it);
+        let (sums, lists) = (known.sums.len(), known.lists.len());
+        net.assume(goal, holds, known).ok()?;
+        let at = |it: &Sum| known.sums.iter().position(|known| known == it);
         let refuted = parts.iter().find_map(|(goal, by)| {
             let premises = goal.iter().map(at).collect::<Option<Vec<_>>>()?;
-            Some((Node { assumed: known.linears.len(), premises, ors: BTreeMap::new() }, *by))
+            Some((Node { assumed: known.sums.len(), premises, ors: BTreeMap::new() }, *by))
         });
         if let Some((node, by)) = refuted {
             self.refutation(by, &node)?;
         } else {
-            let cases = *known.lists.get(split)?;
+            let (cases, holds) = *known.lists.get(split)?;
             self.cases.push(Draft::Split(split));
-            cases.iter().try_for_each(|it| self.goal(net, (it, false), known, split + 1, parts))?;
+            cases.iter().try_for_each(|it| self.goal(net, (it, holds), known, split + 1, parts))?;
         }
-        known.linears.truncate(linears);
+        known.sums.truncate(sums);
         known.lists.truncate(lists);
         Some(())
     }

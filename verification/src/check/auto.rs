@@ -30,12 +30,7 @@ const SHOWN: u64 = 20_000;
 const GLANCE: u64 = 1_000;
 
 pub(super) fn answer(net: &Known<'_>, question: &Question, options: &Options<'_>) -> Answer {
-    let budget = Budget {
-        limits: options.limits,
-        jobs: options.jobs,
-        evidence: options.evidence,
-        progress: options.progress,
-    };
+    let budget = Budget::from(options);
     let mut asked =
         Asked { net, engine: options.engine, budget, techniques: Vec::new(), tried: Vec::new(), states: 0 };
     let (verdict, run, mut evidence) = asked.question(question);
@@ -48,12 +43,13 @@ pub(super) fn answer(net: &Known<'_>, question: &Question, options: &Options<'_>
 }
 
 /// A verdict with a run and evidence.
-type Shown = (Verdict, Option<Run>, Evidence);
+pub(super) type Shown = (Verdict, Option<Run>, Evidence);
 
-struct Asked<'a, 'n> {
-    net: &'a Known<'n>,
-    engine: Choice,
-    budget: Budget<'a>,
+/// A question that is being answered.
+pub(super) struct Asked<'a, 'n> {
+    pub(super) net: &'a Known<'n>,
+    pub(super) engine: Choice,
+    pub(super) budget: Budget<'a>,
     techniques: Vec<&'static str>,
     /// Engines that were asked, also in vain.
     tried: Vec<&'static str>,
@@ -176,7 +172,7 @@ impl Asked<'_, '_> {
     }
 
     /// Looks for a marking: by the structure, on a smaller net, among few markings, with few firings in each, among all.
-    fn reach(&mut self, goal: &Formula) -> Finding {
+    pub(super) fn reach(&mut self, goal: &Formula) -> Finding {
         let task = Task::Reach(goal);
         if self.engine != Choice::Auto {
             return self.chosen(task);
@@ -289,93 +285,6 @@ impl Asked<'_, '_> {
         }
     }
 
-    /// A question about the transitions that never fire: they are those that are found by the structure, or all.
-    fn dead(&mut self, holds: impl Fn(&Known<'_>, &[TransitionId]) -> bool) -> Shown {
-        let none = holds(self.net, &[]);
-        if self.engine == Choice::Auto || self.engine == Choice::Structural {
-            let mut structure = self.net.structure();
-            structure.find_dead_transitions();
-            let some = structure.dead().transitions.clone();
-            drop(structure);
-            // More dead transitions change neither `yes, there is one` nor `yes, it is stable`.
-            if holds(self.net, &some) != none {
-                self.used("structural");
-                return (Verdict::Holds(!none), None, Evidence::None);
-            }
-        }
-        let engine: &dyn Engine = if self.engine == Choice::Structural { &Structural } else { &Explicit };
-        let mut found = self.ask(engine, self.net, Task::Dead, self.budget.limits);
-        if matches!(found.found, Found::Nothing(Reason::Limit(Limit::Unbounded))) {
-            found = self.ask(&Coverability, self.net, Task::Dead, self.budget.limits);
-        }
-        match found.found {
-            Found::Dead(dead, evidence) => (Verdict::Holds(holds(self.net, &dead)), None, evidence),
-            Found::Nothing(reason) if self.engine == Choice::Auto => {
-                self.dead_one_by_one(none, reason, &holds)
-            }
-            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
-            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
-        }
-    }
-
-    /// Asks for each transition alone; few markings may suffice for most.
-    fn dead_one_by_one(
-        &mut self,
-        none: bool,
-        reason: Reason,
-        holds: &impl Fn(&Known<'_>, &[TransitionId]) -> bool,
-    ) -> Shown {
-        let mut dead = Vec::new();
-        let mut open = Vec::new();
-        for transition in (0..self.net.pt().transitions.len() as u32).map(TransitionId) {
-            match self.reach(&Formula::Atom(Atom::Fireable(vec![transition]))).found {
-                Found::Never(_) => dead.push(transition),
-                Found::Way(_) => {}
-                _ => open.push(transition),
-            }
-            if self.budget.limits.is_over() {
-                return (Verdict::Unknown(reason), None, Evidence::None);
-            }
-        }
-        let mut most = [&dead[..], &open[..]].concat();
-        most.sort_unstable();
-        let (least, most) = (holds(self.net, &dead), holds(self.net, &most));
-        if least == most || least != none {
-            return (Verdict::Holds(least), None, Evidence::None);
-        }
-        (Verdict::Unknown(reason), None, Evidence::None)
-    }
-
-    fn live(&mut self) -> Shown {
-        let pt = self.net.pt();
-        if self.engine == Choice::Auto && !pt.transitions.is_empty() {
-            let mut structure = self.net.structure();
-            structure.find_dead_transitions();
-            let dead = !structure.dead().transitions.is_empty();
-            drop(structure);
-            if dead {
-                self.used("structural");
-                return (Verdict::Holds(false), None, Evidence::None);
-            }
-            let deadlock = Formula::Atom(Atom::Deadlock);
-            let found = self.ask(&Structural, self.net, Task::Reach(&deadlock), self.budget.limits);
-            if let Found::Way(stem) = found.found {
-                return (Verdict::Holds(false), Some(Run { stem, rest: Rest::Stays }), Evidence::None);
-            }
-            let siphons = structural::minimal_siphons(pt, 10_000, 20_000_000);
-            if let Some(live) = structural::commoner(pt, &siphons).live {
-                self.used("structural");
-                return (Verdict::Holds(live), None, Evidence::None);
-            }
-        }
-        let engine: &dyn Engine = if self.engine == Choice::Structural { &Structural } else { &Explicit };
-        match self.ask(engine, self.net, Task::Live, self.budget.limits).found {
-            Found::Holds(holds, run, evidence) => (Verdict::Holds(holds), run, evidence),
-            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
-            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
-        }
-    }
-
     fn temporal(&mut self, formula: &Formula) -> Shown {
         let pt = self.net.pt();
         let smaller = (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
@@ -428,7 +337,13 @@ impl Asked<'_, '_> {
         self.ask(engine, self.net, task, self.budget.limits)
     }
 
-    fn ask(&mut self, engine: &dyn Engine, net: &Known<'_>, task: Task<'_>, limits: Limits) -> Finding {
+    pub(super) fn ask(
+        &mut self,
+        engine: &dyn Engine,
+        net: &Known<'_>,
+        task: Task<'_>,
+        limits: Limits,
+    ) -> Finding {
         let found = engine.find(net, task, &Budget { limits, ..self.budget });
         if !self.tried.contains(&engine.name()) {
             self.tried.push(engine.name());
@@ -440,7 +355,7 @@ impl Asked<'_, '_> {
         found
     }
 
-    fn used(&mut self, technique: &'static str) {
+    pub(super) fn used(&mut self, technique: &'static str) {
         self.techniques.retain(|&it| it != technique);
         self.techniques.push(technique);
     }

@@ -1,7 +1,8 @@
 //! The trait of engines.
 
-use super::Known;
+use super::{Known, Options};
 use crate::certificate::Evidence;
+use crate::coverability;
 use crate::explicit::{Limit, Limits, Progress};
 use crate::property::{Formula, Linear};
 use crate::temporal::Run;
@@ -118,6 +119,33 @@ pub struct Budget<'b> {
     pub evidence: bool,
     /// Called now and then.
     pub progress: &'b dyn Fn(Progress),
+}
+
+impl Budget<'_> {
+    /// Whether it allows to go further than a search that reached one of these limits.
+    pub(super) fn has_more(&self, limits: &Limits, reached: Limit) -> bool {
+        match reached {
+            Limit::States => self.limits.states > limits.states,
+            Limit::Bytes => self.limits.bytes > limits.bytes,
+            Limit::Time => {
+                limits.deadline.is_some_and(|it| self.limits.deadline.is_none_or(|later| it < later))
+            }
+            Limit::Tokens | Limit::Words | Limit::Unbounded => false,
+        }
+    }
+
+    /// The same for coverability.
+    pub(super) fn coverability<'s>(&self, stop: &'s dyn Fn() -> bool) -> coverability::Limits<'s> {
+        let nodes = self.limits.states.min(10_000_000);
+        coverability::Limits { nodes, bytes: self.limits.bytes, stop, ..coverability::Limits::default() }
+    }
+}
+
+impl<'b> From<&Options<'b>> for Budget<'b> {
+    fn from(options: &Options<'b>) -> Self {
+        let Options { limits, jobs, evidence, progress, .. } = *options;
+        Self { limits, jobs, evidence, progress }
+    }
 }
 
 /// An engine. What it says is so; when it does not know, it says that.

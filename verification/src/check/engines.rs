@@ -5,7 +5,7 @@ use super::engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
 use super::known::Known;
 use crate::certificate::Evidence;
 use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};
-use crate::explicit::{Goal, Limit, Limits, Reached, reach, statespace};
+use crate::explicit::{Goal, Limit, Limits, Reached, reach};
 use crate::property::{Atom, Formula, Linear};
 use crate::pt::Pt;
 use crate::structural;
@@ -127,10 +127,10 @@ impl Engine for Explicit {
             },
             Task::Bound(sum) => most(net, sum, budget),
             Task::Dead => {
-                let space = statespace(net.pt(), &budget.limits, budget.jobs, budget.progress);
+                let space = net.space(budget);
                 let found = match space.limit {
                     Some(limit) => Found::Nothing(Reason::Limit(limit)),
-                    None => Found::Dead(space.dead_transitions, Evidence::None),
+                    None => Found::Dead(space.dead_transitions.clone(), Evidence::None),
                 };
                 Finding { found, states: space.states }
             }
@@ -139,7 +139,7 @@ impl Engine for Explicit {
                     let found = Found::Holds(graph.liveness().is_live(), None, Evidence::None);
                     Finding { found, states: graph.states() as u64 }
                 }
-                Err(limit) => Finding::nothing(Reason::Limit(limit), 0),
+                Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
             }),
             Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
         }
@@ -159,7 +159,7 @@ fn reached(reached: Reached) -> Finding {
 /// The most of a sum, by asking for more than the most that was seen until there is no such marking.
 fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
     if let (&[(place, 1)], 0) = (&sum.weights[..], sum.constant) {
-        let space = statespace(net.pt(), &budget.limits, budget.jobs, budget.progress);
+        let space = net.space(budget);
         let found = match (space.limit, space.bounds.get(place.0 as usize)) {
             (None, Some(&tokens)) => Found::Most(Extent::Finite(tokens), None, Evidence::None),
             (limit, _) => Found::Nothing(limit.map_or(Reason::Undecided, Reason::Limit)),
@@ -250,7 +250,7 @@ impl Engine for Coverability {
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         let stop = || budget.limits.is_over();
-        let limits = coverability_limits(budget, &stop);
+        let limits = budget.coverability(&stop);
         let unfinished =
             |it: coverability::Unfinished| Finding::nothing(Reason::Limit(limit(it.limit)), it.nodes);
         match task {
@@ -272,11 +272,6 @@ impl Engine for Coverability {
     }
 }
 
-fn coverability_limits<'a>(budget: &Budget<'_>, stop: &'a dyn Fn() -> bool) -> coverability::Limits<'a> {
-    let nodes = budget.limits.states.min(10_000_000);
-    coverability::Limits { nodes, bytes: budget.limits.bytes, stop, ..coverability::Limits::default() }
-}
-
 /// Tokens of a marking on the way to which something is looked for that can be repeated.
 const MANY: u64 = 50;
 
@@ -284,7 +279,7 @@ const MANY: u64 = 50;
 /// way to many tokens in one of them. There may be none: tokens that grow in a place can be moved to another one.
 pub(super) fn growth(pt: &Pt, places: &[PlaceId], budget: &Budget<'_>) -> Option<Evidence> {
     let stop = || budget.limits.is_over();
-    let limits = coverability_limits(budget, &stop);
+    let limits = budget.coverability(&stop);
     if let Bounded::No(growth) = coverability::bounded(pt, &limits)
         && growth.grows.iter().any(|it| places.contains(&it.0))
     {

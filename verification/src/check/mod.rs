@@ -29,10 +29,12 @@ mod engine;
 mod engines;
 mod known;
 mod laws;
+mod liveness;
 mod model;
 mod reduced;
 mod report;
 mod timed;
+mod unused;
 
 pub use engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
 pub use engines::{Coverability, Explicit, Structural, Stubborn, Temporal};

@@ -8,17 +8,20 @@ use crate::certificate::Evidence;
 use crate::explicit::Limit;
 use crate::property::{Atom, Condition, Formula, Linear, Question, Reachability};
 use crate::temporal::{Rest, Run};
-use crate::tpn::{self, Limits, Reach, Response, Schedule, Stop, Time, TimeNet};
+use crate::tpn::{self, Classes, Limits, Reach, Response, Schedule, Stop, Time, TimeNet};
 use cotama_core::net::{PlaceId, TransitionId};
 
 pub(super) fn answer(net: &Known<'_>, time: &TimeNet, question: &Question, options: &Options<'_>) -> Answer {
     let stop = || options.limits.is_over();
-    let limits = Limits {
+    Asked { net, time, limits: limits(options, &stop), options }.question(question)
+}
+
+pub(super) fn limits<'s>(options: &Options<'_>, stop: &'s dyn Fn() -> bool) -> Limits<'s> {
+    Limits {
         classes: usize::try_from(options.limits.states).unwrap_or(usize::MAX),
         bytes: usize::try_from(options.limits.bytes).unwrap_or(usize::MAX),
-        stop: &stop,
-    };
-    Asked { net, time, limits, options }.question(question)
+        stop,
+    }
 }
 
 struct Asked<'a, 'n> {
@@ -32,7 +35,9 @@ impl Asked<'_, '_> {
     fn question(&self, question: &Question) -> Answer {
         match question {
             Question::Formula(formula) => self.formula(&formula.simplified()),
-            Question::Response { from, to } => response(tpn::bound(self.time, *from, *to, &self.limits)),
+            Question::Response { from, to } => {
+                response(tpn::measured(self.time, Some(*from), *to, &self.limits))
+            }
             Question::OneSafe => {
                 let two =
                     |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
@@ -134,12 +139,7 @@ impl Asked<'_, '_> {
     /// A question about the transitions that fire at some time.
     fn fired(&self, holds: impl Fn(&Known<'_>, &[bool]) -> bool) -> Answer {
         let classes = tpn::classes(self.time, &self.limits);
-        let mut fires = vec![false; self.net.pt().transitions.len()];
-        for class in 0..classes.classes() as u32 {
-            for (transition, _) in classes.successors(class) {
-                fires[transition.0 as usize] = true;
-            }
-        }
+        let fires = fired(&classes, self.net.pt().transitions.len());
         let verdict = match classes.stopped() {
             None => Verdict::Holds(holds(self.net, &fires)),
             Some(stop) => Verdict::Unknown(reason(stop)),
@@ -158,7 +158,7 @@ impl Asked<'_, '_> {
             (change(cause) > 0, change(effect) < 0)
         };
         let (mut states, mut open) = (0, None);
-        let mut ask = |found: Response, certain: bool| {
+        let mut ask = |found: (Response, usize), certain: bool| {
             let answer = response(found);
             states = answer.states.max(states);
             match answer.verdict {
@@ -174,11 +174,14 @@ impl Asked<'_, '_> {
             true
         };
         let marked = pt.initial[cause.0 as usize] > 0;
-        let mut holds = !marked || ask(tpn::bound_from_start(self.time, effect, &self.limits), true);
+        let mut holds = !marked || ask(tpn::measured(self.time, None, effect, &self.limits), true);
         for transition in 0..pt.transitions.len() as u32 {
             let (begins, ends) = starts(transition);
             if holds && (begins || ends) {
-                holds = ask(tpn::bound(self.time, TransitionId(transition), effect, &self.limits), begins);
+                holds = ask(
+                    tpn::measured(self.time, Some(TransitionId(transition)), effect, &self.limits),
+                    begins,
+                );
             }
         }
         let verdict = match (holds, open) {
@@ -188,6 +191,17 @@ impl Asked<'_, '_> {
         };
         known(verdict, states)
     }
+}
+
+/// For each transition whether some class fires it.
+pub(super) fn fired(classes: &Classes, transitions: usize) -> Vec<bool> {
+    let mut fires = vec![false; transitions];
+    for class in 0..classes.classes() as u32 {
+        for (transition, _) in classes.successors(class) {
+            fires[transition.0 as usize] = true;
+        }
+    }
+    fires
 }
 
 /// The places and the limit of `AG (cause -> AF<=limit effect)`, in milliseconds.
@@ -236,12 +250,14 @@ fn shown(holds: bool, schedule: Schedule) -> Answer {
     }
 }
 
-fn response(response: Response) -> Answer {
-    match response {
-        Response::NeverFires => known(Verdict::Response(None), 0),
-        Response::Between { min, max } => known(Verdict::Response(Some((min, max))), 0),
-        Response::Unknown { stop, explored } => known(Verdict::Unknown(reason(stop)), explored as u64),
-    }
+/// An answer of so many classes.
+fn response((response, classes): (Response, usize)) -> Answer {
+    let verdict = match response {
+        Response::NeverFires => Verdict::Response(None),
+        Response::Between { min, max } => Verdict::Response(Some((min, max))),
+        Response::Unknown { stop, .. } => Verdict::Unknown(reason(stop)),
+    };
+    known(verdict, classes as u64)
 }
 
 fn reason(stop: Stop) -> Reason {

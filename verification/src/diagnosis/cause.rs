@@ -1,5 +1,6 @@
 //! By what it came about: the firing that did it, what repeats, what is lacking.
 
+use super::mirror::mirrored;
 use super::run::enabled;
 use super::story::Teller;
 use super::words::{self, Says, counted, list, name, short_list};
@@ -217,14 +218,16 @@ impl Teller<'_> {
             nearest = all().filter(|it| missing(*it).len() == least).collect();
         }
         let mut notes = Vec::new();
+        let mirrored = mirrored(self.case);
         for &transition in nearest.iter().take(MOST) {
             let missing = missing(transition);
-            self.culprits.extend(missing.iter().map(|it| it.0));
+            self.culprits.extend(missing.iter().map(|it| mirrored[it.0 as usize].unwrap_or(it.0)));
             let places: Vec<_> = missing
                 .iter()
-                .map(|&(place, weight)| match weight - marking[place as usize] {
-                    1 => format!("a token in {}", name(&pt.places, place)),
-                    more => format!("{more} tokens in {}", name(&pt.places, place)),
+                .map(|&(place, weight)| match (mirrored[place as usize], weight - marking[place as usize]) {
+                    (Some(of), _) => format!("room in {}", name(&pt.places, of)),
+                    (None, 1) => format!("a token in {}", name(&pt.places, place)),
+                    (None, more) => format!("{more} tokens in {}", name(&pt.places, place)),
                 })
                 .collect();
             let givers: Vec<_> = match missing.as_slice() {

@@ -58,13 +58,7 @@ impl Diagnosis {
     /// net as the run leaves it, if it is small. It needs no script and no other file; colours follow the reader's light or
     /// dark mode.
     pub fn html(&self) -> String {
-        format!(
-            "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n\
-             <style>\n{STYLE}</style>\n</head>\n<body>\n{}</body>\n</html>\n",
-            escape(&format!("{}: {}", printable(&self.net), printable(&self.name))),
-            self.html_section()
-        )
+        page(&format!("{}: {}", printable(&self.net), printable(&self.name)), &self.html_section())
     }
 
     /// The style sheet that [`html_section`](Self::html_section) asks for.
@@ -99,25 +93,14 @@ impl Diagnosis {
         self.steps(&mut out);
         if !self.legend.is_empty() {
             out.push_str("<h2>What the names mean</h2>\n<dl>\n");
-            for it in &self.legend {
+            for it in self.legend.iter().filter(|it| self.shows(&it.name)) {
                 let (name, doc) = (escape(&printable(&it.name)), escape(&it.doc));
                 let _ = writeln!(out, "<dt><code>{name}</code></dt><dd>{doc}</dd>");
             }
             out.push_str("</dl>\n");
         }
         if let Some(picture) = &self.picture {
-            let key = picture.culprits.join("-");
-            out.push_str("<h2>The net after the last step</h2>\n");
-            if !picture.culprits.is_empty() {
-                let rims: Vec<String> = picture
-                    .culprits
-                    .iter()
-                    .map(|it| format!(".at-{key} #{it} circle.rim,.at-{key} #{it} rect"))
-                    .collect();
-                let _ =
-                    writeln!(out, "<style>{}{{stroke:var(--hot);stroke-width:4}}</style>", rims.join(","));
-            }
-            let _ = write!(out, "<figure class=\"at-{key}\">\n{}</figure>\n", picture.svg);
+            out += &picture.figure("The net after the last step");
         }
         out.push_str("</section>\n");
         out
@@ -152,7 +135,7 @@ impl Diagnosis {
         let note = |out: &mut String, text: &str| {
             let _ = writeln!(out, "<tr class=\"note\"><td></td><td colspan=\"{span}\">{text}</td></tr>");
         };
-        edge(out, "start", &marking(&self.initial));
+        edge(out, "start", &self.marking_as_code(&self.initial));
         let count = self.trace.len();
         for (at, step) in self.trace.iter().enumerate() {
             if self.cycle_starts_at == Some(at) {
@@ -184,7 +167,7 @@ impl Diagnosis {
         match self.cycle_starts_at {
             Some(0) => note(out, "As at the start."),
             Some(start) => note(out, &format!("As after step {start}.")),
-            None if count > 0 => edge(out, "end", &marking(&self.last)),
+            None if count > 0 => edge(out, "end", &self.marking_as_code(&self.last)),
             None => {}
         }
         out.push_str("</tbody>\n</table>\n</div>\n");
@@ -200,26 +183,39 @@ impl Diagnosis {
             let verb = if it.holds { "now" } else { "no more" };
             format!("<span class=\"turn\">({verb} {})</span>", escape(&printable(&it.atom)))
         };
-        let all: Vec<String> = step.changes.iter().map(one).chain(self.turns(step).map(turn)).collect();
+        let shown = step.changes.iter().filter(|it| self.shows(&it.place));
+        let all: Vec<String> = shown.map(one).chain(self.turns(step).map(turn)).collect();
         if all.is_empty() { "no change".to_owned() } else { all.join(" ") }
     }
 }
 
-fn marking(tokens: &[Tokens]) -> String {
-    let one = |it: &Tokens| match it.tokens {
-        1 => code(&it.place),
-        more => format!("{} {more}", code(&it.place)),
-    };
-    let all: Vec<String> = tokens.iter().map(one).collect();
-    if all.is_empty() { "nothing is marked".to_owned() } else { all.join(" ") }
+/// A page around a section.
+pub(super) fn page(title: &str, section: &str) -> String {
+    format!(
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n\
+         <style>\n{STYLE}</style>\n</head>\n<body>\n{section}</body>\n</html>\n",
+        escape(title)
+    )
 }
 
-fn code(name: &str) -> String {
+impl Diagnosis {
+    fn marking_as_code(&self, tokens: &[Tokens]) -> String {
+        let one = |it: &Tokens| match it.tokens {
+            1 => code(&it.place),
+            more => format!("{} {more}", code(&it.place)),
+        };
+        let all: Vec<String> = tokens.iter().filter(|it| self.shows(&it.place)).map(one).collect();
+        if all.is_empty() { "nothing is marked".to_owned() } else { all.join(" ") }
+    }
+}
+
+pub(super) fn code(name: &str) -> String {
     format!("<code>{}</code>", escape(&printable(name)))
 }
 
 /// A sentence with names in backticks, of which there are two for each.
-fn sentence(text: &str) -> String {
+pub(super) fn sentence(text: &str) -> String {
     let mut out = String::new();
     for (at, part) in text.split('`').enumerate() {
         if at % 2 == 1 {

@@ -27,9 +27,11 @@
 mod cause;
 mod claim;
 mod html;
+mod mirror;
 mod picture;
 mod question;
 mod run;
+mod sheet;
 mod shrink;
 mod story;
 mod text;
@@ -40,16 +42,17 @@ mod words;
 
 pub use run::{NotARun, Run};
 pub use shrink::shrink;
-pub use unused::Unused;
+pub use unused::{Never, Unused};
 pub use vacuity::{Vacuity, vacuous};
 
 use crate::property::{self, Atom, Condition, Formula, Linear, Property, Question};
 use crate::pt::Pt;
 use crate::tpn::{Date, Schedule};
 use claim::Along;
-use cotama_core::net::Net;
+use cotama_core::net::{Net, TransitionId};
 use picture::Picture;
 use serde::{Serialize, Serializer};
+use std::collections::BTreeSet;
 
 /// The most places whose tokens are followed.
 const WATCHED: usize = 24;
@@ -96,7 +99,7 @@ impl<'a> Case<'a> {
 /// Why a property holds or does not, shown by a run.
 ///
 /// It is written as text by `Display`, in lines of at most 100 characters, with the middle of a long run left out; by
-/// [`json`](Self::json) whole; by [`html`](Self::html) as a page with pictures. Names in sentences stand in backticks.
+/// [`json`](Self::json) whole; by [`html`](Self::html) as a page with pictures; by [`svg`](Self::svg) as one drawing. Names in sentences stand in backticks.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnosis {
     /// The name of the net.
@@ -133,6 +136,9 @@ pub struct Diagnosis {
     pub atoms: Vec<AtomTrack>,
     /// What places and transitions of the run mean, as far as it is documented.
     pub legend: Vec<Meaning>,
+    /// Complements that the property does not name: text and pages leave them out.
+    #[serde(skip)]
+    mirrors: BTreeSet<String>,
     #[serde(skip)]
     picture: Option<Picture>,
 }
@@ -262,7 +268,8 @@ impl Diagnosis {
             if typed { property.name.trim().to_owned() } else { property.question.display(pt).to_string() };
         let summary = summary(property, holds, &text, &story.what);
         let atoms = atoms(case, &mut trace)?;
-        let watched = watched(property, &story, pt);
+        let mirrored = mirror::mirrored(case);
+        let watched = watched(property, &story, pt, &mirrored);
         let mut tracks: Vec<Track> = watched
             .iter()
             .map(|it| Track {
@@ -290,8 +297,17 @@ impl Diagnosis {
             last: tokens(pt, &last),
             watched: tracks,
             atoms,
-            picture: Picture::new(pt, net, &last, run.firings().last(), &story.culprits),
+            mirrors: {
+                let all = pt.places.iter().zip(&mirrored).filter(|it| it.1.is_some());
+                all.map(|it| it.0.clone()).collect()
+            },
+            picture: Picture::new(pt, net, &last, run.firings().last().as_slice(), &story.culprits),
         })
+    }
+
+    /// Whether text and pages show what is said of a place.
+    fn shows(&self, place: &str) -> bool {
+        !self.mirrors.contains(place)
     }
 
     /// The atoms that a step turns and that are more than marked places.
@@ -369,26 +385,15 @@ fn atoms(case: &Case<'_>, trace: &mut [Step]) -> Result<Vec<AtomTrack>, NotARun>
     Ok(tracks)
 }
 
-/// The places that the property speaks of, and then those that the cause points at.
-fn watched(property: &Property, story: &story::Story, pt: &Pt) -> Vec<u32> {
-    let of_property: Vec<u32> = match &property.question {
-        Question::Formula(formula) => claim::atoms(formula)
-            .iter()
-            .flat_map(|atom| match atom {
-                Atom::AtMost(linear) => linear.weights.iter().map(|it| it.0.0).collect(),
-                Atom::Fireable(transitions) => {
-                    transitions.iter().flat_map(|it| pt.needs.of(it.0)).map(|it| it.0).collect()
-                }
-                Atom::Deadlock => Vec::new(),
-            })
-            .collect(),
-        Question::Bound(places) => places.iter().map(|it| it.0).collect(),
-        Question::Response { to, .. } => vec![to.0],
-        _ => Vec::new(),
-    };
+/// The places that the property speaks of, and then those that the cause points at; places instead of their mirrors.
+fn watched(property: &Property, story: &story::Story, pt: &Pt, mirrored: &[Option<u32>]) -> Vec<u32> {
+    let needs = |it: TransitionId| pt.needs.of(it.0).iter().map(|it| it.0).collect();
+    let asked = mirror::asked(&property.question, needs);
     let mut watched = Vec::new();
-    for place in of_property.into_iter().chain(story.culprits.iter().copied()) {
-        if (place as usize) < pt.places.len() && !watched.contains(&place) && watched.len() < WATCHED {
+    for place in asked.into_iter().chain(story.culprits.iter().copied()) {
+        let Some(of) = mirrored.get(place as usize) else { continue };
+        let place = of.unwrap_or(place);
+        if !watched.contains(&place) && watched.len() < WATCHED {
             watched.push(place);
         }
     }

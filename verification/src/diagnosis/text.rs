@@ -32,13 +32,23 @@ impl Display for Diagnosis {
         self.table(f)?;
         if !self.legend.is_empty() {
             f.write_str("\nwhere\n")?;
-            let names: Vec<String> = self.legend.iter().map(|it| cut(&it.name)).collect();
+            let legend = || self.legend.iter().filter(|it| self.shows(&it.name));
+            let names: Vec<String> = legend().map(|it| cut(&it.name)).collect();
             let width = names.iter().map(|it| it.chars().count()).max().unwrap_or(0);
-            for (name, meaning) in names.iter().zip(&self.legend) {
+            for (name, meaning) in names.iter().zip(legend()) {
                 paragraph(f, &format!("  {name:width$}  "), &meaning.doc)?;
             }
         }
         Ok(())
+    }
+}
+
+/// The firings of a diagnosis, line by line.
+struct Steps<'d>(&'d Diagnosis);
+
+impl Display for Steps<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        self.0.table(f)
     }
 }
 
@@ -66,6 +76,11 @@ impl Table {
 }
 
 impl Diagnosis {
+    /// The firings as lines, with the middle of a long run left out.
+    pub(super) fn steps_as_text(&self) -> String {
+        Steps(self).to_string()
+    }
+
     fn table(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let shown = shown(self.trace.len(), self.cycle_starts_at);
         let mut table = Table { widths: vec![0; 5] };
@@ -83,7 +98,7 @@ impl Diagnosis {
         }
         let edge = |name: &str| [name.to_owned(), String::new(), String::new(), String::new(), String::new()];
         table.row(f, &heads, "changes")?;
-        table.row(f, &edge("start"), &marking(&self.initial))?;
+        table.row(f, &edge("start"), &self.marking(&self.initial))?;
         let mut next = 0;
         for (cells, at) in rows.iter().zip(shown) {
             if at > next {
@@ -105,14 +120,15 @@ impl Diagnosis {
             Some(0) => "as at the start".to_owned(),
             Some(start) => format!("as after step {start}"),
             None if self.trace.is_empty() => return Ok(()),
-            None => marking(&self.last),
+            None => self.marking(&self.last),
         };
         table.row(f, &edge("end"), &end)
     }
 
     /// What a step changes, and which atoms it turns that are more than marked places.
     fn changes(&self, step: &Step) -> String {
-        let mut text: Vec<String> = step.changes.iter().map(change).collect();
+        let shown = step.changes.iter().filter(|it| self.shows(&it.place));
+        let mut text: Vec<String> = shown.map(change).collect();
         if text.is_empty() {
             text.push("no change".to_owned());
         }
@@ -153,19 +169,20 @@ pub(super) fn change(it: &Change) -> String {
     }
 }
 
-fn marking(tokens: &[Tokens]) -> String {
-    let mut all: Vec<String> = tokens
-        .iter()
-        .take(MARKED)
-        .map(|it| match it.tokens {
+impl Diagnosis {
+    fn marking(&self, tokens: &[Tokens]) -> String {
+        let one = |it: &Tokens| match it.tokens {
             1 => plain(&it.place),
             more => format!("{} {more}", plain(&it.place)),
-        })
-        .collect();
-    if tokens.len() > MARKED {
-        all.push(format!("and {} more places", tokens.len() - MARKED));
+        };
+        let mut all: Vec<String> = tokens.iter().filter(|it| self.shows(&it.place)).map(one).collect();
+        let more = all.len().saturating_sub(MARKED);
+        all.truncate(MARKED);
+        if more > 0 {
+            all.push(format!("and {more} more places"));
+        }
+        if all.is_empty() { "nothing is marked".to_owned() } else { all.join(", ") }
     }
-    if all.is_empty() { "nothing is marked".to_owned() } else { all.join(", ") }
 }
 
 /// A name outside of sentences: in quotes if it would not be told from what stands beside it.

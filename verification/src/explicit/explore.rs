@@ -1,30 +1,26 @@
 //! Breadth first through all reachable markings, level by level, on any number of threads.
 //!
 //! Threads take blocks of a level, and sort the markings that follow into boxes, one for each table; a full box is added to
-//! its table at once. Which thread finds a marking first, and so the order within a level, is left to chance, but not which
-//! markings a level has, nor what is counted.
+//! its table at once, the others at the end of the level, by whichever thread has time. Which thread finds a marking first,
+//! and so the order within a level, is left to chance, but not which markings a level has, nor what is counted.
 
 use super::block::Block;
+use super::boxes::Boxes;
 use super::diamonds::Diamonds;
 use super::enabling::Seen;
 use super::goal::Packed;
 use super::space::{Space, TooNarrow};
-use super::table::{BATCH, TABLES, Table, hash, table_of};
+use super::table::{BATCH, TABLES, Table};
 use super::view::{Bits, View};
 use super::{Limit, Limits, Progress};
 use crate::pt::Pt;
 use std::sync::atomic::{AtomicU8, AtomicU64, Ordering::Relaxed};
-use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError, RwLock, RwLockWriteGuard};
 use std::thread;
 use std::time::Instant;
 
 /// Threads are worth their start for so many blocks each.
 const BLOCKS_OF_A_THREAD: usize = 4;
-
-/// How many markings a box holds: enough that many of them lie near each other in the table.
-const fn room<const S: usize>() -> usize {
-    4096 / S
-}
 
 /// What is done while markings are passed through.
 #[derive(Clone, Copy)]
@@ -81,6 +77,8 @@ struct Shared<'s, const S: usize> {
     limits: &'s Limits,
     goal: Option<Packed<'s>>,
     tables: Vec<Mutex<Table<S>>>,
+    /// Those of each thread; it holds the lock while it fills them.
+    boxes: Vec<RwLock<Boxes<S>>>,
     queue: Mutex<Vec<Block<S>>>,
     spare: Mutex<Vec<Block<S>>>,
     states: AtomicU64,
@@ -90,14 +88,11 @@ struct Shared<'s, const S: usize> {
     stop: AtomicU8,
 }
 
-/// A thread's own part.
+/// A thread's own part, apart from that of another one in the caches of processors.
+#[repr(align(128))]
 struct Worker<const S: usize> {
-    boxes: Vec<[u64; S]>,
-    /// For each marking in a box the transition that leads to it.
-    via: Vec<u32>,
-    fill: [usize; TABLES],
-    /// The box that is emptied first.
-    first: usize,
+    /// Its number.
+    number: usize,
     fresh: Vec<Block<S>>,
     kept: Vec<Block<S>>,
     goals: Vec<[u64; S]>,
@@ -110,6 +105,7 @@ struct Worker<const S: usize> {
 }
 
 pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<Explored<S>, TooNarrow> {
+    let jobs = plan.jobs.max(1);
     let shared = Shared::<S> {
         space,
         deltas: space.deltas(),
@@ -117,6 +113,8 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
         limits: plan.limits,
         goal: plan.goal,
         tables: (0..TABLES).map(|_| Mutex::new(Table::new())).collect(),
+        // Threads seldom wait for each other when each starts with another box.
+        boxes: (0..jobs).map(|it| RwLock::new(Boxes::new(it * TABLES / jobs))).collect(),
         queue: Mutex::default(),
         spare: Mutex::default(),
         states: AtomicU64::new(0),
@@ -124,20 +122,22 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
         peak: AtomicU64::new(0),
         stop: AtomicU8::new(0),
     };
-    let jobs = plan.jobs.max(1);
-    let mut workers: Vec<Worker<S>> = (0..jobs).map(|it| Worker::new(&shared, it * TABLES / jobs)).collect();
+    let mut workers: Vec<Option<Worker<S>>> = (0..jobs).map(|_| None).collect();
     let mut levels = Vec::new();
     let (mut states, mut depth) = (0, 0);
-    workers[0].put(&shared, &space.initial(), Diamonds::NONE);
-    workers[0].empty(&shared);
+    Worker::of(&mut workers[0], &shared, 0).start(&shared);
     loop {
-        let union =
-            workers.iter().fold([0; S], |all: [u64; S], it| std::array::from_fn(|at| all[at] | it.union[at]));
+        let union = workers
+            .iter()
+            .flatten()
+            .fold([0; S], |all: [u64; S], it| std::array::from_fn(|at| all[at] | it.union[at]));
         let limit = space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
-        let goals: Vec<[u64; S]> = workers.iter_mut().flat_map(|it| std::mem::take(&mut it.goals)).collect();
-        let fresh: Vec<Block<S>> = workers.iter_mut().flat_map(|it| std::mem::take(&mut it.fresh)).collect();
+        let goals: Vec<[u64; S]> =
+            workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.goals)).collect();
+        let fresh: Vec<Block<S>> =
+            workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.fresh)).collect();
         if let Some(before) = levels.last_mut() {
-            *before = workers.iter_mut().flat_map(|it| std::mem::take(&mut it.kept)).collect();
+            *before = workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.kept)).collect();
         }
         let end = match limit {
             // How much of a level fits depends on chance; whether all of it fits does not.
@@ -152,7 +152,7 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
         if let Some(end) = end {
             // The levels before the last one are complete, and so is what is counted of them.
             let mut tally = Tally::new(space);
-            for worker in &workers {
+            for worker in workers.iter().flatten() {
                 tally.add(&worker.tally);
             }
             let (bytes, peak) = (shared.bytes.load(Relaxed), shared.peak.load(Relaxed));
@@ -167,11 +167,13 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
         }
         let (first, others) = workers[..threads].split_at_mut(1);
         thread::scope(|scope| {
-            for worker in others {
+            for (place, number) in others.iter_mut().zip(1..) {
+                let shared = &shared;
+                let level = move || Worker::of(place, shared, number).level(shared, &|| ());
                 // Without another thread this one does all.
-                let _ = thread::Builder::new().spawn_scoped(scope, || worker.level(&shared, &|| ()));
+                let _ = thread::Builder::new().spawn_scoped(scope, level);
             }
-            first[0].level(&shared, &|| {
+            Worker::of(&mut first[0], &shared, 0).level(&shared, &|| {
                 let states = shared.states.load(Relaxed);
                 (plan.progress)(Progress { states, depth, waiting });
             });
@@ -182,6 +184,10 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
 
 fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn write<T>(lock: &RwLock<T>) -> RwLockWriteGuard<'_, T> {
+    lock.write().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl<const S: usize> Shared<'_, S> {
@@ -228,13 +234,15 @@ impl Tally {
 }
 
 impl<const S: usize> Worker<S> {
-    fn new(shared: &Shared<'_, S>, first: usize) -> Self {
+    /// That of a thread, which makes it, so that its memory lies apart from that of others.
+    fn of<'w>(place: &'w mut Option<Self>, shared: &Shared<'_, S>, number: usize) -> &'w mut Self {
+        place.get_or_insert_with(|| Self::new(shared, number))
+    }
+
+    fn new(shared: &Shared<'_, S>, number: usize) -> Self {
         let enabling = &shared.space.enabling;
         Self {
-            boxes: vec![[0; S]; TABLES * room::<S>()],
-            via: vec![0; TABLES * room::<S>()],
-            fill: [0; TABLES],
-            first,
+            number,
             fresh: Vec::new(),
             kept: Vec::new(),
             goals: Vec::new(),
@@ -245,8 +253,31 @@ impl<const S: usize> Worker<S> {
         }
     }
 
-    /// Takes blocks of the level as long as there are any.
+    /// Adds the initial marking.
+    fn start(&mut self, shared: &Shared<'_, S>) {
+        let mut boxes = write(&shared.boxes[self.number]);
+        boxes.put(&shared.space.initial(), Diamonds::NONE);
+        boxes.next().into_iter().for_each(|it| self.empty(shared, &boxes, it));
+    }
+
+    /// Takes blocks of the level as long as there are any, and then boxes.
     fn level(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
+        self.fill(shared, tick);
+        // Its own ones first: the others may not be filled yet.
+        let (before, after) = shared.boxes.split_at(self.number);
+        for boxes in after.iter().chain(before) {
+            let boxes = boxes.read().unwrap_or_else(PoisonError::into_inner);
+            while let Some(table) = boxes.next() {
+                self.empty(shared, &boxes, table);
+            }
+        }
+    }
+
+    /// Fills its boxes with what follows the blocks that it takes.
+    fn fill(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
+        // Before the first block is taken: who finds no more blocks waits for this lock.
+        let mut boxes = write(&shared.boxes[self.number]);
+        boxes.clear_all();
         loop {
             let Some(mut block) = lock(&shared.queue).pop() else { break };
             if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
@@ -254,7 +285,7 @@ impl<const S: usize> Worker<S> {
             }
             // Other limits let the level be counted to its end, so that the counts are those of complete levels.
             if shared.stop.load(Relaxed) != Limit::Time.code() {
-                self.expand(shared, &block);
+                self.expand(shared, &mut boxes, &block);
             }
             tick();
             if shared.goal.is_some() {
@@ -269,12 +300,12 @@ impl<const S: usize> Worker<S> {
                 lock(&shared.spare).push(block);
             }
         }
-        self.empty(shared);
     }
 
     /// Computes what follows the markings of a block.
-    fn expand(&mut self, shared: &Shared<'_, S>, block: &Block<S>) {
+    fn expand(&mut self, shared: &Shared<'_, S>, boxes: &mut Boxes<S>, block: &Block<S>) {
         let (mut arcs, mut dead, mut most) = (0, 0, 0);
+        let deltas = shared.deltas.as_slice();
         let mut view = std::mem::take(&mut self.view);
         let mut ever = std::mem::take(&mut self.tally.enabled);
         for (marking, &via) in block.markings.iter().zip(&block.via) {
@@ -289,9 +320,12 @@ impl<const S: usize> Worker<S> {
                 arcs += u64::from(enabled.count_ones());
                 for bit in Bits(enabled & !left_out) {
                     let transition = 64 * at as u32 + bit;
-                    let delta = &shared.deltas[transition as usize];
+                    let delta = &deltas[transition as usize];
                     let after = std::array::from_fn(|at| marking[at].wrapping_add(delta[at]));
-                    self.put(shared, &after, transition);
+                    if let Some(full) = boxes.put(&after, transition) {
+                        self.empty(shared, boxes, full);
+                        boxes.clear(full);
+                    }
                 }
             }
             dead += u64::from(arcs == before);
@@ -303,40 +337,17 @@ impl<const S: usize> Worker<S> {
         self.tally.sum = self.tally.sum.max(most);
     }
 
-    #[inline]
-    fn put(&mut self, shared: &Shared<'_, S>, marking: &[u64; S], via: u32) {
-        let table = table_of(hash(marking));
-        let fill = self.fill[table];
-        self.boxes[table * room::<S>() + fill] = *marking;
-        self.via[table * room::<S>() + fill] = via;
-        self.fill[table] = fill + 1;
-        if fill + 1 == room::<S>() {
-            self.flush(shared, table);
-        }
-    }
-
-    /// Empties all boxes; each thread starts with another one, so that they seldom wait for each other.
-    fn empty(&mut self, shared: &Shared<'_, S>) {
-        for table in (self.first..TABLES).chain(0..self.first) {
-            if self.fill[table] > 0 {
-                self.flush(shared, table);
-            }
-        }
-    }
-
-    /// Empties a box into its table.
+    /// Adds what is in a box to its table.
     #[inline(never)]
-    fn flush(&mut self, shared: &Shared<'_, S>, at: usize) {
-        let count = std::mem::take(&mut self.fill[at]);
+    fn empty(&mut self, shared: &Shared<'_, S>, boxes: &Boxes<S>, table: usize) {
         if shared.is_stopped() {
             return;
         }
-        let mut table = lock(&shared.tables[at]);
-        let Self { boxes, via, fresh, goals, scratch: (view, seen), union, .. } = self;
+        let (markings, via) = boxes.content(table);
+        let mut table = lock(&shared.tables[table]);
+        let Self { fresh, goals, scratch: (view, seen), union, .. } = self;
         let mut new = 0;
-        let start = at * room::<S>();
-        let batches = boxes[start..][..count].chunks(BATCH).zip(via[start..].chunks(BATCH));
-        for (batch, via) in batches {
+        for (batch, via) in markings.chunks(BATCH).zip(via.chunks(BATCH)) {
             if let Some(slots) = table.grown(batch.len()) {
                 let before = table.slots();
                 if !shared.reserve(Table::<S>::bytes(slots)) {

@@ -4,7 +4,7 @@ use super::goal::Goal;
 use super::layout::Width;
 use super::space::{Search, Space, TooNarrow, search};
 use super::table::hash;
-use super::{Limit, Limits, Progress};
+use super::{Limit, Limits, Progress, Unfinished};
 use crate::pt::Pt;
 use cotama_core::net::TransitionId;
 use std::time::Instant;
@@ -33,7 +33,7 @@ impl Graph {
     /// The graph of a net; on one thread, so that numbers are always the same. `progress` is called now and then.
     ///
     /// # Errors
-    /// The limit that was reached; [`Limit::States`] also when there are 4,294,967,295 markings.
+    /// The limit that was reached, and how many markings there were before; [`Limit::States`] also when there are 4,294,967,295.
     ///
     /// ```
     /// use cotama_core::net::TransitionId;
@@ -51,8 +51,10 @@ impl Graph {
     /// assert_eq!((graph.marking(1), graph.successors(1)), (vec![0, 1], &[0][..]));
     /// assert_eq!(graph.transitions(1), [TransitionId(1)]);
     /// ```
-    pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Limit> {
-        search(pt, Width::of(pt).ok_or(Limit::Tokens)?, &mut Construction { pt, limits, progress })?
+    pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Unfinished> {
+        let none = |limit| Unfinished { limit, states: 0 };
+        let widths = Width::of(pt).ok_or(none(Limit::Tokens))?;
+        search(pt, widths, &mut Construction { pt, limits, progress }).map_err(none)?
     }
 
     /// How many markings there are.
@@ -164,17 +166,18 @@ struct Construction<'c> {
 }
 
 impl Search for Construction<'_> {
-    type Found = Result<Graph, Limit>;
+    type Found = Result<Graph, Unfinished>;
 
     fn search<const S: usize>(&mut self, space: Space) -> Result<Self::Found, TooNarrow> {
         let mut parts = Parts::<S>::new(&space, self.limits);
         let ended = parts.explore(&space, self.progress);
+        let states = (parts.markings.len() as u64).min(self.limits.states);
         if let Some(limit) = space.check(&parts.union)? {
-            return Ok(Err(limit));
+            return Ok(Err(Unfinished { limit, states }));
         }
         let Parts { markings, mut starts, successors, fired, .. } = parts;
         let transitions = self.pt.transitions.len() as u32;
-        Ok(ended.map(|()| {
+        Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
             starts.push(successors.len());
             let markings = markings.into_flattened();
             Graph { space, words: S, markings, starts, successors, transitions, fired }

@@ -27,6 +27,7 @@
 //! ```
 
 mod block;
+mod boxes;
 mod diamonds;
 mod enabling;
 mod explore;
@@ -99,6 +100,15 @@ impl Limit {
     fn of(code: u8) -> Option<Self> {
         Self::ALL.get(usize::from(code).checked_sub(1)?).copied()
     }
+}
+
+/// A search that ended before its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unfinished {
+    /// Why.
+    pub limit: Limit,
+    /// Markings that it met.
+    pub states: u64,
 }
 
 /// How far a search is.

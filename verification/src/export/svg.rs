@@ -13,7 +13,10 @@ use super::layout::{Outline, Point, Run};
 use cotama_core::net::{Net, Place, TransitionId};
 use scene::{ENTRY, INITIAL, LOOP, SPACE, Scene};
 use std::fmt::Write as _;
-use text::{Block, Face, NAME, escape};
+use text::{Block, Face, NAME};
+
+pub(crate) use text::short;
+pub use text::{bold_width, escape, width};
 
 /// What to point out in a drawing: where a run is, and what has just happened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,22 +47,30 @@ pub fn write(net: &Net<'_>, style: Style) -> String {
 /// Draws a net with a marking and transitions pointed out.
 pub fn write_highlighted(net: &Net<'_>, style: Style, highlight: &Highlight<'_>) -> String {
     let scene = Scene::of(net, Figure::of(net, style), highlight);
-    let mut out = Svg { text: String::new() };
+    let mut out = Svg { text: String::new(), prefix: "" };
     out.head(&scene);
-    out.text.push_str("<g class=\"edges\">\n");
-    for edge in 0..scene.figure.edges.len() {
-        out.edge(net, &scene, edge, highlight);
-    }
-    out.text.push_str("</g>\n<g class=\"nodes\">\n");
-    for node in 0..scene.figure.nodes.len() {
-        out.node(net, &scene, node);
-    }
-    out.text.push_str("</g>\n</svg>\n");
+    out.body(net, &scene, highlight);
+    out.text.push_str("</svg>\n");
     out.text
 }
 
+/// A drawing to be put into another one that has the [`STYLE`] and the class `cotama`.
+pub(crate) struct Part {
+    pub(crate) width: i64,
+    pub(crate) height: i64,
+    pub(crate) text: String,
+}
+
+/// Draws a net as a part of another drawing. Identifiers begin with a prefix.
+pub(crate) fn part(net: &Net<'_>, style: Style, highlight: &Highlight<'_>, prefix: &str) -> Part {
+    let scene = Scene::of(net, Figure::of(net, style), highlight);
+    let mut out = Svg { text: String::new(), prefix };
+    out.body(net, &scene, highlight);
+    Part { width: scene.layout.width, height: scene.layout.height, text: out.text }
+}
+
 /// Colours are said twice: first for programs that do not know custom properties.
-const STYLE: &str = "\
+pub(crate) const STYLE: &str = "\
 .cotama{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#4b5561;--fill:#eef3f9;--hot:#c2410c;--glow:#ffedd5;\
 color-scheme:light dark;font-family:Helvetica,Arial,'Liberation Sans',system-ui,sans-serif}
 @media screen and (prefers-color-scheme:dark){.cotama{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#8b96a3;\
@@ -86,11 +97,13 @@ color-scheme:light dark;font-family:Helvetica,Arial,'Liberation Sans',system-ui,
 {fill:#ffedd5;fill:var(--glow);stroke:#c2410c;stroke:var(--hot);stroke-width:2}
 ";
 
-struct Svg {
+struct Svg<'p> {
     text: String,
+    /// What identifiers begin with.
+    prefix: &'p str,
 }
 
-impl Svg {
+impl Svg<'_> {
     fn add(&mut self, arguments: std::fmt::Arguments<'_>) {
         // Writing into a string cannot fail.
         let _ = self.text.write_fmt(arguments);
@@ -111,6 +124,18 @@ impl Svg {
         ));
     }
 
+    fn body(&mut self, net: &Net<'_>, scene: &Scene<'_>, highlight: &Highlight<'_>) {
+        self.text.push_str("<g class=\"edges\">\n");
+        for edge in 0..scene.figure.edges.len() {
+            self.edge(net, scene, edge, highlight);
+        }
+        self.text.push_str("</g>\n<g class=\"nodes\">\n");
+        for node in 0..scene.figure.nodes.len() {
+            self.node(net, scene, node);
+        }
+        self.text.push_str("</g>\n");
+    }
+
     fn edge(&mut self, net: &Net<'_>, scene: &Scene<'_>, at: usize, highlight: &Highlight<'_>) {
         let edge = &scene.figure.edges[at];
         let class = match edge.flow {
@@ -119,7 +144,8 @@ impl Svg {
             Flow::Read => "edge read",
         };
         let hot = if scene.is_hot(at, highlight) { " hot" } else { "" };
-        self.add(format_args!("<g id=\"edge-{at}\" class=\"{class}{hot}\">"));
+        let prefix = self.prefix;
+        self.add(format_args!("<g id=\"{prefix}edge-{at}\" class=\"{class}{hot}\">"));
         self.title(&labels_title(net, &edge.labels));
         let label = &scene.labels[at];
         let Some(route) = scene.route_of[at].map(|route| &scene.layout.routes[route]) else {
@@ -218,7 +244,8 @@ impl Svg {
             Kind::Transition(at) => ("transition", "transition", at),
         };
         let hot = if sign.is_hot { " hot" } else { "" };
-        self.add(format_args!("<g id=\"{id}-{index}\" class=\"{class}{hot}\">"));
+        let prefix = self.prefix;
+        self.add(format_args!("<g id=\"{prefix}{id}-{index}\" class=\"{class}{hot}\">"));
         let beside = Point { x: x + half + SPACE, y: y - sign.text.height / 2 };
         match node.kind {
             Kind::State(place) => {

@@ -4,7 +4,7 @@ use super::ctl::ctl;
 use super::fairness::Fairness;
 use super::ltl::{all_runs, some_runs};
 use super::run::{Rest, Run};
-use crate::explicit::{Graph, Limit, Limits, Progress, Reached};
+use crate::explicit::{Graph, Limit, Limits, Progress, Reached, Unfinished};
 use crate::property::{Condition, Ctl, Formula, Reachability};
 use crate::pt::Pt;
 use crate::stubborn::reach_reduced;
@@ -80,7 +80,7 @@ struct Asked<'a> {
     limits: &'a Limits,
     progress: &'a dyn Fn(Progress),
     /// Made when it is needed first.
-    graph: Option<Result<Graph, Limit>>,
+    graph: Option<Result<Graph, Unfinished>>,
 }
 
 impl Asked<'_> {
@@ -142,6 +142,7 @@ impl Asked<'_> {
     }
 
     fn branching(&mut self, formula: &Formula) -> Verdict {
+        let can_be_lost = can_be_lost(formula);
         let Some(formula) = Ctl::new(formula) else {
             return Verdict::Unknown { reason: Reason::Kind, states: 0 };
         };
@@ -149,12 +150,21 @@ impl Asked<'_> {
         match graph.get_or_insert_with(|| Graph::new(pt, limits, progress)) {
             Ok(graph) => {
                 let answer = ctl(graph, &formula, &Fairness::default());
-                let run = answer.witness.filter(|it| it.is_complete).map(|it| it.run);
+                let run = answer.witness.filter(|it| it.is_complete || can_be_lost).map(|it| it.run);
                 Verdict::Known { holds: answer.verdict, run, states: graph.states() as u64 }
             }
-            Err(limit) => Verdict::Unknown { reason: (*limit).into(), states: 0 },
+            Err(it) => Verdict::Unknown { reason: it.limit.into(), states: it.states },
         }
     }
+}
+
+/// `AG EF p`: that it does not hold is shown by a run to a marking from which no run reaches `p`, although that run cannot show
+/// the latter.
+fn can_be_lost(formula: &Formula) -> bool {
+    let Formula::All(always) = formula else { return false };
+    let Formula::Globally(inner) = &**always else { return false };
+    let Formula::Exists(path) = &**inner else { return false };
+    matches!(&**path, Formula::Finally(goal) if goal.is_state())
 }
 
 /// Whether a formula after a quantifier speaks of the whole run, and has no quantifiers: `EX` and `AX` speak of successors.

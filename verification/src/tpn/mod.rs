@@ -27,6 +27,7 @@ mod untimed;
 pub use classes::{ClassId, Classes, classes};
 pub use convert::{Converted, Difference, NotANet, from_net, to_net};
 pub use net::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
+pub(crate) use response::measured;
 pub use response::{Response, Time, bound, bound_from_start};
 pub use schedule::{Date, NoSchedule, Reach, Schedule, Step, deadlock, reach, schedule};
 pub use untimed::{Untimed, markings as untimed};

@@ -68,19 +68,32 @@ pub enum Response {
 /// assert_eq!(bound(&net, ask, idle, &Limits::default()), known);
 /// ```
 pub fn bound(net: &TimeNet, from: TransitionId, to: PlaceId, limits: &Limits<'_>) -> Response {
-    answer(net, Some(from), to, limits)
+    measured(net, Some(from), to, limits).0
 }
 
 /// The least and the most time from the start to the first marking with a token in `to`; else as [`bound`].
 pub fn bound_from_start(net: &TimeNet, to: PlaceId, limits: &Limits<'_>) -> Response {
-    answer(net, None, to, limits)
+    measured(net, None, to, limits).0
 }
 
-fn answer(net: &TimeNet, from: Option<TransitionId>, to: PlaceId, limits: &Limits<'_>) -> Response {
+/// The same, and how many classes there are, or were met.
+pub(crate) fn measured(
+    net: &TimeNet,
+    from: Option<TransitionId>,
+    to: PlaceId,
+    limits: &Limits<'_>,
+) -> (Response, usize) {
     let mut classes = Classes::none(net);
-    if let Err(stop) = classes.explore(limits, true, |_| false) {
-        return Response::Unknown { stop, explored: classes.classes() };
-    }
+    let ended = classes.explore(limits, true, |_| false);
+    let explored = classes.classes();
+    let response = match ended {
+        Ok(_) => response(&classes, from, to, limits),
+        Err(stop) => Response::Unknown { stop, explored },
+    };
+    (response, explored)
+}
+
+fn response(classes: &Classes, from: Option<TransitionId>, to: PlaceId, limits: &Limits<'_>) -> Response {
     let mut entered = HashSet::new();
     let entries: Vec<ClassId> = match from {
         None => vec![0],
@@ -93,8 +106,7 @@ fn answer(net: &TimeNet, from: Option<TransitionId>, to: PlaceId, limits: &Limit
     if entries.is_empty() {
         return Response::NeverFires;
     }
-    let mut search =
-        Search { classes: &classes, to: to.0, limits, met: classes.classes(), bytes: classes.bytes() };
+    let mut search = Search { classes, to: to.0, limits, met: classes.classes(), bytes: classes.bytes() };
     match search.min(&entries).and_then(|min| Ok((min, search.max(&entries)?))) {
         Ok((min, max)) => Response::Between { min, max },
         Err(stop) => Response::Unknown { stop, explored: search.met },

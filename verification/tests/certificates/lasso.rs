@@ -82,9 +82,9 @@ fn a_deadlock_has_no_successor() {
     let lasts = || Evidence::lasso(&stuck, &[], &[]);
     // EX true and AX false are wrong here, whatever the marking that lasts is like.
     let wrong = "evidence: this kind of evidence does not fit the claim";
-    assert_eq!(next(e(x(has("here", 1))), true, lasts()).unwrap_err(), wrong);
-    assert_eq!(next(a(x(has("here", 2))), false, lasts()).unwrap_err(), wrong);
-    for (formula, truth) in [(e(x(has("here", 1))), false), (a(x(has("here", 2))), true)] {
+    assert_eq!(next(ex(has("here", 1)), true, lasts()).unwrap_err(), wrong);
+    assert_eq!(next(ax(has("here", 2)), false, lasts()).unwrap_err(), wrong);
+    for (formula, truth) in [(ex(has("here", 1)), false), (ax(has("here", 2)), true)] {
         assert!(next(formula.clone(), truth, Evidence::Graph(1)).is_ok());
         let error = next(formula, !truth, Evidence::Graph(1)).unwrap_err();
         assert_eq!(error, "evidence.graph: the opposite of what is claimed is so");

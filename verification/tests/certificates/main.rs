@@ -8,6 +8,7 @@ mod parts;
 mod random;
 mod refutation;
 mod search;
+mod small;
 mod stories;
 mod trace;
 

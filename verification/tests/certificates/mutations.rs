@@ -50,7 +50,7 @@ fn certificates() -> Vec<Value> {
         (formula(a(g(e(f(has("full", 1)))))), false),
         (formula(e(g(not(Formula::Deadlock)))), true),
         (formula(a(f(has("empty", 1)))), true),
-        (formula(e(u(has("full", 1), a(x(Formula::Deadlock))))), true),
+        (formula(e(u(has("full", 1), ax(Formula::Deadlock)))), true),
     ] {
         all.push(graph(&battery, question, verdict));
     }
@@ -79,7 +79,9 @@ pub(crate) fn change(json: &mut Value, dice: &mut Dice) {
     let other = json.pointer(&all[dice.roll(all.len())]).unwrap().clone();
     let pointer = &all[dice.roll(all.len())];
     let here = json.pointer_mut(pointer).unwrap();
-    let kinds = ["not", "E", "A", "X", "F", "G", "one", "trace", "deadlock", "live", "state", "or", "and"];
+    let kinds = [
+        "not", "E", "A", "EX", "AX", "X", "F", "G", "one", "trace", "deadlock", "live", "state", "or", "and",
+    ];
     match (dice.roll(4), &mut *here) {
         (0, _) => *here = other,
         (_, Value::Number(number)) => {
@@ -107,7 +109,7 @@ pub(crate) fn change(json: &mut Value, dice: &mut Dice) {
             let inner = fields.values().next().unwrap().clone();
             *here = json!({ kinds[dice.roll(kinds.len())]: inner });
         }
-        (2, _) => *here = json!({ kinds[dice.roll(6)]: here.clone() }),
+        (2, _) => *here = json!({ kinds[dice.roll(8)]: here.clone() }),
         (_, Value::String(text)) if text.contains(' ') => {
             let mut words: Vec<String> = text.split(' ').map(str::to_owned).collect();
             let at = dice.roll(words.len());

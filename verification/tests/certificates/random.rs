@@ -53,7 +53,13 @@ fn any_formula(dice: &mut Dice, depth: usize) -> Formula {
         0 => not(one),
         1 => Formula::And(vec![one, any_formula(dice, depth - 1)]),
         2 => Formula::Or(vec![one, any_formula(dice, depth - 1)]),
-        3 => quantified(dice, x(one)),
+        3 => {
+            if dice.roll(2) == 0 {
+                ex(one)
+            } else {
+                ax(one)
+            }
+        }
         4 => quantified(dice, f(one)),
         5 => quantified(dice, g(one)),
         _ => {

@@ -183,7 +183,7 @@ fn a_transition_that_never_fires_breaks_nothing() {
         &dead,
         vec![
             (&format!("{at}/0"), json!("enter"), &no("facts[0]: `cheat` breaks it")),
-            (&format!("{at}/0"), json!("fly"), &no("dead: there is no `fly`")),
+            (&format!("{at}/0"), json!("fly"), &no("dead[0]: there is no `fly`")),
             (&format!("{at}/1"), json!([]), &no("dead[0]: there are none")),
             (&format!("{at}/1/0/contradiction"), json!([[1, 1]]), &no(&format!("dead[0][0]: {weight}"))),
             (&format!("{at}/1/0/contradiction/1/1"), json!(2), &no(&format!("dead[0][0]: {weight}"))),

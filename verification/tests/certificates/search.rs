@@ -142,6 +142,14 @@ impl Space {
             "or" => list()?
                 .iter()
                 .fold(vec![false; all.len()], |a, b| a.iter().zip(b).map(|(a, b)| *a || *b).collect()),
+            "EX" | "AX" => {
+                let a = self.holds(inner)?;
+                let after = |it: usize| self.next[it].iter().map(|to| a[*to]).collect::<Vec<_>>();
+                all.map(
+                    |it| if kind == "EX" { after(it).contains(&true) } else { !after(it).contains(&false) },
+                )
+                .collect()
+            }
             "E" | "A" => {
                 let every = kind == "A";
                 let step = |good: &[bool], at: usize| {
@@ -165,10 +173,6 @@ impl Space {
                 };
                 let (operator, inner) = inner.as_object()?.iter().next()?;
                 match operator.as_str() {
-                    "X" => {
-                        let a = self.holds(inner)?;
-                        all.map(|it| step(&a, it)).collect()
-                    }
                     "F" => until(vec![true; all.len()], self.holds(inner)?),
                     "G" => {
                         let mut good = self.holds(inner)?;
@@ -183,8 +187,7 @@ impl Space {
                             good = less;
                         }
                     }
-                    // After a deadlock, `!X` is about the marking that lasts, and so is not the opposite of `X`.
-                    "not" if inner.get("X").is_none() => {
+                    "not" => {
                         let opposite = json!({ if every { "E" } else { "A" }: inner });
                         Self::not(self.holds(&opposite)?)
                     }

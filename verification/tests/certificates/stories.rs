@@ -95,6 +95,14 @@ pub(crate) fn a(a: Formula) -> Formula {
     Formula::All(Box::new(a))
 }
 
+pub(crate) fn ex(a: Formula) -> Formula {
+    Formula::ExistsNext(Box::new(a))
+}
+
+pub(crate) fn ax(a: Formula) -> Formula {
+    Formula::AllNext(Box::new(a))
+}
+
 pub(crate) fn x(a: Formula) -> Formula {
     Formula::Next(Box::new(a))
 }

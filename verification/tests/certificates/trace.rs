@@ -58,7 +58,7 @@ fn a_trace_that_does_not_lead_there_is_refused() {
                 json!({"formula": {"A": {"F": "deadlock"}}}),
                 "evidence: this kind of evidence does not fit the claim",
             ),
-            ("/question", json!({"formula": {"E": {"X": "deadlock"}}}), misfit),
+            ("/question", json!({"formula": {"EX": "deadlock"}}), misfit),
             ("/question", json!("live"), "evidence: this kind of evidence does not fit the claim"),
             (
                 "/question",
@@ -73,7 +73,7 @@ fn a_trace_that_does_not_lead_there_is_refused() {
 fn a_successor_is_one_step_away() {
     let battery = battery();
     let misfit = "evidence: this kind of evidence does not fit the claim";
-    let question = Question::Formula(a(x(has("full", 2))));
+    let question = Question::Formula(ax(has("full", 2)));
     let certificate = Certificate::of(&battery, "", question.clone(), false, Evidence::trace(&battery, &[0]));
     assert_eq!(
         shown(&certificate),

@@ -146,11 +146,11 @@ fn a_changed_arc_breaks_a_law_and_the_player_runs_into_it() {
         ("watchdog", 23, 37, 22),
         ("charger", 36, 75, 67),
         ("crossing", 29, 84, 59),
-        // Nothing but `always_can` breaks here, and that no run shows.
-        ("ace_request", 8, 0, 0),
-        ("ace_selection", 36, 51, 22),
-        ("ace_behaviour", 34, 44, 44),
-        ("ace_accuracy", 26, 50, 20),
+        // Nothing but `always_can` breaks here: a run leads to where the place is lost.
+        ("ace_request", 8, 14, 14),
+        ("ace_selection", 36, 239, 94),
+        ("ace_behaviour", 34, 131, 131),
+        ("ace_accuracy", 26, 141, 70),
     ];
     assert_eq!(counts, expected);
 }

@@ -93,6 +93,8 @@ fn two_transitions_are_never_used() {
     net.transitions.retain(|it| it.name != "warm_up");
     let pt = Pt::from(&net.view().net());
     golden("unused.txt", &unused(&pt).to_string());
+    golden("unused.html", &unused(&pt).html(Some(&net.view().net())));
+    golden("unused.svg", &unused(&pt).svg(Some(&net.view().net())));
     let trains = Pt::from(&nets::trains().view().net());
     assert!(unused(&trains).is_empty());
     let words = "Every transition fires in some run, and every place is marked in one.\n";

@@ -89,10 +89,34 @@ fn the_only_token_of_nine_thousand_places_bounds_them_all() {
 }
 
 #[test]
+fn of_thousands_of_transitions_none_fires_with_the_token_of_one_place_alone() {
+    // Two tokens that move side by side, so that none is ever one place ahead of the other.
+    let places: u32 = 2_000;
+    let side_by_side =
+        (1..places).map(|it| (vec![(it - 1, 1), (places + it - 1, 1)], vec![(it, 1), (places + it, 1)]));
+    let ahead = (1..places).map(|it| (vec![(it - 1, 1), (places + it, 1)], vec![]));
+    let all: Vec<(Vec<_>, Vec<_>)> = side_by_side.chain(ahead).collect();
+    let all: Vec<[&[(u32, u32)]; 3]> = all.iter().map(|(take, give)| [&take[..], &[], &give[..]]).collect();
+    let initial: Vec<u32> = (0..2 * places).map(|it| u32::from(it % places == 0)).collect();
+    let space = super::space(&super::net(&initial, &all));
+    assert_eq!((space.states, space.arcs, space.dead_markings), (2_000, 1_999, 1));
+}
+
+#[test]
 fn five_hundred_places_fit_in_a_marking() {
     let chain = space(&chain(500));
     assert_eq!((chain.states, chain.arcs, chain.dead_markings, chain.limit), (500, 499, 1, None));
     assert_eq!(chain.bounds, vec![1; 500]);
+}
+
+#[test]
+fn a_level_of_five_thousand_large_markings_is_counted_whole() {
+    let mut initial = vec![0; 5_001];
+    initial[0] = 1;
+    let gives: Vec<[(u32, u32); 1]> = (1..=5_000).map(|it| [(it, 1)]).collect();
+    let moves: Vec<[&[(u32, u32)]; 3]> = gives.iter().map(|give| [&[(0, 1)][..], &[], &give[..]]).collect();
+    let star = space(&net(&initial, &moves));
+    assert_eq!((star.states, star.arcs, star.dead_markings, star.limit), (5_001, 5_000, 5_000, None));
 }
 
 #[test]

@@ -176,7 +176,7 @@ fn graphs_are_those_of_a_plain_search_with_the_same_numbers() {
         let graph = match Graph::new(&pt, &limits, &|_| ()) {
             Ok(graph) => graph,
             Err(limit) => {
-                assert!(limit == Limit::States && !expected.is_complete, "seed {seed}");
+                assert!(limit.limit == Limit::States && !expected.is_complete, "seed {seed}");
                 continue;
             }
         };

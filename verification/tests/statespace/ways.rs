@@ -46,6 +46,19 @@ fn of_two_transitions_with_the_same_effect_the_first_that_is_enabled_leads_the_w
 }
 
 #[test]
+fn of_two_shortest_ways_the_one_with_the_first_last_transition_is_told() {
+    let step = |from: &'static [(u32, u32)], to: &'static [(u32, u32)]| [from, &[][..], to];
+    let fork = [step(&[(0, 1)], &[(1, 1)]), step(&[(0, 1)], &[(2, 1)])];
+    let join = [step(&[(1, 1)], &[(3, 1)]), step(&[(2, 1)], &[(3, 1)])];
+    let pt = net(&[1, 0, 0, 0], &[fork, join].concat());
+    let way = vec![TransitionId(0), TransitionId(2)];
+    let Reached::Trace { transitions, .. } = search(&pt, &at_least(3, 1), 1) else {
+        panic!("there is a way")
+    };
+    assert_eq!(transitions, way);
+}
+
+#[test]
 fn ways_are_the_same_on_any_number_of_threads() {
     let pt = Pt::from(&kanban(4).unwrap().view().net());
     let places = 0..pt.places.len() as u32;

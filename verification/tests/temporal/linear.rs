@@ -201,6 +201,31 @@ fn an_unbounded_net_is_followed_as_far_as_the_formula_asks() {
 }
 
 #[test]
+fn a_loop_keeps_all_promises() {
+    let mut crossing = OwnedNet::new("crossing", "");
+    let [middle, left, right] = [("middle", 1), ("left", 0), ("right", 0)]
+        .map(|it| crossing.place(OwnedPlace::new(it.0, it.1)).unwrap());
+    for (name, from, to) in [
+        ("go_left", middle, left),
+        ("from_left", left, middle),
+        ("go_right", middle, right),
+        ("from_right", right, middle),
+    ] {
+        crossing.transition(OwnedTransition::new(name).take(from, 1).give(to, 1)).unwrap();
+    }
+    let crossing = Pt::from(&crossing.view().net());
+    let path = "(G F left >= 1) & (G F right >= 1)";
+    let said = formula(&crossing, &format!("E ({path})"));
+    let verdict = answer(&crossing, &said, &Limits::default(), &|_| ());
+    let Verdict::Known { holds: true, run: Some(Run { rest: Rest::Cycle(mut cycle), .. }), .. } = verdict
+    else {
+        panic!("{verdict:?}")
+    };
+    cycle.sort();
+    assert_eq!(cycle, [0, 1, 2, 3].map(TransitionId));
+}
+
+#[test]
 fn limits_are_answers() {
     let limits = Limits { states: 50, ..Limits::default() };
     let unknown = |limit: Limit, states| Verdict::Unknown { reason: Reason::Limit(limit), states };

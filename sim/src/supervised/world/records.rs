@@ -3,10 +3,11 @@
 use super::telling::Objective;
 use super::{PERIOD, World};
 use crate::record::Recorder;
-use crate::supervised::Conduct;
+use crate::supervised::{self, Conduct};
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told};
 use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
 use cotama_core::net::{Net, Role, Transition};
+use cotama_core::system::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{self, Class, Flag, Mode, Severity, delivery};
 
@@ -31,7 +32,7 @@ struct Noted {
     exposing: bool,
 }
 
-impl World<'_> {
+impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// Records what the last round brought.
     pub(in crate::supervised) fn record<R: Recorder>(&self, done: &mut Recorded, period: Millis, to: &mut R) {
         let (t_us, x_mm) = (self.now.0.saturating_sub(PERIOD.0) * 1000, self.robot.x().0);
@@ -53,8 +54,8 @@ impl World<'_> {
                 t_us,
                 x_mm,
                 net: it.net.into(),
-                transition: it.transition.into(),
-                place: transition(it.net, it.transition).map_or("", |(net, it)| place(net, it)).into(),
+                transition: it.transition.clone(),
+                place: self.transition(it).map_or("", |(net, it)| place(net, it)).into(),
                 cause: (it.cause.0 > 0).then_some(it.cause.0),
             }));
         }
@@ -68,16 +69,16 @@ impl World<'_> {
                 x_mm,
                 failure: one_based(number),
                 decision: decided.name().into(),
-                event: by.and_then(|by| says(by.net, by.transition)).map(Into::into),
-                transition: by.map(|by| by.transition.into()),
+                event: by.and_then(|by| self.first_output(by)).map(Into::into),
+                transition: by.map(|by| by.transition.clone()),
                 since_ms: at.0.saturating_sub(it.injected.0),
             }));
         }
         for &(round, told) in &run.told[done.told..] {
-            to.record(Record::Told(Told { t_us, x_mm, round, event: event_name(told) }));
+            to.record(Record::Told(Told { t_us, x_mm, round, event: self.event_name(told) }));
         }
         done.told = run.told.len();
-        for it in fired.iter().filter(|it| says_also(it.net, it.transition, "op_request")) {
+        for it in fired.iter().filter(|it| self.says_also(it, "op_request")) {
             let conduct = usize::from(it.cause.0).checked_sub(1).and_then(|at| run.conduct.get(at));
             let cause = conduct.map_or_else(|| "no failure".into(), |it| candidates(it).join(" or "));
             let reason = "the robot cannot go on alone".into();
@@ -91,6 +92,43 @@ impl World<'_> {
         done.configurations = run.configurations.len();
         self.record_exposures(done, t_us, to);
         self.record_progress(done, period, to);
+    }
+
+    /// A net of the supervisors: the global one is that of this mission.
+    fn net(&self, name: &str) -> Option<&Net<'_>> {
+        if name == "gs" {
+            return Some(&self.global_net);
+        }
+        delivery::SYSTEM.components.iter().find(|it| it.name == name).map(|it| it.net)
+    }
+
+    /// The transition that fired.
+    fn transition(&self, fired: &supervised::Fired) -> Option<(&Net<'_>, &Transition<'_>)> {
+        let net = self.net(fired.net)?;
+        Some((net, net.transitions.iter().find(|it| it.name == fired.transition)?))
+    }
+
+    /// What a transition says first.
+    fn first_output(&self, fired: &supervised::Fired) -> Option<&str> {
+        let (net, transition) = self.transition(fired)?;
+        let said = transition.emits.first()?;
+        net.outputs.get(said.0 as usize).map(|it| it.name)
+    }
+
+    /// Whether a transition says something.
+    fn says_also(&self, fired: &supervised::Fired, output: &str) -> bool {
+        let Some((net, transition)) = self.transition(fired) else { return false };
+        transition.emits.iter().any(|it| net.outputs.get(it.0 as usize).is_some_and(|it| it.name == output))
+    }
+
+    /// An event of the supervisors: its net and its name.
+    fn event_name(&self, told: cotama::Told) -> String {
+        let event = told.event();
+        let component =
+            delivery::SYSTEM.components.get(usize::from(event.component)).map_or("", |it| it.name);
+        let name =
+            self.net(component).and_then(|net| net.events.get(event.id.0 as usize)).map_or("", |it| it.name);
+        format!("{component}.{name}")
     }
 
     fn record_diagnoses<R: Recorder>(&self, done: &mut Recorded, t_us: u64, to: &mut R) {
@@ -236,40 +274,10 @@ fn candidates(conduct: &Conduct) -> Vec<String> {
     }
 }
 
-/// A transition of the supervisors, by name.
-fn transition(net: &str, name: &str) -> Option<(&'static Net<'static>, &'static Transition<'static>)> {
-    let net = delivery::SYSTEM.components.iter().find(|it| it.name == net)?.net;
-    Some((net, net.transitions.iter().find(|it| it.name == name)?))
-}
-
 /// The state that is marked after a transition.
-fn place(net: &'static Net<'static>, transition: &Transition<'static>) -> &'static str {
+fn place<'n>(net: &Net<'n>, transition: &Transition<'n>) -> &'n str {
     let places = transition.give.iter().filter_map(|it| net.places.get(it.place.0 as usize));
-    places.into_iter().find(|it| it.role == Role::State).map_or("", |it| it.name)
-}
-
-/// What a transition says first.
-fn says(net: &str, name: &str) -> Option<&'static str> {
-    let (net, transition) = transition(net, name)?;
-    let said = transition.emits.first()?;
-    net.outputs.get(said.0 as usize).map(|it| it.name)
-}
-
-/// Whether a transition says something.
-fn says_also(net: &str, name: &str, output: &str) -> bool {
-    let Some((net, transition)) = transition(net, name) else { return false };
-    transition.emits.iter().any(|it| net.outputs.get(it.0 as usize).is_some_and(|it| it.name == output))
-}
-
-/// An event of the supervisors: its net and its name.
-fn event_name(told: cotama::Told) -> String {
-    let event = told.event();
-    let component = delivery::SYSTEM.components.get(usize::from(event.component));
-    let name = |component: &cotama_core::system::Component<'static>| {
-        let event = component.net.events.get(event.id.0 as usize)?;
-        Some(format!("{}.{}", component.name, event.name))
-    };
-    component.and_then(name).unwrap_or_default()
+    { places }.find(|it| it.role == Role::State).map_or("", |it| it.name)
 }
 
 /// An autonomy mode in traces.

@@ -9,11 +9,12 @@ use crate::supervised::{Decided, Fired, Judged, PERIOD, PLANNING};
 
 /// How long the planner may take beyond what it usually does (FMECA, row PPL1).
 const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
-use cotama_core::system::{Happening, Offered};
+use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, FailureMode, Flags, Loss, Losses, Mode, Module, Modules, Report,
-    Severity, Told, by_availability, decide, delivery, diagnose, faults, global, judge, local, operator,
+    Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
+    Severity, Told, by_availability, decide, delivery, diagnose, faults, global, is_detectable, judge, local,
+    operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
@@ -35,7 +36,7 @@ pub(super) enum Objective {
     Safe,
 }
 
-impl World<'_> {
+impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// What the global supervisor is about. Its places are: waiting, the objectives, done, security, safe.
     pub(super) fn objective(&self) -> Objective {
         let (place, count) = (self.global.0 as usize, self.mission.objectives.len());
@@ -66,12 +67,33 @@ impl World<'_> {
             }
         }
         let Some(&first) = seen.first() else { return };
-        let diagnosis = diagnose(raised, self.known.available());
+        let diagnosis = diagnose(raised, self.observing());
         for &number in &seen {
             self.run.conduct[number].detected = Some((self.now, diagnosis));
             self.run.conduct[number].flags = raised;
         }
-        self.conclude(diagnosis, Cause(first as u16 + 1));
+        let cause = Cause(first as u16 + 1);
+        // Several at once: whatever always raises some of the flags may be among them, and is taken to be.
+        let status = self.observing();
+        let shown =
+            |it: &FailureMode| raised.covers(it.rule().signature.always) && is_detectable(*it, status);
+        let modes: Vec<_> = match diagnosis {
+            Diagnosis::Unexplained => FailureMode::ALL.iter().copied().filter(shown).collect(),
+            _ => Vec::new(),
+        };
+        if modes.is_empty() {
+            self.conclude(diagnosis, cause);
+        }
+        for mode in modes {
+            self.conclude(Diagnosis::Unique(mode), cause);
+        }
+    }
+
+    /// The modules that work as far as is known: what the operator has set right is not held against its observers.
+    fn observing(&self) -> Modules {
+        let found = self.failures.iter().zip(&self.run.conduct).filter(|(it, _)| !it.over);
+        let found = found.filter_map(|(it, conduct)| conduct.detected.map(|(_, what)| what.health(it.part)));
+        found.fold(Health::SOUND, Health::union).available()
     }
 
     /// What follows from a diagnosis: what is lost is planned around, and reported.
@@ -81,6 +103,9 @@ impl World<'_> {
         self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
         let left = self.known.available();
         self.lose(Losses::lacking(left), cause);
+        if before.has(Module::Dvz) && !left.has(Module::Dvz) && !self.lost.has(Loss::Vital) {
+            self.untold.push_back((Told::Failure(faults::Event::lose_avoidance), cause));
+        }
         let (report, severity) = match diagnosis {
             Diagnosis::None => return,
             Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
@@ -90,7 +115,9 @@ impl World<'_> {
         let Some(report) = report else {
             // It is recorded, and nobody has to decide.
             let conduct = usize::from(cause.0).checked_sub(1).and_then(|it| self.run.conduct.get_mut(it));
-            conduct.into_iter().for_each(|it| it.decided = Some((self.now, Decided::Record)));
+            if let Some(it) = conduct {
+                it.decided = Some((self.now, Decided::Record));
+            }
             return;
         };
         // A failure that is worse here than the event of its report says asks for the operator by itself.
@@ -105,6 +132,25 @@ impl World<'_> {
         if left != before && self.plan_again(before.without(left), cause).is_err() {
             // The adapter has nothing to switch to: the operator is asked.
             self.untold.push_back((Told::Failure(faults::Event::fail_hard), cause));
+        }
+    }
+
+    /// Compares what was used with the plan, once a second; plans again when a margin is below zero, and asks the operator when
+    /// there is no such plan (Lambert et al. 2024, Section 5: performance margins).
+    pub(super) fn watch_margins(&mut self) {
+        let at = self.progress();
+        if self.resigned
+            || !self.now.0.is_multiple_of(1_000)
+            || !matches!(self.objective(), Objective::Drives(_))
+        {
+            return;
+        }
+        let Some(axis) = self.planning.short(at) else { return };
+        if self.planning.plan(run::Cause::Margin { axis }, at, self.known.available()).is_ok() {
+            self.do_without(Cause(0));
+        } else {
+            self.resigned = true;
+            self.untold.push_back((Told::Failure(faults::Event::fail_hard), Cause(0)));
         }
     }
 
@@ -191,7 +237,8 @@ impl World<'_> {
         let mut seen = Vec::new();
         let _ = self.level.round(self.now, &mut |it: &Happening<Cause>| seen.push(*it));
         self.run.rounds += 1;
-        let mut said = self.says();
+        // What the mission and the operator have to say waits for failures.
+        let mut said = if self.untold.is_empty() { self.says() } else { None };
         while let Some((told, cause)) = self.untold.pop_front().or_else(|| said.take()) {
             let offered = self.level.tell(self.now, told, cause, &mut |it: &Happening<Cause>| seen.push(*it));
             if let Offered::Fired(_) = offered {
@@ -199,7 +246,9 @@ impl World<'_> {
                 break;
             }
         }
-        seen.iter().for_each(|it| self.note(it));
+        for it in &seen {
+            self.note(it);
+        }
         self.arrive_at_places();
     }
 
@@ -210,25 +259,23 @@ impl World<'_> {
         match *happening {
             Happening::Fired { transition: id, carries, .. } => {
                 let Some(component) = system.components.get(usize::from(id.component)) else { return };
-                let Some(transition) = component.net.transitions.get(id.id.0 as usize) else { return };
-                let (net, at) = (component.name, self.now);
-                if net == "faults" || net == "operator" {
+                let (name, at) = (component.name, self.now);
+                let net = if name == "gs" { &self.global_net } else { component.net };
+                let Some(transition) = net.transitions.get(id.id.0 as usize) else { return };
+                if name == "faults" || name == "operator" {
                     return;
                 }
-                self.run.fired.push(Fired { at, net, transition: transition.name, cause: carries });
-                if net == "ls"
-                    && transition
-                        .emits
-                        .iter()
-                        .any(|it| component.net.outputs[it.0 as usize].name == "op_request")
-                {
+                let transition_name = transition.name.to_owned();
+                self.run.fired.push(Fired { at, net: name, transition: transition_name, cause: carries });
+                let mut says = transition.emits.iter().filter_map(|it| net.outputs.get(it.0 as usize));
+                if name == "ls" && says.any(|it| it.name == "op_request") {
                     self.run.operator_requests += 1;
                 }
                 let Some(conduct) = conduct(carries).and_then(|it| self.run.conduct.get_mut(it)) else {
                     return;
                 };
-                let said = transition.emits.first().and_then(|it| component.net.outputs.get(it.0 as usize));
-                match (net, said) {
+                let said = transition.emits.first().and_then(|it| net.outputs.get(it.0 as usize));
+                match (name, said) {
                     ("cs", Some(said)) => {
                         conduct.decided.get_or_insert((at, Decided::from(said.name)));
                     }
@@ -293,11 +340,12 @@ impl World<'_> {
                 if waited(self.global_since) < self.planning.standing(activity).0 {
                     return None;
                 }
-                let event = match self.mission.objectives[it].does.as_ref().map(|it| it.value) {
-                    Some(Does::Deliver) => global::Event::object_delivered,
-                    _ => global::Event::object_received,
+                let told = match self.mission.objectives[it].does.as_ref().map(|it| it.value) {
+                    Some(Does::Deliver) => Told::Mission(global::Event::object_delivered),
+                    Some(Does::Receive) => Told::Mission(global::Event::object_received),
+                    _ => Told::WaitOver,
                 };
-                return Some((Told::Mission(event), none));
+                return Some((told, none));
             }
             Objective::Drives(_) => {}
             _ => return None,
@@ -308,6 +356,7 @@ impl World<'_> {
             }
             local::State::Planning if waited(self.local_since) >= PLANNING.0 + PATIENCE_WITH_PLANNER.0 => {
                 self.local_since = self.now;
+                self.plannings_failed += 1;
                 Some((Told::Failure(faults::Event::no_path), none))
             }
             local::State::Following if at_goal => Some((Told::Drive(local::Event::goal_reached), none)),
@@ -350,9 +399,11 @@ impl World<'_> {
             x: self.robot.x(),
             link: left.has(Module::Lan) && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
             camera: left.has(Module::Cam),
-            planner_failed: report == Some(Report::Planner),
-            can_go_on: left.covers(Configuration::FollowingOdometric.facts().required),
+            planner_failed: report == Some(Report::Planner) && self.plannings_failed < 2,
+            can_go_on: self.plannings_failed < 2
+                && left.covers(Configuration::FollowingOdometric.facts().required),
             at_goal,
+            moves: self.robot.speed().0 > 0,
         }
     }
 }

@@ -1,34 +1,20 @@
-//! The checker of certificates. It uses nothing of this crate but the data types of [`certificate`](super), and its claims: what
-//! questions mean.
+//! The checker of certificates. This folder is all of it, in fewer than 400 lines; no engine has a part in it.
+//!
+//! What it shares with the rest of the crate decides nothing about evidence: the data types of a file, their reading with numbers
+//! for names (`read.rs`), weighted sums (`sum.rs`), and the words of the answer ([`Verified`]). Here is what evidence has to
+//! show; in `truth` the firing rule, what questions mean and where formulas hold; in `refutation` proofs without markings.
 
-pub(super) mod net;
-pub(super) mod refutation;
-mod space;
+mod refutation;
+mod truth;
 
-use super::claim::Claim::{self, And, Exists, Not, Successor, Unbounded};
-use super::{Certificate, Evidence, SCHEMA, Verified, VerifyError};
-use net::{Marking, Net};
-use std::fmt::Display;
+use super::read::{self, Checked, Numbered, at, each, ensure, error};
+use super::sum::Marking;
+use super::{Evidence, Formula, Growth, Question, Verified, VerifyError};
+use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};
+use truth::Space;
 
-/// The longest text of a certificate, in bytes.
-pub const MAX_BYTES: usize = 1 << 26;
-/// The most work: about so many arcs and terms are looked at, and bytes are used.
-pub const MAX_WORK: u64 = 1 << 30;
-
-pub(super) type Checked<T> = Result<T, VerifyError>;
-
-fn fail<T>(message: impl Display) -> Checked<T> {
-    Err(VerifyError { at: String::new(), message: message.to_string() })
-}
-
-fn ensure(holds: bool, message: impl Display) -> Checked<()> {
-    if holds { Ok(()) } else { fail(message) }
-}
-
-/// Puts the part of the certificate in front of where an error is.
-fn at(part: impl Display) -> impl FnOnce(VerifyError) -> VerifyError {
-    move |it| VerifyError { at: format!("{part}{}", it.at), ..it }
-}
+pub use super::read::{MAX_BYTES, MAX_WORK};
+pub(super) use refutation::Known;
 
 /// Checks a certificate.
 ///
@@ -37,65 +23,82 @@ fn at(part: impl Display) -> impl FnOnce(VerifyError) -> VerifyError {
 /// When the text is no certificate, is beyond the limits of [this module](self), or does not show what it claims. A
 /// certificate that is refused does not show that its verdict is wrong.
 pub fn verify(text: &str) -> Result<Verified, VerifyError> {
-    let long = format_args!("has {} bytes; at most {MAX_BYTES} are read", text.len());
-    ensure(text.len() <= MAX_BYTES, long).map_err(at("certificate"))?;
-    let read: Certificate = serde_json::from_str(text).or_else(fail).map_err(at("certificate"))?;
-    ensure(read.schema == SCHEMA, format_args!("is `{}`, not `{SCHEMA}`", read.schema))
-        .map_err(at("schema"))?;
-    let net = Net::read(&read.net).map_err(at("net"))?;
-    let claim = net.question(&read.question).map_err(at("question"))?;
-    net.prove(&net.initial, &claim, read.verdict, &read.evidence).map_err(at("evidence"))?;
-    Ok(Verified::of(&read))
+    let read = read::certificate(text)?;
+    let net = Numbered::new(&read.net).map_err(at("net"))?;
+    let shown = match (&read.question, &read.evidence) {
+        (Question::Unbounded { places }, Evidence::Growth(by)) if read.verdict => net.grows(places, by),
+        (question, by) => {
+            let formula = net.meaning(question).map_err(at("question"))?;
+            net.prove(&net.initial, &formula, read.verdict, by)
+        }
+    };
+    shown.map(|()| Verified::of(&read)).map_err(at("evidence"))
 }
 
-impl Net<'_> {
-    /// That the claim has this truth at this marking, by this evidence.
-    fn prove(&self, from: &Marking, claim: &Claim, truth: bool, by: &Evidence) -> Checked<()> {
-        match (by, claim, claim.until()) {
-            (Evidence::None, ..) => fail("there is no evidence"),
-            (_, Not(inner), _) => self.prove(from, inner, !truth, by),
-            (Evidence::State, ..) => self.marking(from).shows(claim, truth),
-            (Evidence::Each(all), And(parts), _) if truth => {
-                let message =
-                    format_args!("there are {} parts of evidence for {} claims", all.len(), parts.len());
-                ensure(all.len() == parts.len(), message)?;
-                all.iter().zip(parts).enumerate().try_for_each(|(n, (by, part))| {
-                    self.prove(from, part, true, by).map_err(at(format_args!(".each[{n}]")))
-                })
+const MISFIT: &str = "this kind of evidence does not fit the claim";
+
+/// The operands of `a U b`, as which a path formula is read that holds, or does not: `F b` is `true U b`, and `!G b` is `F !b`. Last,
+/// whether the second one is to hold.
+fn until(path: &Formula, holds: bool) -> Checked<(Option<&Formula>, &Formula, bool)> {
+    match (path, holds) {
+        (Not(path), _) => until(path, !holds),
+        (Finally(goal), true) | (Globally(goal), false) => Ok((None, goal, holds)),
+        (Until(both), true) => Ok((Some(&both.0), &both.1, true)),
+        _ => Err(error(MISFIT)),
+    }
+}
+
+impl Numbered<'_> {
+    /// That the formula has this truth at this marking, by this evidence.
+    fn prove(&self, from: &Marking, formula: &Formula, truth: bool, by: &Evidence) -> Checked<()> {
+        // Whether something is claimed of every part, marking or run; else of one.
+        let every = truth == matches!(formula, And(_) | All(_) | AllNext(_));
+        match (by, formula) {
+            (Evidence::None, _) => Err(error("there is no evidence")),
+            (_, Not(inner)) => self.prove(from, inner, !truth, by),
+            (Evidence::State, _) => self.shows(&Space::of(from), formula, truth),
+            (Evidence::Graph(count), _) => {
+                self.graph(from, *count).and_then(|it| self.shows(&it, formula, truth)).map_err(at(".graph"))
             }
-            (Evidence::One(one), And(parts), _) if !truth => match parts.get(one.part) {
-                Some(part) => self.prove(from, part, false, &one.by).map_err(at(".one.by")),
-                None => fail(format_args!("there are {} parts", parts.len())).map_err(at(".one.part")),
-            },
-            (Evidence::Trace(it), Successor(goal), _) if truth && it.fire.len() == 1 => {
-                let way = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
-                self.prove(&way[1], goal, true, &it.then).map_err(at(".trace.then"))
+            (Evidence::Each(by), And(parts) | Or(parts)) if every => {
+                let (all, claims) = (by.len(), parts.len());
+                ensure(all == claims, format_args!("there are {all} parts of evidence for {claims} claims"))?;
+                let shown = each(by.iter().zip(parts), |(by, part)| self.prove(from, part, truth, by));
+                shown.map(drop).map_err(at(".each"))
             }
-            (Evidence::Trace(it), _, Some(both)) if truth => {
-                let way = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
-                for (n, now) in way[..it.fire.len()].iter().enumerate() {
-                    self.marking(now).shows(&both.0, true).map_err(at(format!(".trace.fire[{n}]")))?;
-                }
-                self.prove(&way[it.fire.len()], &both.1, true, &it.then).map_err(at(".trace.then"))
+            (Evidence::One(one), And(parts) | Or(parts)) if !every => {
+                let none = || error(format_args!("there are {} parts", parts.len()));
+                let part = parts.get(one.part).ok_or_else(none).map_err(at(".one.part"))?;
+                self.prove(from, part, truth, &one.by).map_err(at(".one.by"))
             }
-            (Evidence::Lasso(it), Exists(path), _) if truth => {
-                self.run(from, it).and_then(|it| it.shows(path, true)).map_err(at(".lasso"))
+            (Evidence::Trace(it), ExistsNext(goal) | AllNext(goal)) if !every && it.fire.len() == 1 => {
+                let (_, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
+                self.prove(&end, goal, truth, &it.then).map_err(at(".trace.then"))
             }
-            (Evidence::Growth(growth), Unbounded(sum), _) if truth => {
-                let stem = self.way(from, &growth.stem).map_err(at(".growth.stem"))?;
-                let pump = self.way(&stem[growth.stem.len()], &growth.pump).map_err(at(".growth.pump"))?;
-                let (before, after) = (&pump[0], &pump[growth.pump.len()]);
-                let kept = before.iter().zip(after).all(|(before, after)| before <= after);
-                let grows = kept && sum.value(before) < sum.value(after);
-                ensure(grows, "takes tokens away, or adds none where asked").map_err(at(".growth.pump"))
+            (Evidence::Trace(it), Exists(path) | All(path)) if !every => {
+                let (first, goal, holds) = until(path, truth)?;
+                let (way, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
+                let first = |at: &_| first.map_or(Ok(()), |it| self.shows(&Space::of(at), it, true));
+                each(&way, first).map_err(at(".trace.fire"))?;
+                self.prove(&end, goal, holds, &it.then).map_err(at(".trace.then"))
             }
-            (Evidence::Refutation(by), _, Some(both)) if !truth => {
-                self.refute(from, &both.1, by).map_err(at(".refutation"))
+            (Evidence::Lasso(it), Exists(path) | All(path)) if !every => {
+                self.run(from, it).and_then(|it| self.shows(&it, path, truth)).map_err(at(".lasso"))
             }
-            (Evidence::Graph(it), ..) => {
-                self.graph(from, *it).and_then(|it| it.shows(claim, truth)).map_err(at(".graph"))
+            (Evidence::Refutation(by), Exists(path) | All(path)) if every => {
+                let (_, goal, holds) = until(path, !truth)?;
+                self.refute(from, goal, holds, by).map_err(at(".refutation"))
             }
-            _ => fail("this kind of evidence does not fit the claim"),
+            _ => Err(error(MISFIT)),
         }
+    }
+
+    /// That what can be repeated takes nothing away, and adds tokens to some of these places.
+    fn grows(&self, places: &[String], by: &Growth) -> Checked<()> {
+        let (_, before) = self.way(&self.initial, &by.stem).map_err(at(".growth.stem"))?;
+        let (_, after) = self.way(&before, &by.pump).map_err(at(".growth.pump"))?;
+        let kept = before.iter().zip(&after).all(|(before, after)| before <= after);
+        let grows = places.iter().any(|it| self.place(it).is_ok_and(|it| before[it] < after[it]));
+        ensure(kept && grows, "takes tokens away, or adds none where asked").map_err(at(".growth.pump"))
     }
 }

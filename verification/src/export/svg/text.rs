@@ -32,7 +32,7 @@ const HELVETICA: [u16; 95] = [
 
 /// The width of a text at a size, in pixels, rounded up. Characters beyond ASCII count as an average capital, those
 /// from the East Asian scripts on as a square.
-pub(super) fn width(text: &str, size: i64) -> i64 {
+pub fn width(text: &str, size: i64) -> i64 {
     let thousandths = |c: char| match c {
         ' '..='~' => i64::from(HELVETICA[c as usize - ' ' as usize]),
         '\u{1100}'.. => 1000,
@@ -42,12 +42,12 @@ pub(super) fn width(text: &str, size: i64) -> i64 {
 }
 
 /// The same in bold.
-pub(super) fn bold_width(text: &str, size: i64) -> i64 {
+pub fn bold_width(text: &str, size: i64) -> i64 {
     (width(text, size) * 108 + 99) / 100
 }
 
 /// A name as it is drawn: in one line, not too long.
-pub(super) fn short(name: &str) -> String {
+pub(crate) fn short(name: &str) -> String {
     let plain: Vec<char> = name.chars().map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
     if plain.len() <= LONGEST {
         return plain.into_iter().collect();
@@ -57,7 +57,7 @@ pub(super) fn short(name: &str) -> String {
 }
 
 /// Escapes a text for XML, in elements and in attributes. Characters that XML 1.0 has no way to write become U+FFFD.
-pub(super) fn escape(text: &str) -> String {
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -1,0 +1,48 @@
+//! The command line of `cotama fmeca`.
+
+use super::Json;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+pub(crate) const FMECA_EXAMPLES: &str = "\
+Severities: weak, medium, hard, fatal; the first while the robot drives itself, the second while the
+operator drives.
+
+Examples:
+  $ cotama fmeca
+  $ cotama fmeca --diagnosability
+  $ cotama fmeca --format csv | head -1
+  $ cotama fmeca --output fmeca.html                        # the format by the name of the file
+  $ cotama fmeca --function localise --output localise.svg
+  $ cotama fmeca --json";
+
+#[derive(Args, Debug)]
+pub(crate) struct FmecaArgs {
+    /// Writes it in this format [default: by the end of the name of the output]
+    #[arg(long, value_enum, conflicts_with_all = ["json", "diagnosability"])]
+    pub(crate) format: Option<FmecaFormat>,
+    /// The file to write, in place of standard output
+    #[arg(long, short, value_name = "FILE", conflicts_with_all = ["json", "diagnosability"])]
+    pub(crate) output: Option<PathBuf>,
+    /// Of the diagrams, the one of this function, as `localise`
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["json", "diagnosability"])]
+    pub(crate) function: Option<String>,
+    /// Shows which failure modes cannot be told apart, and what would help
+    #[arg(long)]
+    pub(crate) diagnosability: bool,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+/// What the analysis is written as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum FmecaFormat {
+    /// The table, for Markdown (.md)
+    Md,
+    /// The table with all columns, comma-separated (.csv)
+    Csv,
+    /// A page with table, diagrams and diagnosability (.html)
+    Html,
+    /// The cause-effect diagrams (.svg)
+    Svg,
+}

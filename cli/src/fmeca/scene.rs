@@ -1,0 +1,204 @@
+//! Drawings as data: shapes and texts with their places, so that what is drawn can also be measured.
+
+use cotama_verification::export::svg::{bold_width, escape, width};
+use std::fmt::Write;
+
+/// How a text looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Face {
+    /// The function in the head.
+    Head,
+    /// A component.
+    Component,
+    /// A failure.
+    Failure,
+    /// A cause, and other words that explain.
+    Quiet,
+    /// An identifier or a letter on colour, centred.
+    Badge,
+    /// The same on dark colour.
+    DarkBadge,
+}
+
+impl Face {
+    /// Its size in pixels.
+    const fn size(self) -> i64 {
+        match self {
+            Self::Head => 15,
+            Self::Component | Self::Failure => 12,
+            Self::Quiet | Self::Badge | Self::DarkBadge => 11,
+        }
+    }
+
+    /// The height of a line.
+    pub(crate) const fn line(self) -> i64 {
+        self.size() + 3
+    }
+
+    /// The height of several lines.
+    pub(crate) fn height(self, lines: &[String]) -> i64 {
+        lines.iter().map(|_| self.line()).sum()
+    }
+
+    const fn class(self) -> &'static str {
+        match self {
+            Self::Head => "head",
+            Self::Component => "component",
+            Self::Failure => "failure",
+            Self::Quiet => "quiet",
+            Self::Badge => "badge",
+            Self::DarkBadge => "badge dark",
+        }
+    }
+
+    /// How wide a text is.
+    pub(crate) fn width(self, text: &str) -> i64 {
+        match self {
+            Self::Failure | Self::Quiet => width(text, self.size()),
+            Self::Head | Self::Component | Self::Badge | Self::DarkBadge => bold_width(text, self.size()),
+        }
+    }
+
+    /// A text in as few lines as it needs if they are hardly wider than this, about equally long.
+    pub(crate) fn lines(self, text: &str, most: i64) -> Vec<String> {
+        let few = self.filled(text, most);
+        let narrower = (1..most).step_by(4).map(|width| self.filled(text, width));
+        narrower.into_iter().find(|lines| lines.len() <= few.len()).unwrap_or(few)
+    }
+
+    /// A text in lines as long as they can be, broken between words.
+    fn filled(self, text: &str, most: i64) -> Vec<String> {
+        let mut lines: Vec<String> = Vec::new();
+        for word in text.split(' ') {
+            match lines.last_mut() {
+                Some(line) if self.width(&format!("{line} {word}")) <= most => {
+                    line.push(' ');
+                    line.push_str(word);
+                }
+                _ => lines.push(word.to_owned()),
+            }
+        }
+        lines
+    }
+}
+
+/// A place, to the right and down.
+pub(crate) type Place = (i64, i64);
+
+/// One thing in a drawing; `class` is for the style sheet.
+#[derive(Clone, Debug)]
+pub(crate) enum Item {
+    /// A line, with an arrow at its end or without.
+    Line { class: &'static str, from: Place, to: Place, arrow: bool },
+    /// A box with a corner radius.
+    Rect { class: String, corner: Place, size: Place, radius: i64 },
+    /// A text whose line begins at, or is centred on, this place; its base line.
+    Text { face: Face, at: Place, text: String },
+}
+
+/// Things that belong together, with words for who points at them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Group {
+    pub(crate) title: String,
+    pub(crate) items: Vec<Item>,
+}
+
+/// A drawing.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Scene {
+    pub(crate) width: i64,
+    pub(crate) height: i64,
+    pub(crate) groups: Vec<Group>,
+}
+
+impl Group {
+    /// Adds a text.
+    pub(crate) fn text(&mut self, face: Face, at: Place, text: impl Into<String>) {
+        self.items.push(Item::Text { face, at, text: text.into() });
+    }
+
+    /// Adds a line.
+    pub(crate) fn line(&mut self, class: &'static str, from: Place, to: Place) {
+        self.items.push(Item::Line { class, from, to, arrow: false });
+    }
+
+    /// Adds a line with an arrow at its end.
+    pub(crate) fn arrow(&mut self, class: &'static str, from: Place, to: Place) {
+        self.items.push(Item::Line { class, from, to, arrow: true });
+    }
+
+    /// Adds a box.
+    pub(crate) fn rect(&mut self, class: impl Into<String>, corner: Place, size: Place, radius: i64) {
+        self.items.push(Item::Rect { class: class.into(), corner, size, radius });
+    }
+}
+
+impl Scene {
+    /// Its shapes as SVG elements, moved to a place.
+    pub(crate) fn elements(&self, (right, down): Place) -> String {
+        let mut out = format!("<g transform=\"translate({right} {down})\">\n");
+        for group in &self.groups {
+            out.push_str("<g>");
+            if !group.title.is_empty() {
+                let _ = write!(out, "<title>{}</title>", escape(&group.title));
+            }
+            for item in &group.items {
+                element(&mut out, item);
+            }
+            out.push_str("</g>\n");
+        }
+        out + "</g>\n"
+    }
+}
+
+fn element(out: &mut String, item: &Item) {
+    // Writing into a string cannot fail.
+    let _ = match item {
+        Item::Line { class, from: (x1, y1), to: (x2, y2), arrow } => {
+            let tip = if *arrow {
+                format!("<path class=\"tip {class}\" d=\"M{x2} {y2}l-10 -5v10z\"/>")
+            } else {
+                String::new()
+            };
+            write!(out, "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>{tip}")
+        }
+        Item::Rect { class, corner: (x, y), size: (width, height), radius } => write!(
+            out,
+            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>"
+        ),
+        Item::Text { face, at: (x, y), text } => {
+            write!(out, "<text class=\"{}\" x=\"{x}\" y=\"{y}\">{}</text>", face.class(), escape(text))
+        }
+    };
+}
+
+/// What tests measure.
+#[cfg(test)]
+impl Scene {
+    /// The texts with their boxes: left, top, right, bottom.
+    pub(crate) fn texts(&self) -> Vec<(&str, [i64; 4])> {
+        let items = self.groups.iter().flat_map(|group| &group.items);
+        let text = |item| match item {
+            &Item::Text { face, at: (x, y), ref text } => {
+                let wide = face.width(text);
+                let is_centred = matches!(face, Face::Badge | Face::DarkBadge);
+                let left = if is_centred { x - wide / 2 } else { x };
+                // Of a line of Helvetica, 0.72 is above the base line and 0.21 below.
+                let (up, down) = ((face.size() * 72 + 99) / 100, (face.size() * 21 + 99) / 100);
+                Some((text.as_str(), [left, y - up, left + wide, y + down]))
+            }
+            Item::Line { .. } | Item::Rect { .. } => None,
+        };
+        items.filter_map(text).collect()
+    }
+
+    /// The lines.
+    pub(crate) fn lines(&self) -> Vec<(Place, Place)> {
+        let items = self.groups.iter().flat_map(|group| &group.items);
+        let line = |item: &Item| match item {
+            &Item::Line { from, to, .. } => Some((from, to)),
+            Item::Rect { .. } | Item::Text { .. } => None,
+        };
+        items.filter_map(line).collect()
+    }
+}

@@ -1,0 +1,72 @@
+//! Diagrams as SVG files: one with its legend, or all on one sheet.
+
+use super::ishikawa::{diagram, legend};
+use super::scene::Scene;
+use cotama_models::cotama::functions;
+use cotama_verification::export::svg::escape;
+
+/// The style of diagrams, in files and in the page.
+pub(crate) const STYLE: &str = include_str!("diagram.css");
+
+/// A sheet is hardly wider, unless a diagram is.
+const WIDE: i64 = 1440;
+
+/// All diagrams on one sheet.
+pub(crate) fn all() -> String {
+    let diagrams: Vec<Scene> = functions().map(diagram).collect();
+    file("Cause-effect diagrams: what takes a function of the delivery robot away", &diagrams)
+}
+
+/// The diagram of one function.
+pub(crate) fn one(function: &str) -> String {
+    file(&format!("Cause-effect diagram: cannot {function}"), &[diagram(function)])
+}
+
+/// The diagram of one function as an element of a page that has the style.
+pub(crate) fn element(function: &str) -> String {
+    let scene = diagram(function);
+    let label = format!("Cause-effect diagram: cannot {function}");
+    inline(&label, &scene)
+}
+
+/// The legend as an element of a page that has the style.
+pub(crate) fn legend_element() -> String {
+    inline("What colours, letters and lines mean", &legend(900))
+}
+
+fn inline(label: &str, scene: &Scene) -> String {
+    let (width, height) = (scene.width, scene.height);
+    format!(
+        "<svg class=\"causes\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
+         aria-label=\"{}\">\n{}</svg>\n",
+        escape(label),
+        scene.elements((0, 0))
+    )
+}
+
+/// Diagrams in rows under their legend.
+fn file(title: &str, diagrams: &[Scene]) -> String {
+    let widest = diagrams.iter().map(|it| it.width).max().unwrap_or(0);
+    let most = if diagrams.len() > 1 { widest.max(WIDE) } else { widest };
+    let legend = legend(most);
+    let mut body = legend.elements((0, 0));
+    let (mut x, mut y, mut row) = (0, legend.height, 0);
+    let mut width = legend.width;
+    for scene in diagrams {
+        if x > 0 && x + scene.width > most {
+            (x, y, row) = (0, y + row, 0);
+        }
+        body += &scene.elements((x, y));
+        x += scene.width;
+        row = row.max(scene.height);
+        width = width.max(x);
+    }
+    let height = y + row;
+    format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"causes\" width=\"{width}\" height=\"{height}\" \
+         viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title\">\n\
+         <title id=\"title\">{}</title>\n<style>\n{STYLE}</style>\n\
+         <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{body}</svg>\n",
+        escape(title)
+    )
+}

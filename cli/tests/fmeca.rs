@@ -1,0 +1,142 @@
+//! `cotama fmeca`: what can fail, how it is seen, what is done, and what looks alike.
+
+use crate::common::{Folder, golden};
+use serde_json::{Value, json};
+
+#[test]
+fn the_screens_of_the_analysis() {
+    let folder = Folder::new("fmeca_screens");
+    golden("fmeca.txt", &folder.cotama(&["fmeca"]).stdout);
+    golden("fmeca_narrow.txt", &folder.shell("COLUMNS=60 cotama fmeca").stdout);
+    golden("fmeca_diagnosability.txt", &folder.cotama(&["fmeca", "--diagnosability"]).stdout);
+}
+
+#[test]
+fn no_line_is_wider_than_the_window() {
+    let folder = Folder::new("fmeca_width");
+    for width in [50, 60, 80, 89, 90, 100, 133, 200] {
+        for command in ["cotama fmeca", "cotama fmeca --diagnosability"] {
+            let screen = folder.shell(&format!("COLUMNS={width} {command}")).stdout;
+            let widest =
+                screen.lines().filter(|it| !it.starts_with("next: ")).map(|line| line.chars().count());
+            assert!(widest.max().unwrap() <= width, "{width}:\n{screen}");
+        }
+    }
+}
+
+#[test]
+fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
+    let folder = Folder::new("fmeca_formats");
+    for format in ["md", "csv", "html", "svg"] {
+        let printed = folder.cotama(&["fmeca", "--format", format]);
+        assert_eq!((printed.code, printed.stderr.as_str()), (Some(0), ""), "{format}");
+        let file = format!("out/fmeca.{format}");
+        let written = folder.cotama(&["fmeca", "--output", &file]);
+        assert_eq!((written.code, written.stdout.as_str()), (Some(0), ""));
+        assert!(written.stderr.ends_with(&format!("written: {file}\n")), "{written:?}");
+        assert_eq!(folder.read(&file), printed.stdout, "{format}");
+        if format != "csv" {
+            golden(&format!("fmeca.{format}"), &printed.stdout);
+        }
+    }
+}
+
+#[test]
+fn the_values_separated_by_commas_are_those_of_the_models() {
+    let printed = Folder::new("fmeca_csv").cotama(&["fmeca", "--format", "csv"]).stdout;
+    assert_eq!(printed, cotama_models::cotama::FmecaCsv.to_string());
+}
+
+#[test]
+fn the_page_needs_nothing_else_and_every_link_in_it_leads_somewhere() {
+    let page = Folder::new("fmeca_page").cotama(&["fmeca", "--format", "html"]).stdout;
+    for alien in ["<script", "http:", "https:", "url(", "@import", "src="] {
+        assert!(!page.contains(alien), "{alien}");
+    }
+    assert_eq!(page.matches("<svg class=\"causes\"").count(), 16);
+    let mut links = 0;
+    for target in page.split("href=\"#").skip(1).filter_map(|it| it.split('"').next()) {
+        assert_eq!(page.matches(&format!("id=\"{target}\"")).count(), 1, "{target}");
+        links += 1;
+    }
+    assert!(links > 80, "{links}");
+}
+
+#[test]
+fn one_diagram_is_that_of_the_sheet() {
+    let folder = Folder::new("fmeca_function");
+    let sheet = folder.cotama(&["fmeca", "--format", "svg"]).stdout;
+    let one = folder.cotama(&["fmeca", "--function", "localise", "--format", "svg"]).stdout;
+    golden("fmeca_localise.svg", &one);
+    let titles: Vec<_> = one.lines().filter(|it| it.starts_with("<g><title>")).collect();
+    assert_eq!(titles.len(), 4);
+    assert!(titles.iter().all(|it| sheet.contains(it)));
+    assert_eq!(sheet.matches("<g><title>").count(), 40);
+}
+
+#[test]
+fn the_answer_in_json_has_every_row_and_what_cannot_be_told_apart() {
+    let folder = Folder::new("fmeca_json");
+    let answer = folder.cotama(&["fmeca", "--json"]).json(0);
+    golden("fmeca.json", &folder.cotama(&["fmeca", "--json"]).stdout);
+    let counts = json!({
+        "rows": 40, "functions": 15, "detected": 38, "reported": 28, "recorded": 10, "undetectable": 2
+    });
+    assert_eq!(answer["counts"], counts);
+    let rows = answer["rows"].as_array().unwrap();
+    assert_eq!(rows.len(), 40);
+    assert!(rows.iter().all(|it| it["flags_always"] != json!([]) || it["undetectable_reason"].is_string()));
+    let groups = |status: usize| -> Vec<&Value> {
+        let groups = answer["diagnosability"]["statuses"][status]["groups"].as_array().unwrap();
+        groups.iter().map(|it| &it["modes"]).collect()
+    };
+    let sound = [json!(["ODO2", "LOC1", "LOC2"]), json!(["BMP1", "MOT3"]), json!(["CAM2", "COM2"])];
+    assert_eq!(groups(0), sound.iter().collect::<Vec<_>>());
+    let sonar = &answer["diagnosability"]["statuses"][1];
+    assert_eq!((&sonar["status"], &sonar["separable"]), (&json!("sonar lost"), &json!(false)));
+    assert_eq!(
+        sonar["pairs"][0],
+        json!({ "modes": ["BMP1", "MOT3"], "flags": ["stall"], "flags_optional": [], "probes": [] })
+    );
+    for status in answer["diagnosability"]["statuses"].as_array().unwrap() {
+        let listed =
+            status["undetectable"].as_array().unwrap().len() + status["impossible"].as_array().unwrap().len();
+        assert_eq!(status["detectable"].as_u64().unwrap() + listed as u64, 40, "{}", status["status"]);
+    }
+    let case = &answer["diagnosability"]["ambiguous_case"];
+    assert_eq!(case["candidates"], sound[0]);
+    assert_eq!((&case["decision"], &case["decision_without_operator"]), (&json!("local"), &json!("global")));
+}
+
+/// In each status, each pair that can be separated is separated by one of the least probes.
+#[test]
+fn the_least_probes_separate_what_can_be() {
+    let answer = Folder::new("fmeca_least").cotama(&["fmeca", "--json"]).json(0);
+    for status in answer["diagnosability"]["statuses"].as_array().unwrap() {
+        let least = status["least_probes"].as_array().unwrap();
+        for pair in status["pairs"].as_array().unwrap() {
+            let probes = pair["probes"].as_array().unwrap();
+            let separated = probes.iter().any(|it| least.contains(it));
+            assert_eq!(separated, !probes.is_empty(), "{}: {pair}", status["status"]);
+        }
+    }
+}
+
+#[test]
+fn arguments_that_make_no_sense() {
+    let folder = Folder::new("fmeca_bad");
+    let refused = |name: &str, arguments: &[&str]| {
+        let ended = folder.cotama(arguments);
+        assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{name}: {ended:?}");
+        golden(&format!("bad_fmeca_{name}.txt"), &ended.stderr);
+    };
+    refused("function", &["fmeca", "--function", "localize", "--format", "svg"]);
+    refused("function_far", &["fmeca", "--function", "fly", "--output", "fly.svg"]);
+    refused("function_screen", &["fmeca", "--function", "move"]);
+    refused("function_table", &["fmeca", "--function", "move", "--format", "csv"]);
+    refused("format", &["fmeca", "--format", "pdf"]);
+    refused("end", &["fmeca", "--output", "fmeca.pdf"]);
+    refused("both", &["fmeca", "--json", "--format", "md"]);
+    refused("diagnosability", &["fmeca", "--diagnosability", "--output", "it.html"]);
+    assert_eq!(folder.files(""), Vec::<String>::new());
+}

@@ -1,0 +1,144 @@
+//! Reading a certificate: from its text to data that is in order and of limited size, with numbers for names. Whether it is right
+//! is no matter here.
+
+use super::sum::{Marking, ONE, Sum};
+use super::{Certificate, Formula, Linear, Net, SCHEMA, VerifyError};
+use std::cell::Cell;
+use std::collections::BTreeMap;
+use std::fmt::Display;
+use std::iter::once;
+use std::slice::from_ref;
+
+/// The longest text of a certificate, in bytes.
+pub const MAX_BYTES: usize = 1 << 26;
+
+/// The most work: about so many arcs and terms are looked at, and bytes are used.
+pub const MAX_WORK: u64 = 1 << 30;
+
+pub(super) type Checked<T> = Result<T, VerifyError>;
+
+pub(super) fn error(message: impl Display) -> VerifyError {
+    VerifyError { at: String::new(), message: message.to_string() }
+}
+
+pub(super) fn ensure(holds: bool, message: impl Display) -> Checked<()> {
+    if holds { Ok(()) } else { Err(error(message)) }
+}
+
+/// Puts the part of the certificate in front of where an error is.
+pub(super) fn at(part: impl Display) -> impl FnOnce(VerifyError) -> VerifyError {
+    move |it| VerifyError { at: format!("{part}{}", it.at), ..it }
+}
+
+/// Checks each of a list; where an error is starts with its number.
+pub(super) fn each<T, U>(
+    list: impl IntoIterator<Item = T>,
+    mut check: impl FnMut(T) -> Checked<U>,
+) -> Checked<Vec<U>> {
+    list.into_iter().enumerate().map(|(n, it)| check(it).map_err(at(format_args!("[{n}]")))).collect()
+}
+
+pub(super) fn certificate(text: &str) -> Checked<Certificate> {
+    let long = format_args!("has {} bytes; at most {MAX_BYTES} are read", text.len());
+    ensure(text.len() <= MAX_BYTES, long).map_err(at("certificate"))?;
+    let read: Certificate = serde_json::from_str(text).map_err(error).map_err(at("certificate"))?;
+    let other = format_args!("is `{}`, not `{SCHEMA}`", read.schema);
+    ensure(read.schema == SCHEMA, other).map_err(at("schema"))?;
+    Ok(read)
+}
+
+/// A net with numbers.
+pub(super) struct Numbered<'a> {
+    pub(super) net: &'a Net,
+    pub(super) initial: Marking,
+    /// What each transition takes and gives.
+    pub(super) arcs: Vec<[BTreeMap<usize, u32>; 2]>,
+    places: BTreeMap<&'a str, usize>,
+    transitions: BTreeMap<&'a str, usize>,
+    work: Cell<u64>,
+}
+
+fn number(of: &BTreeMap<&str, usize>, name: &str) -> Checked<usize> {
+    of.get(name).copied().ok_or_else(|| error(format_args!("there is no `{name}`")))
+}
+
+impl<'a> Numbered<'a> {
+    pub(super) fn new(net: &'a Net) -> Checked<Self> {
+        let places: BTreeMap<_, _> = net.places.iter().map(|it| it.0.as_str()).zip(ONE + 1..).collect();
+        let transitions: BTreeMap<_, _> =
+            net.transitions.iter().map(|it| it.name.as_str()).zip(0..).collect();
+        let differ = places.len() == net.places.len() && transitions.len() == net.transitions.len();
+        ensure(differ, "two places or two transitions have the same name")?;
+        let initial = once(1).chain(net.places.iter().map(|it| it.1)).collect();
+        let mut numbered = Self { net, initial, arcs: Vec::new(), places, transitions, work: Cell::new(0) };
+        let arcs = each(&net.transitions, |it| {
+            let arcs = [numbered.weights(&it.take)?, numbered.weights(&it.give)?];
+            ensure(arcs.iter().flat_map(BTreeMap::values).all(|it| *it > 0), "an arc has weight 0")
+                .map(|()| arcs)
+        });
+        numbered.arcs = arcs.map_err(at(".transitions"))?;
+        Ok(numbered)
+    }
+
+    pub(super) fn place(&self, name: &str) -> Checked<usize> {
+        number(&self.places, name)
+    }
+
+    pub(super) fn transition(&self, name: &str) -> Checked<usize> {
+        number(&self.transitions, name)
+    }
+
+    fn weights<W: Copy, N: From<W>>(&self, list: &[(String, W)]) -> Checked<BTreeMap<usize, N>> {
+        let weights = list.iter().map(|it| Ok((self.place(&it.0)?, it.1.into())));
+        let weights = weights.collect::<Checked<BTreeMap<_, _>>>()?;
+        ensure(weights.len() == list.len(), "a place has two weights").map(|()| weights)
+    }
+
+    pub(super) fn linear(&self, linear: &Linear) -> Checked<Sum> {
+        let weights = self.weights(&linear.weights)?;
+        Ok(Sum(once((ONE, linear.constant.into())).chain(weights).collect()))
+    }
+
+    /// That a transition is enabled: `weight - tokens <= 0` for each place that it takes from.
+    pub(super) fn enabling(&self, transition: usize) -> Checked<Formula> {
+        let take = &self.net.transitions[transition].take;
+        self.spend(256 * (1 + take.len()))?; // memory is work too
+        let enough = take.iter().map(|it| Formula::at_least(it.1.into(), from_ref(&it.0)));
+        Ok(Formula::And(enough.collect()))
+    }
+
+    /// The formula with what is enabled written out as inequalities; all that it names is there.
+    pub(super) fn written_out(&self, formula: &Formula) -> Checked<Formula> {
+        let list = |all: &[Formula]| all.iter().map(|it| self.written_out(it)).collect::<Checked<Vec<_>>>();
+        let boxed = |it: &Formula| self.written_out(it).map(Box::new);
+        Ok(match formula {
+            Formula::AtMost(linear) => self.linear(linear).map(|_| formula.clone())?,
+            Formula::Fireable(names) => {
+                let all = names.iter().map(|it| self.enabling(self.transition(it)?));
+                Formula::Or(all.collect::<Checked<_>>()?)
+            }
+            Formula::Deadlock => {
+                let all = (0..self.arcs.len()).map(|it| self.enabling(it));
+                Formula::Not(Box::new(Formula::Or(all.collect::<Checked<_>>()?)))
+            }
+            Formula::Not(a) => Formula::Not(boxed(a)?),
+            Formula::And(all) => Formula::And(list(all)?),
+            Formula::Or(all) => Formula::Or(list(all)?),
+            Formula::ExistsNext(a) => Formula::ExistsNext(boxed(a)?),
+            Formula::AllNext(a) => Formula::AllNext(boxed(a)?),
+            Formula::Exists(a) => Formula::Exists(boxed(a)?),
+            Formula::All(a) => Formula::All(boxed(a)?),
+            Formula::Next(a) => Formula::Next(boxed(a)?),
+            Formula::Finally(a) => Formula::Finally(boxed(a)?),
+            Formula::Globally(a) => Formula::Globally(boxed(a)?),
+            Formula::Until(both) => {
+                Formula::Until(Box::new((self.written_out(&both.0)?, self.written_out(&both.1)?)))
+            }
+        })
+    }
+
+    pub(super) fn spend(&self, work: usize) -> Checked<()> {
+        self.work.set(self.work.get().saturating_add(work as u64));
+        ensure(self.work.get() <= MAX_WORK, "is too much work to check")
+    }
+}

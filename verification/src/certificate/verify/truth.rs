@@ -1,0 +1,189 @@
+//! The firing rule, what questions mean, and where formulas hold.
+
+use super::{Checked, Marking, Numbered, at, each, ensure, error};
+use crate::certificate::Formula::{self, All, AllNext, And, AtMost, Exists, ExistsNext, Fireable};
+use crate::certificate::Formula::{Finally, Globally, Next, Not, Or, Until};
+use crate::certificate::{Lasso, Question};
+use std::collections::BTreeMap;
+use std::slice::from_ref;
+
+enum Kind {
+    Marking,
+    Run,
+    Graph,
+}
+
+/// Markings, and for each of them those that follow.
+pub(super) struct Space(Kind, Vec<Marking>, Vec<Vec<usize>>);
+
+impl Space {
+    pub(super) fn of(marking: &Marking) -> Self {
+        Self(Kind::Marking, vec![marking.clone()], Vec::new())
+    }
+}
+
+impl Numbered<'_> {
+    /// What is asked, in inequalities; no formula says that there is no bound.
+    pub(super) fn meaning(&self, question: &Question) -> Checked<Formula> {
+        let (places, transitions) = (self.net.places.iter(), self.net.transitions.iter());
+        let fireable = transitions.map(|it| Fireable(vec![it.name.clone()]));
+        let (always, reached) = (Formula::always, Formula::reached);
+        let (at_least, fewer) = (Formula::at_least, Formula::fewer);
+        self.written_out(&match question {
+            Question::Formula(formula) => formula.clone(),
+            Question::Bound { places, most } => {
+                // No file has enough places to hold as many tokens as do not fit.
+                let more = most.saturating_add(1);
+                And(vec![always(fewer(more, places)), reached(at_least(*most, places))])
+            }
+            Question::Unbounded { .. } => return Err(error("only growth can show it")),
+            Question::Live => And(fireable.map(|it| always(reached(it))).collect()),
+            Question::QuasiLive => And(fireable.map(reached).collect()),
+            Question::Stable => Or(places
+                .map(|(place, now)| {
+                    let (place, now) = (from_ref(place), i64::from(*now));
+                    always(And(vec![at_least(now, place), fewer(now + 1, place)]))
+                })
+                .collect()),
+            Question::OneSafe => always(And(places.map(|it| fewer(2, from_ref(&it.0))).collect())),
+        })
+    }
+
+    fn enabled(&self, at: &Marking, transition: usize) -> Checked<bool> {
+        let take = &self.arcs[transition][0];
+        self.spend(1 + take.len()).map(|()| take.iter().all(|(place, weight)| at[*place] >= *weight))
+    }
+
+    /// The marking after a transition that is enabled.
+    fn fire(&self, from: &Marking, transition: usize) -> Checked<Marking> {
+        let ([take, give], mut after) = (&self.arcs[transition], from.clone());
+        self.spend(4 * from.len() + give.len())?; // memory is work too
+        for (place, weight) in take {
+            after[*place] -= weight;
+        }
+        for (place, weight) in give {
+            let sum = after[*place].checked_add(*weight);
+            after[*place] = sum.ok_or_else(|| error("numbers get too large"))?;
+        }
+        Ok(after)
+    }
+
+    /// The markings before each of these firings, and the one after all of them.
+    pub(super) fn way(&self, from: &Marking, names: &[String]) -> Checked<(Vec<Marking>, Marking)> {
+        let mut now = from.clone();
+        let way = each(names, |name| {
+            let transition = self.transition(name)?;
+            ensure(self.enabled(&now, transition)?, format_args!("`{name}` is not enabled"))?;
+            let after = self.fire(&now, transition)?;
+            Ok(std::mem::replace(&mut now, after))
+        })?;
+        Ok((way, now))
+    }
+
+    /// The run: the last marking leads back to the end of the stem, where it stays when that is a deadlock.
+    pub(super) fn run(&self, from: &Marking, lasso: &Lasso) -> Checked<Space> {
+        let (mut run, start) = self.way(from, &lasso.stem).map_err(at(".stem"))?;
+        let (cycle, end) = self.way(&start, &lasso.cycle).map_err(at(".loop"))?;
+        let dead = || self.graph(&start, 1).is_ok_and(|it| it.2[0].is_empty());
+        let lasts = if cycle.is_empty() { dead() } else { start == end };
+        ensure(lasts, "does not lead back, or is empty where there is no deadlock").map_err(at(".loop"))?;
+        let back = run.len();
+        run.extend(if cycle.is_empty() { vec![start] } else { cycle });
+        let next = (1..run.len()).chain([back]).map(|it| vec![it]).collect();
+        Ok(Space(Kind::Run, run, next))
+    }
+
+    /// All markings that are reachable from here, which is the first one.
+    pub(super) fn graph(&self, from: &Marking, count: usize) -> Checked<Space> {
+        let (mut markings, mut next) = (vec![from.clone()], Vec::new());
+        let mut numbers = BTreeMap::from([(from.clone(), 0)]);
+        while next.len() < markings.len() {
+            let mut after = Vec::new();
+            for transition in 0..self.arcs.len() {
+                let now = &markings[next.len()];
+                if self.enabled(now, transition)? {
+                    let reached = self.fire(now, transition)?;
+                    let number = *numbers.entry(reached.clone()).or_insert(markings.len());
+                    markings.extend((number == markings.len()).then_some(reached));
+                    after.push(number);
+                }
+            }
+            self.spend(16 * (from.len() + after.len()))?; // memory is work too
+            ensure(markings.len() <= count, "there are more markings")?;
+            next.push(after);
+        }
+        ensure(markings.len() == count, "there are fewer markings")?;
+        Ok(Space(Kind::Graph, markings, next))
+    }
+
+    /// That a formula has this truth at the first marking, or of the run from there.
+    pub(super) fn shows(&self, space: &Space, formula: &Formula, truth: bool) -> Checked<()> {
+        ensure(self.label(space, formula)?[0] == truth, "the opposite of what is claimed is so")
+    }
+
+    /// Where a formula holds.
+    fn label(&self, space: &Space, formula: &Formula) -> Checked<Vec<bool>> {
+        let Space(kind, markings, next) = space;
+        let every = matches!(formula, And(_) | All(_) | AllNext(_));
+        self.spend(1 + markings.len())?;
+        match (formula, kind) {
+            (AtMost(linear), _) => {
+                let sum = self.linear(linear)?;
+                self.spend(markings.len() * sum.0.len())?;
+                Ok(markings.iter().map(|it| sum.value(it) <= 0).collect())
+            }
+            (Not(a), _) => Ok(self.label(space, a)?.iter().map(|it| !it).collect()),
+            (And(parts) | Or(parts), _) => {
+                parts.iter().try_fold(vec![every; markings.len()], |so_far, it| {
+                    let both = so_far.into_iter().zip(self.label(space, it)?);
+                    Ok(both.map(|(a, b)| if every { a && b } else { a || b }).collect())
+                })
+            }
+            (Next(a), Kind::Run) | (ExistsNext(a) | AllNext(a), Kind::Graph) => {
+                let a = self.label(space, a)?;
+                let leads = |next: &Vec<usize>| {
+                    if every { next.iter().all(|it| a[*it]) } else { next.iter().any(|it| a[*it]) }
+                };
+                Ok(next.iter().map(leads).collect())
+            }
+            (Finally(_) | Globally(_) | Until(_), Kind::Run) => self.on_runs(space, formula, false),
+            (Exists(path) | All(path), Kind::Graph) => self.on_runs(space, path, every),
+            _ => Err(error("speaks of runs where one marking is to decide")),
+        }
+    }
+
+    /// Where a path formula holds of every run from there, or of some run.
+    fn on_runs(&self, space: &Space, path: &Formula, every: bool) -> Checked<Vec<bool>> {
+        let not = |it: Vec<bool>| it.into_iter().map(|it| !it).collect::<Vec<_>>();
+        let (label, anywhere) = (|it| self.label(space, it), vec![true; space.1.len()]);
+        match path {
+            Not(path) => self.on_runs(space, path, !every).map(not),
+            Finally(a) => self.until(space, &anywhere, label(a)?, every),
+            Globally(a) => self.until(space, &anywhere, not(label(a)?), !every).map(not),
+            Until(both) => self.until(space, &label(&both.0)?, label(&both.1)?, every),
+            _ => Err(error("is not of CTL")),
+        }
+    }
+
+    /// Where the first holds until the second does, which comes: backwards from where it does.
+    fn until(&self, space: &Space, first: &[bool], mut until: Vec<bool>, every: bool) -> Checked<Vec<bool>> {
+        let mut before = vec![Vec::new(); until.len()];
+        for (from, next) in space.2.iter().enumerate() {
+            for to in next {
+                before[*to].push(from);
+            }
+        }
+        let mut open: Vec<usize> = (0..until.len()).filter(|it| until[*it]).collect();
+        while let Some(to) = open.pop() {
+            for &from in &before[to] {
+                self.spend(1 + space.2[from].len())?;
+                let leads = !every || space.2[from].iter().all(|it| until[*it]);
+                if first[from] && leads && !until[from] {
+                    until[from] = true;
+                    open.push(from);
+                }
+            }
+        }
+        Ok(until)
+    }
+}

@@ -1,0 +1,151 @@
+//! What remembers something from round to round.
+
+use super::FlatError;
+use super::branch::{Branch, Held, NO_BOUND, branches};
+use super::rounds::{Part, Path, Rounds};
+use crate::property::{self, Atom, Formula, Linear, PropertyError, Question};
+use crate::pt::Pt;
+
+/// When an [`Observer`] looks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Looks {
+    /// When all nets have taken their turns, and what is outside has not.
+    BeforeOutside,
+    /// At the end of the round.
+    AtEnd,
+}
+
+/// Looks at the marking once a round, and counts. It changes nothing else, so that properties about rounds become
+/// properties about markings, for every engine.
+///
+/// Its state is a number from 0 on, the tokens of a place that has its name. Those that look at the same time do it one after
+/// the other, in the order in which they came, before `turn.outside` or `round` is marked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Observer {
+    /// Its name.
+    pub name: String,
+    /// When it looks.
+    pub looks: Looks,
+    /// The largest state.
+    pub most: u32,
+    /// How it goes on: the first of these that is from its state and whose formula is true; without one it stays.
+    pub steps: Vec<(u32, Formula, u32)>,
+}
+
+impl Observer {
+    /// Counts in how many rounds something lasts, each time that it looks: a duty that the first formula begins and the second
+    /// one ends, but no sooner than a round later. It counts up to `most`, and a further beginning while one lasts counts
+    /// no second time.
+    ///
+    /// So `bounds(name)` is the worst case in rounds, where it is less than `most`.
+    pub fn lasting(name: &str, looks: Looks, begins: &Formula, ends: &Formula, most: u32) -> Self {
+        let mut steps = Vec::new();
+        for state in 1..=most {
+            steps.push((state, Formula::Not(Box::new(ends.clone())), (state + 1).min(most)));
+            steps.push((state, begins.clone(), 1));
+            steps.push((state, Formula::TRUE, 0));
+        }
+        steps.push((0, begins.clone(), 1));
+        Self { name: name.to_owned(), looks, most, steps }
+    }
+
+    /// Counts in how many rounds in a row something is so when it looks, up to `most`.
+    pub fn in_a_row(name: &str, looks: Looks, what: &Formula, most: u32) -> Self {
+        Self::lasting(name, looks, what, &Formula::Not(Box::new(what.clone())), most)
+    }
+}
+
+impl Rounds {
+    /// A formula about one marking that speaks of places by their names; for an [`Observer`].
+    ///
+    /// # Errors
+    /// When it is none, or names no place.
+    pub fn condition(&self, text: &str) -> Result<Formula, PropertyError> {
+        let pt = Pt::from(&self.draft.view().net());
+        match property::parse(text, &pt)?.question {
+            Question::Formula(formula) => Ok(formula),
+            // A formula is what `observe` refuses with a better reason.
+            _ => Ok(Formula::Atom(Atom::Deadlock)),
+        }
+    }
+
+    /// Adds an observer.
+    ///
+    /// # Errors
+    /// When it looks at more than sums of tokens of bounded places, or the net would be too large.
+    pub fn observe(&mut self, observer: &Observer) -> Result<(), FlatError> {
+        let unsuited = || FlatError::Condition { observer: observer.name.clone() };
+        let is_sound =
+            |(from, when, to): &(u32, Formula, u32)| *from.max(to) <= observer.most && self.can_be_seen(when);
+        if !observer.steps.iter().all(is_sound) {
+            return Err(unsuited());
+        }
+        let looks = self.place(&format!("{}.looks", observer.name), "The observer looks.", 0, 1);
+        let place = self.place(&observer.name, "What the observer counts.", 0, observer.most);
+        let then = match observer.looks {
+            Looks::BeforeOutside => self.outside,
+            Looks::AtEnd => self.round,
+        };
+        for path in &mut self.paths {
+            if path.change.get(&then) == Some(&1) {
+                path.change.remove(&then);
+                path.change.insert(looks, 1);
+            }
+        }
+        let known = self.known.clone();
+        for from in 0..=observer.most {
+            let tokens = i64::from(from);
+            let held = Held::from([(place, (tokens, tokens))]);
+            let ways = branches(&known, &held, |branch| {
+                let mut steps = observer.steps.iter().filter(|it| it.0 == from);
+                let next = steps.find(|it| holds(branch, &it.1)).map_or(from, |it| it.2);
+                branch.add(place, i64::from(next) - tokens);
+                Ok(next)
+            });
+            for (branch, next) in ways? {
+                let name = format!("{}: {next}", observer.name);
+                self.push(Path::new(Part::Between, name, looks, then, &branch))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether it is about one marking and compares sums of tokens of bounded places.
+    fn can_be_seen(&self, formula: &Formula) -> bool {
+        let bounded = |sum: &Linear| sum.weights.iter().all(|&(place, _)| self.known.bound(place) < NO_BOUND);
+        let seen = |it: &Formula| !matches!(it, Formula::Atom(atom) if !matches!(atom, Atom::AtMost(sum) if bounded(sum)));
+        formula.is_state() && !formula.any(&|it| !seen(it))
+    }
+}
+
+/// Whether a formula about one marking is true by now.
+fn holds(branch: &mut Branch<'_>, formula: &Formula) -> bool {
+    match formula {
+        Formula::Not(inner) => !holds(branch, inner),
+        Formula::And(all) => all.iter().all(|it| holds(branch, it)),
+        Formula::Or(all) => all.iter().any(|it| holds(branch, it)),
+        Formula::Atom(Atom::AtMost(sum)) => at_most(branch, sum),
+        _ => false,
+    }
+}
+
+fn at_most(branch: &mut Branch<'_>, sum: &Linear) -> bool {
+    loop {
+        let (mut least, mut most, mut open) = (i128::from(sum.constant), i128::from(sum.constant), None);
+        for &(place, weight) in &sum.weights {
+            let (low, high) = branch.range(place);
+            let [low_part, high_part] = [low, high].map(|it| i128::from(it) * i128::from(weight));
+            least += low_part.min(high_part);
+            most += low_part.max(high_part);
+            if low < high {
+                open.get_or_insert((place, low + 1));
+            }
+        }
+        match open {
+            Some((place, tokens)) if least <= 0 && most > 0 => {
+                branch.holds(place, tokens);
+            }
+            _ => return most <= 0,
+        }
+    }
+}
