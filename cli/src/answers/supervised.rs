@@ -21,7 +21,8 @@ pub(crate) struct Supervised {
 /// A point of the story: the start, a failure, or what the operator does before the robot goes on alone.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Point {
-    pub(crate) point: usize,
+    /// From 1.
+    pub(crate) number: usize,
     pub(crate) t_ms: u64,
     pub(crate) x_mm: u64,
     /// What happened.

@@ -23,7 +23,7 @@ pub(crate) fn story(run: &Supervised, width: usize) -> String {
 }
 
 fn told(point: &Point, width: usize) -> String {
-    let Point { point: number, text: title, .. } = point;
+    let Point { number, text: title, .. } = point;
     let head = format!("  {number:>2}  {:>7}  {:>8}  ", metres(point.x_mm), seconds(point.t_ms));
     let indent = " ".repeat(head.chars().count());
     let mut text = format!("{head}{HEADING}{}{HEADING:#}\n", beside(title, width, &indent));

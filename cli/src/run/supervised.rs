@@ -40,7 +40,7 @@ pub(super) fn supervised(trace: &Trace) -> Option<Supervised> {
 
 fn point(it: &story::Point<'_>) -> Point {
     Point {
-        point: it.number,
+        number: it.number,
         t_ms: it.t_us / 1000,
         x_mm: it.x_mm,
         text: it.title(),

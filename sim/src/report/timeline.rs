@@ -240,14 +240,13 @@ fn places(view: &View<'_>, time: Time, net: &str) -> Vec<Bar> {
 fn tint(name: &str) -> &'static str {
     match name {
         "autonomous" | "Following" | "PF.OPT" | "Optimal" | "DriveA" | "DriveB" => "f0",
-        "Planning" | "PP" | "Receive" | "Deliver" | "End" | "Done" => "f6",
         "PF.OPTR" | "Reduced" => "f1",
-        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "Odometric" | "Granted" => "f5",
+        // `Degraded` of both adapters: they have lanes of their own.
+        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "Odometric" | "Degraded" | "Granted" => "f5",
         "hand-over" | "HandOver" | "Security" => "f2",
         "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
         "teleoperated" | "Teleoperated" | "TO.FULL" | "TO.DEG" | "Full" | "Safe" | "Destroyed" => "f4",
-        // Of both adapters: they serve different lanes.
-        "Degraded" => "f5",
+        // Planning, standing at an objective, and the ends.
         _ => "f6",
     }
 }

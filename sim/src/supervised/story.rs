@@ -314,13 +314,13 @@ impl Point<'_> {
             (None, _) => "nothing runs any more".into(),
         });
         let Some(chain) = self.chain() else { return runs };
-        let Some(first) = chain.reaction.first() else { return None };
+        let first = chain.reaction.first()?;
         let by: Vec<_> = chain.reaction.iter().map(|it| it.line()).collect();
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
         let again = if chain.planned_again { "; the rest is planned again" } else { "" };
         let later = chain.asked_us.filter(|&it| it > first.t_us);
         let asked = later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
-        let said: String = chain.operator.iter().map(|it| format!("; {}", said(answer(it)))).collect();
+        let said: String = chain.operator.iter().flat_map(|it| ["; ", said(answer(it))]).collect();
         Some(format!("after {}, {}: {runs}{again}{asked}{said}", self.since(first.t_us), by.join(" ")))
     }
 

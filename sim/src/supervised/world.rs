@@ -304,7 +304,9 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         if exposed {
             let breaks = |it: &Failure| !it.over && !it.mode.health(it.part).available().covers(required);
             let conducts = self.failures.iter().zip(&mut self.run.conduct);
-            conducts.filter(|(it, _)| breaks(it)).for_each(|(_, it)| it.exposed.0 += PERIOD.0);
+            for (_, it) in conducts.filter(|(it, _)| breaks(it)) {
+                it.exposed.0 += PERIOD.0;
+            }
         }
         let permitted = self.level.permit().is_some();
         if self.permitted && !permitted {

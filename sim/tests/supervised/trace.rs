@@ -10,6 +10,9 @@ use cotama_sim::supervised::{PLANNER, Script, Supervised, story};
 use cotama_sim::trace::{Outcome, Record, Trace, replay};
 use proptest::prelude::*;
 use std::fmt::Write;
+use std::sync::LazyLock;
+
+static GOLDEN: LazyLock<String> = LazyLock::new(|| record(FaultChoice::Script).to_json_lines());
 
 fn record(faults: FaultChoice) -> Trace {
     let options = Options { faults, planner: PLANNER, ..Options::default() };
@@ -142,5 +145,30 @@ proptest! {
         }
         let reason = matches!(trace.records.last(), Some(Record::End(it)) if it.reason.is_some());
         prop_assert_eq!(reason, run.outcome != Outcome::Completed);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    /// Whatever is changed in a good trace, reading it, replaying it and reporting it ends with an answer.
+    #[test]
+    fn damaged_traces_are_survived(at in 0usize..200_000, byte in any::<u8>(), line in any::<bool>()) {
+        let text = GOLDEN.clone();
+        let at = at % text.len();
+        let damaged = if line {
+            let gone = at % text.lines().count();
+            text.lines().enumerate().filter(|(number, _)| *number != gone).map(|(_, it)| format!("{it}\n")).collect()
+        } else {
+            let mut bytes = text.into_bytes();
+            bytes[at] = byte;
+            String::from_utf8_lossy(&bytes).into_owned()
+        };
+        if let Ok(trace) = Trace::parse("damaged", &damaged) {
+            let _ = cotama_sim::report::html(&trace);
+            let identical = replay(&trace).is_ok_and(|it| it.identical);
+            let header = |text: &str| text.lines().next().unwrap_or_default().to_owned();
+            prop_assert!(!identical || damaged == *GOLDEN || header(&damaged) != header(&GOLDEN));
+        }
     }
 }

@@ -9,7 +9,7 @@ use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
 use cotama_core::net::{Net, Role, Transition};
 use cotama_core::system::Program;
 use cotama_core::units::Millis;
-use cotama_models::cotama::{self, Class, Flag, Mode, delivery};
+use cotama_models::cotama::{self, Class, Flag, Mode, Severity, delivery};
 
 /// How much of a run is recorded.
 #[derive(Debug, Default)]
@@ -74,7 +74,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
                 since_ms: at.0.saturating_sub(it.injected.0),
             }));
         }
-        for &(round, ref told) in &run.told[done.told..] {
+        for &(round, told) in &run.told[done.told..] {
             to.record(Record::Told(Told { t_us, x_mm, round, event: self.event_name(told) }));
         }
         done.told = run.told.len();
@@ -122,7 +122,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     }
 
     /// An event of the supervisors: its net and its name.
-    fn event_name(&self, told: &cotama::Told) -> String {
+    fn event_name(&self, told: cotama::Told) -> String {
         let event = told.event();
         let component =
             delivery::SYSTEM.components.get(usize::from(event.component)).map_or("", |it| it.name);
@@ -139,7 +139,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let news: Vec<usize> =
             (0..done.conduct.len()).filter(|&at| new((&self.run.conduct[at], &done.conduct[at]))).collect();
         let Some(conduct) = news.first().map(|&at| &self.run.conduct[at]) else { return };
-        news.iter().for_each(|&at| done.conduct[at].diagnosis = true);
+        for &at in &news {
+            done.conduct[at].diagnosis = true;
+        }
         let severity = conduct.judged.map(|it| it.severity);
         let name = |class: Option<Class>| class.map_or("", Class::name).to_owned();
         to.record(Record::Diagnosis(Diagnosis {
@@ -149,8 +151,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             flags: conduct.flags.iter().map(|it: Flag| it.name().into()).collect(),
             candidates: candidates(conduct),
             report: conduct.judged.and_then(|it| it.report).map(|it| it.name().into()),
-            severity: severity.map_or("", |it| it.name()).into(),
-            by_severity: name(severity.map(|it| it.class())),
+            severity: severity.map_or("", Severity::name).into(),
+            by_severity: name(severity.map(Severity::class)),
             by_availability: name(conduct.judged.map(|it| it.by_availability)),
         }));
     }
