@@ -3,7 +3,8 @@
 use cotama_core::net::{Known, Net};
 use cotama_core::system::System;
 use cotama_models::cotama::{
-    contextual, decision, environment, global, local, path_following, teleoperation,
+    contextual, decision, delivery, environment, faults, global, local, observation, operator,
+    path_following, permit, teleoperation,
 };
 use cotama_models::nets::families::Family;
 use cotama_models::nets::{self, Model};
@@ -47,6 +48,7 @@ impl Entry {
 }
 
 static DECISION: System<'static> = decision::SYSTEM;
+static DELIVERY: System<'static> = delivery::SYSTEM;
 
 /// All of them, in the order in which they are listed.
 pub(crate) fn entries() -> Vec<Entry> {
@@ -58,21 +60,29 @@ pub(crate) fn entries() -> Vec<Entry> {
             Model::Family(family) => Kind::Family(family),
         },
     });
-    let supervisors: [(&'static Net<'static>, Known); 6] = [
+    let supervisors: [(&'static Net<'static>, Known); 10] = [
         (&global::NET, global::KNOWN),
         (&local::NET, local::KNOWN),
         (&path_following::NET, path_following::KNOWN),
         (&teleoperation::NET, teleoperation::KNOWN),
         (&contextual::NET, contextual::KNOWN),
         (&environment::NET, environment::KNOWN),
+        (&permit::NET, permit::KNOWN),
+        (&observation::NET, observation::KNOWN),
+        (&faults::NET, faults::KNOWN),
+        (&operator::NET, operator::KNOWN),
     ];
     let supervisors = supervisors.map(|(net, known)| Entry {
         name: net.name,
         description: net.doc,
         kind: Kind::Net(net, known),
     });
-    let system = Entry { name: DECISION.name, description: DECISION.doc, kind: Kind::System(&DECISION) };
-    shipped.chain(supervisors).chain([system]).collect()
+    let systems = [&DECISION, &DELIVERY].map(|system| Entry {
+        name: system.name,
+        description: system.doc,
+        kind: Kind::System(system),
+    });
+    shipped.chain(supervisors).chain(systems).collect()
 }
 
 /// The model of this name.
