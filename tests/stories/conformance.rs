@@ -16,6 +16,7 @@ use cotama_verification::check::{Model, Options, Verdict, check};
 use cotama_verification::flat::{Rounds, rounds};
 use cotama_verification::property;
 use std::collections::HashMap;
+use std::fmt::Write as _;
 
 /// The tokens of each place.
 type Marking = Vec<u32>;
@@ -106,7 +107,7 @@ impl Game {
         for round in 1..=rounds {
             let (after, mut run) = self.turns(&marking);
             marking = after;
-            let event = told.next_if(|it| it.0 == round).map(|it| name(&it.1));
+            let event = told.next_if(|it| it.0 == round).map(|it| name(it.1));
             run.push(self.outside(&mut marking, event.as_deref()).ok_or(round)?);
             let [happened] = &self.rounds.told(&run)[..] else { panic!("one round") };
             let (_, outside) = happened.outside.as_ref().unwrap();
@@ -172,7 +173,7 @@ impl Game {
 }
 
 /// An event as the net of rounds calls it.
-fn name(told: &Told) -> String {
+fn name(told: Told) -> String {
     let event = told.event();
     let component = &delivery::SYSTEM.components[usize::from(event.component)];
     format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
@@ -215,9 +216,10 @@ fn rows(run: &Run) -> String {
         let fired = run.fired.iter().filter(|it| (from..to).contains(&it.at));
         let fired: Vec<_> = fired.map(|it| format!("{}.{}", it.net, it.transition)).collect();
         let runs = run.configurations.iter().rfind(|it| it.0 < to).and_then(|it| it.1);
-        let told: Vec<_> = told.iter().map(|it| name(&it.1)).collect();
-        rows += &format!(
-            "| {}.{} | {} | {} | {} |\n",
+        let told: Vec<_> = told.iter().map(|it| name(it.1)).collect();
+        let _ = writeln!(
+            rows,
+            "| {}.{} | {} | {} | {} |",
             from.0 / 1_000,
             from.0 % 1_000 / 100,
             told.join(", "),
