@@ -1,6 +1,7 @@
 //! `cotama export`: a model as a file of another tool, or as a drawing.
 
 use crate::args::{DrawnAs, ExportArgs, Format};
+use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
 use crate::model;
 use crate::output::{self, Screen};
@@ -9,7 +10,7 @@ use crate::render::visible;
 use clap::ValueEnum;
 use cotama_core::net::{Net, TransitionId};
 use cotama_verification::export::drawing::Style;
-use cotama_verification::export::{dot, jani, json, matrix, mermaid, scxml, svg};
+use cotama_verification::export::{dot, jani, json, matrix, mermaid, overview, scxml, svg};
 use cotama_verification::pnml;
 use std::path::Path;
 
@@ -30,9 +31,13 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
         return Err(Failure::new(format!("--style is for drawings, and {} is none", name(format)))
             .help("drawings: dot, svg, mermaid"));
     }
-    let loaded = model::load(&args.model.model)?;
-    let view = loaded.net.view();
-    let text = written(&view.net(), format, args.style.unwrap_or(DrawnAs::Auto), screen)?;
+    let text = match catalogue::entry(&args.model.model) {
+        Some(Entry { kind: Kind::System(system), .. }) if format == Format::Svg => overview::write(system),
+        _ => {
+            let loaded = model::load(&args.model.model)?;
+            written(&loaded.net.view().net(), format, args.style.unwrap_or(DrawnAs::Auto), screen)?
+        }
+    };
     match &args.output {
         None => Screen::raw(text.as_bytes())?,
         Some(path) => {

@@ -1,6 +1,7 @@
 //! `cotama export`: models as files of other tools.
 
-use crate::common::{Folder, golden};
+use crate::common::{Folder, compare, golden};
+use std::path::Path;
 
 const FORMATS: [(&str, &str, &str); 8] = [
     ("dot", "gv", "digraph"),
@@ -26,6 +27,30 @@ fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
         assert_eq!(folder.read(&file), printed.stdout, "{format}");
     }
     assert_eq!(folder.files("out").len(), FORMATS.len());
+}
+
+/// The page that tells the delivery shows what the program draws; `UPDATE_GOLDEN=1` draws it anew.
+#[test]
+fn the_drawings_of_the_delivery_are_those_of_the_program() {
+    let folder = Folder::new("export_delivery");
+    let page = include_str!("../../docs/delivery.md");
+    let models = [
+        "delivery",
+        "global",
+        "local",
+        "path_following",
+        "teleoperation",
+        "contextual",
+        "observation",
+        "permit",
+    ];
+    for model in models {
+        let drawn = folder.cotama(&["export", model, "--format", "svg"]);
+        assert_eq!(drawn.code, Some(0), "{drawn:?}");
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../docs/delivery/{model}.svg"));
+        compare(&path, &drawn.stdout);
+        assert!(page.contains(&format!("(delivery/{model}.svg)")), "{model} is not shown");
+    }
 }
 
 #[test]

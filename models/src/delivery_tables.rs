@@ -27,7 +27,7 @@ pub const LIMITS: [u64; 2] = [900_000, 7_200_000];
 /// The axes in their order of treatment.
 pub const ORDER: [usize; 2] = [0, 1];
 /// All the hardware of the robot.
-pub const AVAILABLE: Units = units(0x11111111111);
+pub const AVAILABLE: Units = units(0x0111_1111_1111);
 
 /// The activities.
 #[rustfmt::skip]
@@ -49,10 +49,10 @@ pub static LABELS: [&[&str]; 4] = [
 
 #[rustfmt::skip]
 static ALTERNATIVES_0: [Alternative; 4] = [
-    travel(300, 7_720, 0x10011111, 4),
-    travel(300, 7_720, 0x10011111, 3),
-    travel(300, 7_720, 0x10010111, 2),
-    travel(150, 6_000, 0x1010001, 1),
+    travel(300, 7_720, 0x1001_1111, 4),
+    travel(300, 7_720, 0x1001_1111, 3),
+    travel(300, 7_720, 0x1001_0111, 2),
+    travel(150, 6_000, 0x0101_0001, 1),
 ];
 
 #[rustfmt::skip]

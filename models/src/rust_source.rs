@@ -37,7 +37,7 @@ impl fmt::Display for Source<'_> {
         writeln!(f, "/// The axes in their order of treatment.")?;
         writeln!(f, "pub const ORDER: [usize; 2] = [{first}, {second}];")?;
         writeln!(f, "/// All the hardware of the robot.")?;
-        writeln!(f, "pub const AVAILABLE: Units = units({available:#x});\n")?;
+        writeln!(f, "pub const AVAILABLE: Units = units({});\n", hex(available))?;
         writeln!(f, "/// The activities.\n#[rustfmt::skip]")?;
         writeln!(f, "pub static ACTIVITIES: [Activity<'static>; {count}] = [")?;
         for activity in activities {
@@ -109,9 +109,9 @@ fn constructor(alternative: &Alternative) -> String {
     let Alternative { speed, duration, power, needs, quality } = *alternative;
     let (power, needs, quality) = (number(power.0), needs.to_bits(), number(quality.into()));
     if speed.0 > 0 {
-        format!("travel({}, {power}, {needs:#x}, {quality})", number(speed.0))
+        format!("travel({}, {power}, {}, {quality})", number(speed.0), hex(needs))
     } else {
-        format!("stand({}, {power}, {needs:#x}, {quality})", number(duration.0))
+        format!("stand({}, {power}, {}, {quality})", number(duration.0), hex(needs))
     }
 }
 
@@ -126,6 +126,17 @@ fn number(value: u64) -> String {
         text.push(digit);
     }
     text
+}
+
+/// Hexadecimal digits, in groups of four where there are more.
+fn hex(bits: u64) -> String {
+    let digits = format!("{bits:x}");
+    if digits.len() <= 4 {
+        return format!("0x{digits}");
+    }
+    let digits = format!("{}{digits}", "0".repeat(digits.len().next_multiple_of(4) - digits.len()));
+    let groups: Vec<&str> = (0..digits.len()).step_by(4).map(|at| &digits[at..at + 4]).collect();
+    format!("0x{}", groups.join("_"))
 }
 
 /// A name that cannot end its comment.

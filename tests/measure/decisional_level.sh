@@ -10,7 +10,9 @@ set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/decisional_level
 export CARGO_TARGET_DIR PATH=/usr/bin:/bin # only Debian's compiler
-unset CARGO RUSTC RUSTDOC RUSTFLAGS RUSTUP_TOOLCHAIN
+unset CARGO RUSTC RUSTDOC RUSTUP_TOOLCHAIN
+RUSTFLAGS="--remap-path-prefix=$(realpath "$here/../..")=." # panics name their files: not where this folder lies
+export RUSTFLAGS
 cd "$here/decisional_level"
 target=thumbv7em-none-eabihf
 work=$(mktemp -d)

@@ -7,13 +7,16 @@
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Configuration, FailureMode, Module, Told, delivery, local};
+use cotama_models::cotama::{Configuration, FailureMode, Module, Told, delivery, faults, local};
 use cotama_models::mission::Mission;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
 use cotama_sim::trace::Outcome;
+use cotama_verification::check::{Model, Options, Verdict, check};
 use cotama_verification::flat::{Rounds, rounds};
+use cotama_verification::property;
 use std::collections::HashMap;
+use std::fmt::Write as _;
 
 /// The tokens of each place.
 type Marking = Vec<u32>;
@@ -104,7 +107,7 @@ impl Game {
         for round in 1..=rounds {
             let (after, mut run) = self.turns(&marking);
             marking = after;
-            let event = told.next_if(|it| it.0 == round).map(|it| name(&it.1));
+            let event = told.next_if(|it| it.0 == round).map(|it| name(it.1));
             run.push(self.outside(&mut marking, event.as_deref()).ok_or(round)?);
             let [happened] = &self.rounds.told(&run)[..] else { panic!("one round") };
             let (_, outside) = happened.outside.as_ref().unwrap();
@@ -170,7 +173,7 @@ impl Game {
 }
 
 /// An event as the net of rounds calls it.
-fn name(told: &Told) -> String {
+fn name(told: Told) -> String {
     let event = told.event();
     let component = &delivery::SYSTEM.components[usize::from(event.component)];
     format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
@@ -189,13 +192,61 @@ fn the_seven_points_are_a_run_of_the_checked_system() {
     let mut game = Game::new();
     assert_eq!(game.refusal(&run), None);
     // And one that was told less, or later, is not.
-    for left_out in 0..run.told.len() {
-        let mut less = run.clone();
-        less.told.remove(left_out);
-        assert!(game.refusal(&less).is_some(), "without {:?}", run.told[left_out]);
-        let mut later = run.clone();
-        later.told[left_out].0 += 1;
-        assert!(game.refusal(&later).is_some(), "later: {:?}", run.told[left_out]);
+    for altered in 0..run.told.len() {
+        let (mut less, mut later) = (run.clone(), run.clone());
+        less.told.remove(altered);
+        later.told[altered].0 += 1;
+        let refused = [less, later].map(|it| game.refusal(&it).is_some());
+        // With the sonars localisation is gone already, so nobody answers that it is lost.
+        let is_known = run.told[altered].1 == Told::Failure(faults::Event::lose_mcl);
+        assert_eq!(refused, [!is_known; 2], "{:?}", run.told[altered]);
+    }
+}
+
+const PAGE: &str = include_str!("../../docs/delivery.md");
+
+/// The rows of the story: what was told when, what fired until something else was told, and what ran then.
+fn rows(run: &Run) -> String {
+    let time = |round: u64| Millis((round - 1) * PERIOD.0);
+    let mut rows = String::new();
+    // What is told in rounds that follow each other belongs together.
+    for told in run.told.chunk_by(|a, b| a.0 + 1 == b.0) {
+        let (from, last) = (time(told[0].0), told[told.len() - 1].0);
+        let to = run.told.iter().find(|it| it.0 > last).map_or(run.time, |it| time(it.0));
+        let fired = run.fired.iter().filter(|it| (from..to).contains(&it.at));
+        let fired: Vec<_> = fired.map(|it| format!("{}.{}", it.net, it.transition)).collect();
+        let runs = run.configurations.iter().rfind(|it| it.0 < to).and_then(|it| it.1);
+        let told: Vec<_> = told.iter().map(|it| name(it.1)).collect();
+        let _ = writeln!(
+            rows,
+            "| {}.{} | {} | {} | {} |",
+            from.0 / 1_000,
+            from.0 % 1_000 / 100,
+            told.join(", "),
+            fired.join(", "),
+            runs.map_or("none", Configuration::name)
+        );
+    }
+    rows
+}
+
+#[test]
+fn the_page_of_the_delivery_tells_the_run() {
+    let mission = mission();
+    let run = Supervised::new(&mission).unwrap().run(&Script::from(&mission.run.faults)).unwrap();
+    let rows = rows(&run);
+    assert!(PAGE.contains(&rows), "docs/delivery.md must have these rows:\n{rows}");
+}
+
+#[test]
+fn what_the_page_of_the_delivery_claims_holds() {
+    let net = rounds(&delivery::SYSTEM).unwrap().net().unwrap();
+    let model = Model::from(&net.view().net());
+    let claims: Vec<_> = PAGE.split('`').filter(|it| it.starts_with("AG ")).collect();
+    assert_eq!(claims.len(), 6);
+    for claim in claims {
+        let formula = property::parse(claim, model.pt()).unwrap();
+        assert_eq!(check(&model, &formula, &Options::default()).verdict, Verdict::Holds(true), "{claim}");
     }
 }
 

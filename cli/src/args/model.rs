@@ -93,7 +93,7 @@ pub(crate) struct SimulateArgs {
 pub(crate) enum Format {
     /// A graph for Graphviz (.dot, .gv)
     Dot,
-    /// A drawing (.svg)
+    /// A drawing; of a system: which net says what to which (.svg)
     Svg,
     /// The exchange format of Petri nets; nothing is lost (.pnml)
     Pnml,

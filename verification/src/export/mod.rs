@@ -1,4 +1,4 @@
-//! A net as a file of another tool, or as a drawing.
+//! A net as a file of another tool, or as a drawing; a system as a drawing.
 
 pub mod dot;
 pub mod drawing;
@@ -9,5 +9,6 @@ pub mod json;
 mod layout;
 pub mod matrix;
 pub mod mermaid;
+pub mod overview;
 pub mod scxml;
 pub mod svg;

@@ -47,9 +47,20 @@ pub fn write(net: &Net<'_>, style: Style) -> String {
 /// Draws a net with a marking and transitions pointed out.
 pub fn write_highlighted(net: &Net<'_>, style: Style, highlight: &Highlight<'_>) -> String {
     let scene = Scene::of(net, Figure::of(net, style), highlight);
+    let kind = if scene.figure.is_states { "State diagram" } else { "Petri net" };
+    written(net, &scene, kind, highlight)
+}
+
+/// Draws a figure, whose places are those of a net; what it is, in a word or two.
+pub(crate) fn write_figure(net: &Net<'_>, figure: Figure<'_>, kind: &str) -> String {
+    let highlight = Highlight::default();
+    written(net, &Scene::of(net, figure, &highlight), kind, &highlight)
+}
+
+fn written(net: &Net<'_>, scene: &Scene<'_>, kind: &str, highlight: &Highlight<'_>) -> String {
     let mut out = Svg { text: String::new(), prefix: "" };
-    out.head(&scene);
-    out.body(net, &scene, highlight);
+    out.head(scene, kind);
+    out.body(net, scene, highlight);
     out.text.push_str("</svg>\n");
     out.text
 }
@@ -109,10 +120,9 @@ impl Svg<'_> {
         let _ = self.text.write_fmt(arguments);
     }
 
-    fn head(&mut self, scene: &Scene<'_>) {
+    fn head(&mut self, scene: &Scene<'_>, kind: &str) {
         let (width, height) = (scene.layout.width, scene.layout.height);
         let figure = &scene.figure;
-        let kind = if figure.is_states { "State diagram" } else { "Petri net" };
         let doc = if figure.doc.is_empty() { kind.to_owned() } else { format!("{kind}. {}", figure.doc) };
         self.add(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" height=\"{height}\" \
