@@ -180,6 +180,28 @@ fn a_system_is_checked_in_every_interleaving() {
     assert!(answer["notes"][0].as_str().unwrap().contains("every interleaving"), "{answer}");
 }
 
+/// With few markings most are not known; that all hold is tested beside the checker.
+#[test]
+fn the_requirements_of_a_system_are_asked_by_their_numbers() {
+    let folder = Folder::new("check_requirements");
+    let few = ["--max-states", "2000", "--json", "--certificate", "kept.json"];
+    let answer = check(&folder, "delivery", &[], &few).json(3);
+    assert_eq!(answer["semantics"], "rounds");
+    let rows = answer["results"].as_array().unwrap();
+    let first = &rows[0];
+    assert_eq!((&first["id"], &first["name"]), (&json!("GS1"), &json!("GS1")));
+    assert_eq!(first["sentence"], "The mission is in exactly one place.");
+    assert_eq!((&first["engine"], &first["evidence"]), (&json!("structural"), &json!("refutation")));
+    let true_ones = rows.iter().filter(|it| it["verdict"] == "true").map(|it| it["id"].as_str().unwrap());
+    assert_eq!(true_ones.collect::<Vec<_>>(), ["GS1", "LS1", "LS7", "AS1", "DP1"]);
+    assert!(rows.iter().all(|it| it["verdict"] != "false"));
+    assert_eq!(folder.cotama(&["verify", "kept-1.json"]).code, Some(0));
+    let otherwise = answer["otherwise"].as_array().unwrap();
+    let limit = otherwise.iter().find(|it| it["id"] == "AS6").unwrap();
+    assert_eq!(limit["how"], "each transition that must says so");
+    assert_eq!((rows.len(), otherwise.len()), (31, 20));
+}
+
 #[test]
 fn files_hold_one_property_a_line_or_those_of_the_contest() {
     let folder = Folder::new("check_files");

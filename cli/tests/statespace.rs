@@ -52,6 +52,14 @@ fn the_same_input_gives_the_same_answer_but_for_the_seconds() {
 }
 
 #[test]
+fn the_shipped_supervisors_are_counted_in_rounds() {
+    let folder = Folder::new("statespace_rounds");
+    let answer = folder.cotama(&["statespace", "delivery", "--json"]).json(0);
+    assert_eq!(answer["rounds"], json!({ "states": "14824", "edges": "147728" }));
+    assert_eq!((&answer["states"], &answer["semantics"]), (&json!("45234"), &json!("rounds")));
+}
+
+#[test]
 fn state_classes_are_counted_where_there_are_intervals() {
     let folder = Folder::new("statespace_classes");
     folder.write("race.net", "tr fast [1,2] idle -> won  tr slow ]2,3] idle -> lost  pl idle (1)");

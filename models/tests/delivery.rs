@@ -53,7 +53,11 @@ fn the_shipped_supervisors_reach_31266_states_by_327040_steps() {
     }
     assert_eq!((states.len(), edges), (31_266, 327_040));
     let all = delivery::SYSTEM.components.iter().zip(0..).flat_map(|(it, component)| {
-        it.net.transitions.iter().zip(0..).map(move |(t, id)| ((component, id), format!("{}.{}", it.name, t.name)))
+        it.net
+            .transitions
+            .iter()
+            .zip(0..)
+            .map(move |(t, id)| ((component, id), format!("{}.{}", it.name, t.name)))
     });
     let never: Vec<_> = all.filter(|it| !fired.contains(&it.0)).map(|it| it.1).collect();
     let unused = [

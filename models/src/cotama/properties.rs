@@ -98,7 +98,9 @@ impl Said {
                 goes && answers && (comes || (self.from.is_empty() && !stays))
             };
             let says = move |it: &Transition<'s>| {
-                it.emits.iter().any(|id| net.outputs.get(id.0 as usize).is_some_and(|it| it.name == self.output))
+                it.emits
+                    .iter()
+                    .any(|id| net.outputs.get(id.0 as usize).is_some_and(|it| it.name == self.output))
             };
             net.transitions.iter().filter(is_meant).filter(move |it| !says(it)).map(|it| it.name)
         })
@@ -166,8 +168,8 @@ requirements! {
         checked "AG ((gs.Security | gs.Safe -> ls.Idle & permit.Destroyed) & (gs.Security -> AX (gs.Security | gs.Safe)) & \
                  (gs.Safe -> AX gs.Safe) & (round & (gs.Security | gs.Safe) -> !ls.start_drive.waiting))",
         said [said("gs", &[], &["Security"], "halt")];
-    GS5 Stated "Nothing is delivered before it was received, and nothing received before the first drive.",
-        checked "!E[!gs.DriveB U (gs.Deliver | gs.Done)] & !E[!gs.Receive U gs.DriveB] & !E[!gs.DriveA U gs.Receive]";
+    GS5 Stated "The mission is done when the object is delivered, not before it was received, and that not before the first drive.",
+        checked "!E[!gs.Deliver U gs.Done] & !E[!gs.DriveB U gs.Deliver] & !E[!gs.Receive U gs.DriveB] & !E[!gs.DriveA U gs.Receive]";
     GS6 Stated "From everywhere the mission can end: accomplished, or stopped for good; and it can be accomplished.",
         checked "EF gs.Done & AG (!deadlock & EF ((gs.Done | gs.Safe) & ls.Idle))";
     GS7 Stated "A global event is never masked.",

@@ -12,8 +12,11 @@ use std::slice::from_ref;
 /// The longest text of a certificate, in bytes.
 pub const MAX_BYTES: usize = 1 << 26;
 
-/// The most work: about so many arcs and terms are looked at, and bytes are used.
-pub const MAX_WORK: u64 = 1 << 31;
+/// The most work: about so many arcs and terms are looked at.
+pub const MAX_WORK: u64 = 1 << 33;
+
+/// The most memory, in bytes, about.
+pub const MAX_MEMORY: u64 = 1 << 30;
 
 pub(super) type Checked<T> = Result<T, VerifyError>;
 
@@ -56,6 +59,7 @@ pub(super) struct Numbered<'a> {
     places: BTreeMap<&'a str, usize>,
     transitions: BTreeMap<&'a str, usize>,
     work: Cell<u64>,
+    memory: Cell<u64>,
 }
 
 fn number(of: &BTreeMap<&str, usize>, name: &str) -> Checked<usize> {
@@ -70,7 +74,8 @@ impl<'a> Numbered<'a> {
         let differ = places.len() == net.places.len() && transitions.len() == net.transitions.len();
         ensure(differ, "two places or two transitions have the same name")?;
         let initial = once(1).chain(net.places.iter().map(|it| it.1)).collect();
-        let mut numbered = Self { net, initial, arcs: Vec::new(), places, transitions, work: Cell::new(0) };
+        let (work, memory) = (Cell::new(0), Cell::new(0));
+        let mut numbered = Self { net, initial, arcs: Vec::new(), places, transitions, work, memory };
         let arcs = each(&net.transitions, |it| {
             let arcs = [numbered.weights(&it.take)?, numbered.weights(&it.give)?];
             ensure(arcs.iter().flat_map(BTreeMap::values).all(|it| *it > 0), "an arc has weight 0")
@@ -102,7 +107,7 @@ impl<'a> Numbered<'a> {
     /// That a transition is enabled: `weight - tokens <= 0` for each place that it takes from.
     pub(super) fn enabling(&self, transition: usize) -> Checked<Formula> {
         let take = &self.net.transitions[transition].take;
-        self.spend(256 * (1 + take.len()))?; // memory is work too
+        self.hold(256 * (1 + take.len()))?;
         let enough = take.iter().map(|it| Formula::at_least(it.1.into(), from_ref(&it.0)));
         Ok(Formula::And(enough.collect()))
     }
@@ -135,6 +140,13 @@ impl<'a> Numbered<'a> {
                 Formula::Until(Box::new((self.written_out(&both.0)?, self.written_out(&both.1)?)))
             }
         })
+    }
+
+    /// Counts memory, which is work too.
+    pub(super) fn hold(&self, bytes: usize) -> Checked<()> {
+        self.memory.set(self.memory.get().saturating_add(bytes as u64));
+        ensure(self.memory.get() <= MAX_MEMORY, "takes too much memory to check")?;
+        self.spend(bytes)
     }
 
     pub(super) fn spend(&self, work: usize) -> Checked<()> {

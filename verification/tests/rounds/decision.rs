@@ -91,14 +91,13 @@ pub(crate) const ASKED: [Asked; 10] = [
 
 /// Adds an observer that counts up to `most`.
 pub(crate) fn watch(rounds: &mut Rounds, (name, looks, begins, ends): (&str, Looks, &str, &str), most: u32) {
-    let [begins, ends] = [begins, ends].map(|it| rounds.condition(it).unwrap());
-    rounds.observe(&Observer::lasting(name, looks, &begins, &ends, most)).unwrap();
+    rounds.watch(name, looks, (begins, ends), most).unwrap();
 }
 
 /// Counts in how many rounds in a row something that is lost is used.
 pub(crate) fn watch_loss(rounds: &mut Rounds, (lost, used): (&str, &str), most: u32) {
-    let what = rounds.condition(&format!("!env.{lost} & ({used})")).unwrap();
-    rounds.observe(&Observer::in_a_row(&format!("without_{lost}"), Looks::AtEnd, &what, most)).unwrap();
+    let (begins, ends) = (format!("!env.{lost} & ({used})"), format!("env.{lost} | !({used})"));
+    rounds.watch(&format!("without_{lost}"), Looks::AtEnd, (&begins, &ends), most).unwrap();
 }
 
 /// The rank of what runs, from nothing to `Degraded`; 5 when it became less without a stop. A stop and a start in one round have the

@@ -46,8 +46,9 @@ fn the_shipped_supervisors_have_31266_states_between_rounds() {
     assert_eq!(rounds.size(&graph), Size { states: 31_266, edges: 327_040 });
 }
 
-/// By which engine, among how many markings, with which evidence; `said` counts what transitions must say.
-fn known(of: &Requirement) -> String {
+/// By which engine, among how many markings, with which evidence; `said` counts what transitions must say. The small checker
+/// looks at the certificate where it is short, or where all are to be looked at.
+fn known(of: &Requirement, all: bool) -> String {
     let mut line = of.id.to_owned();
     if let Some(asked) = of.asked {
         let rounds = watched(&delivery::SYSTEM, asked.watches).unwrap();
@@ -57,7 +58,8 @@ fn known(of: &Requirement) -> String {
         let answer = Checker::new(&model).answer(&property, &options);
         assert_eq!(answer.verdict, Verdict::Holds(true), "{}", of.id);
         let text = answer.certificate(model.pt(), &property).unwrap().text();
-        assert!(verify(&text).unwrap().verdict, "{}", of.id);
+        let is_short = matches!(answer.evidence, Evidence::Refutation(_));
+        assert!(!(all || is_short) || verify(&text).unwrap().verdict, "{}", of.id);
         let evidence = match answer.evidence {
             Evidence::Refutation(_) => "refutation",
             Evidence::Graph(_) => "graph",
@@ -81,8 +83,15 @@ fn known(of: &Requirement) -> String {
 }
 
 #[test]
-fn every_requirement_holds_and_the_small_checker_is_convinced() {
-    let known: String = REQUIREMENTS.iter().map(known).collect();
+fn every_requirement_holds() {
+    let known: String = REQUIREMENTS.iter().map(|it| known(it, false)).collect();
+    golden("requirements.txt", &known);
+}
+
+#[test]
+#[ignore = "takes some minutes when compiled with --release: the small checker passes through all markings, plainly"]
+fn the_small_checker_is_convinced_of_every_requirement() {
+    let known: String = REQUIREMENTS.iter().map(|it| known(it, true)).collect();
     golden("requirements.txt", &known);
 }
 

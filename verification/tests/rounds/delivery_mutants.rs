@@ -14,7 +14,9 @@ use cotama_verification::temporal::{Fairness, ctl};
 const SUPERVISORS: u16 = 7;
 
 fn holds(asked: &Asked, pt: &Pt, graph: &Graph) -> bool {
-    let Question::Formula(formula) = parse(asked.text, pt).unwrap().question else { panic!("{}", asked.text) };
+    let Question::Formula(formula) = parse(asked.text, pt).unwrap().question else {
+        panic!("{}", asked.text)
+    };
     ctl(graph, &Ctl::new(&formula.simplified()).unwrap(), &Fairness::default()).verdict
 }
 
@@ -41,7 +43,10 @@ fn broken(system: &System<'_>) -> Option<&'static str> {
 
 /// Mutants that break nothing, and why.
 const HARMLESS: [(&str, &str); 7] = [
-    ("ls.gs_abort empties ls.local_event", "the drive is idle and ignores the event, and starts only after it was read"),
+    (
+        "ls.gs_abort empties ls.local_event",
+        "the drive is idle and ignores the event, and starts only after it was read",
+    ),
     ("pf.as1.level_0: level stays", "it never fires"),
     ("pf.a9.level_1: without level >= 1", "at the floor the line before it fires"),
     ("cs.slow3.mcl_1: without level < 1", "above the floor the line before it fires"),

@@ -97,10 +97,17 @@ impl Maker {
             if self.of.components[usize::from(at)].name != "cs" {
                 continue;
             }
-            for (output, id) in outputs.iter().zip(0..).filter(|it| is_decision(it.0.name) && it.0.name != name) {
-                self.changed("severity swapped", (at, number), &format!("{} for {name}", output.name), |it| {
-                    it.emits = vec![OutputId(id)].leak();
-                });
+            for (output, id) in
+                outputs.iter().zip(0..).filter(|it| is_decision(it.0.name) && it.0.name != name)
+            {
+                self.changed(
+                    "severity swapped",
+                    (at, number),
+                    &format!("{} for {name}", output.name),
+                    |it| {
+                        it.emits = vec![OutputId(id)].leak();
+                    },
+                );
             }
         }
     }
@@ -128,7 +135,9 @@ impl Maker {
             let Some(position) = flags.iter().position(|&it| it == place) else { continue };
             let other = flags[(position + 1) % flags.len()];
             let used = transition.take.iter().chain(transition.give).chain(transition.read);
-            if other == place || used.into_iter().any(|arc| arc.place == other || Some(arc.place) == complement(net, other)) {
+            if other == place
+                || used.into_iter().any(|arc| arc.place == other || Some(arc.place) == complement(net, other))
+            {
                 continue;
             }
             let instead = |arc: &Arc| match arc.place {
@@ -179,12 +188,16 @@ impl Maker {
             let (from, to) = (self.output(link.from), self.event(link.to));
             let name = format!("{from} => {to}");
             self.push("link dropped", name.clone(), System { links: kept, ..system });
-            let is_alike = |it: &&Link| it.from.component == link.from.component && it.delivery == link.delivery;
+            let is_alike =
+                |it: &&Link| it.from.component == link.from.component && it.delivery == link.delivery;
             let alike: Vec<_> = links.iter().filter(is_alike).map(|it| it.to).collect();
             let at = alike.iter().position(|&it| it == link.to).unwrap_or(0);
             let other = alike[(at + 1) % alike.len()];
             let redirected = Link { to: other, ..*link };
-            if other == link.to || links.contains(&redirected) || link.delivery == (Delivery::Mail { capacity: 0 }) {
+            if other == link.to
+                || links.contains(&redirected)
+                || link.delivery == (Delivery::Mail { capacity: 0 })
+            {
                 continue;
             }
             let all: Vec<_> = kept.iter().copied().chain([redirected]).collect();
@@ -214,7 +227,10 @@ impl Maker {
             });
             let net = self.net(place.component);
             let bound = |of: Of<PlaceId>| net.places[of.id.0 as usize].bound;
-            let Some(other) = alike.filter(|&it| bound(it) == bound(place)).max_by_key(|it| (it.id > place.id, std::cmp::Reverse(it.id))) else {
+            let Some(other) = alike
+                .filter(|&it| bound(it) == bound(place))
+                .max_by_key(|it| (it.id > place.id, std::cmp::Reverse(it.id)))
+            else {
                 continue;
             };
             let mut all = bindings.to_vec();
@@ -251,7 +267,11 @@ fn condition(net: &Net<'_>, arc: Arc) -> String {
     match place.role {
         Role::Complement(of) => {
             let of = &net.places[of.0 as usize];
-            if of.bound == 1 { format!("!{}", of.name) } else { format!("{} < {}", of.name, of.bound - arc.weight + 1) }
+            if of.bound == 1 {
+                format!("!{}", of.name)
+            } else {
+                format!("{} < {}", of.name, of.bound - arc.weight + 1)
+            }
         }
         _ if place.bound == 1 => place.name.to_owned(),
         _ => format!("{} >= {}", place.name, arc.weight),

@@ -114,7 +114,9 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
         }
         let Some(mode) = MODES.iter().position(|mode| it.marked(state, mode)) else { continue };
         for (transition, &after) in it.graph.transitions(state).into_iter().zip(it.graph.successors(state)) {
-            let Some(class) = CLASSES.iter().position(|class| Some(class.0) == event(transition)) else { continue };
+            let Some(class) = CLASSES.iter().position(|class| Some(class.0) == event(transition)) else {
+                continue;
+            };
             let decided = it.to_outside(after);
             let decision = DECISIONS.iter().find(|decision| it.marked(decided, decision.1));
             let cell = cells.entry((class, mode)).or_default();
@@ -130,8 +132,11 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
         for (decision, (decided, told)) in cell {
             let detected = latency(report);
             let decided = detected + decided * PERIOD_MS;
-            let reaction =
-                if decision == "recorded" { "-".to_owned() } else { (decided + told * PERIOD_MS).to_string() };
+            let reaction = if decision == "recorded" {
+                "-".to_owned()
+            } else {
+                (decided + told * PERIOD_MS).to_string()
+            };
             let _ = writeln!(table, "{fault} in {mode}: {decision}; {detected} {decided} {reaction}");
         }
     }
@@ -144,7 +149,9 @@ fn timed(event: &str, mode: &str) -> TimeNet {
     let rounds = rounds(&delivery::SYSTEM).unwrap();
     let net = rounds.net().unwrap();
     let (pt, graph) = explored(&rounds);
-    let waits = |marking: &[u32]| pt.places.iter().zip(marking).any(|(name, &it)| name.ends_with(".waiting") && it > 0);
+    let waits = |marking: &[u32]| {
+        pt.places.iter().zip(marking).any(|(name, &it)| name.ends_with(".waiting") && it > 0)
+    };
     let at = |name: &str| pt.place(name).unwrap().0 as usize;
     let mut markings = (0..graph.states() as u32).map(|state| graph.marking(state));
     let start = markings.find(|it| it[at(mode)] > 0 && it[at("round")] > 0 && !waits(it)).unwrap();

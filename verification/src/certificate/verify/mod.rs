@@ -13,7 +13,7 @@ use super::{Evidence, Formula, Growth, Question, Verified, VerifyError};
 use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};
 use truth::Space;
 
-pub use super::read::{MAX_BYTES, MAX_WORK};
+pub use super::read::{MAX_BYTES, MAX_MEMORY, MAX_WORK};
 pub(super) use refutation::Known;
 
 /// Checks a certificate.

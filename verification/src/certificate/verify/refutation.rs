@@ -72,7 +72,7 @@ impl Numbered<'_> {
     pub(crate) fn assume<'a>(&self, it: &'a Formula, truth: bool, known: &mut Known<'a>) -> Checked<()> {
         match it {
             Formula::AtMost(linear) => {
-                self.spend(64 * (1 + linear.weights.len()))?; // memory is work too
+                self.hold(64 * (1 + linear.weights.len()))?;
                 let sum = self.linear(linear)?;
                 known.sums.push(if truth { sum } else { sum.opposite()? });
             }

@@ -58,7 +58,7 @@ impl Numbered<'_> {
     /// The marking after a transition that is enabled.
     fn fire(&self, from: &Marking, transition: usize) -> Checked<Marking> {
         let ([take, give], mut after) = (&self.arcs[transition], from.clone());
-        self.spend(4 * from.len() + give.len())?; // memory is work too
+        self.hold(4 * from.len() + give.len())?;
         for (place, weight) in take {
             after[*place] -= weight;
         }
@@ -109,7 +109,7 @@ impl Numbered<'_> {
                     after.push(number);
                 }
             }
-            self.spend(16 * (from.len() + after.len()))?; // memory is work too
+            self.hold(16 * (from.len() + after.len()))?;
             ensure(markings.len() <= count, "there are more markings")?;
             next.push(after);
         }
