@@ -9,7 +9,7 @@
 //! [`decision`](super::decision):
 //! - flags of observers go through the observation module, which reads them in the round in which the contextual supervisor
 //!   decides, so that no reaction is later (improved: the paper has the module, the first model left it out);
-//! - the status vector is closed: who loses the sonars loses localisation by particles (inferred);
+//! - the status vector is closed: who loses the sonars loses localisation by particles and avoidance (inferred);
 //! - what moves the robot holds a permit, which `halt` destroys (improved);
 //! - hard failures without a report of their own are reported as `hard` (inferred);
 //! - the environment is two nets, faults and operator; what is really lost is known to the first one alone (improved).
@@ -208,8 +208,8 @@ requirements! {
     LS5 Inferred "No goal is reached while a flag, a report, a local or a global event is unanswered.",
         checked "AG (round & ls.End -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | cs.hard.waiting | \
                  cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
-                 cs.vital.waiting | cs.wifi_lost.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
-                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
+                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
+                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
                  gom.bumper_flag.waiting | gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
     LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, unless something vital is lost.",
@@ -230,10 +230,11 @@ requirements! {
     AS1 Stated "Path following runs one set of modules at a time, and teleoperation too.",
         checked "AG (pf.Off + pf.Optimal + pf.Reduced + pf.Odometric + pf.Degraded = 1 & to.Off + to.Full + to.Degraded = 1)";
     AS2 Stated "What is lost is used at the ends of two rounds at most.",
-        checked "AG (without_mcl <= 2 & without_sonar <= 2 & without_camera <= 2 & without_wifi <= 2 & without_vital <= 2)",
+        checked "AG (without_mcl <= 2 & without_sonar <= 2 & without_avoidance <= 2 & without_camera <= 2 & without_wifi <= 2 & without_vital <= 2)",
         watched by [
             used_without!("without_mcl", "mcl", "pf.Optimal | pf.Reduced"),
             used_without!("without_sonar", "sonar", "pf.Optimal | pf.Reduced | pf.Odometric | to.Full"),
+            used_without!("without_avoidance", "avoidance", "to.Full"),
             used_without!("without_camera", "camera", "to.Full | to.Degraded"),
             used_without!("without_wifi", "wifi", "to.Full | to.Degraded"),
             used_without!(
@@ -264,7 +265,7 @@ requirements! {
     AS7 Stated "Path following starts with what is available: all modules, without localisation, or without sonars.",
         checked "AG (turn.outside -> (pf.Off & !faults.sonar -> AX (pf.Off | pf.Degraded)) & \
                  (pf.Off & gom.sonar & !gom.mcl -> AX (pf.Off | pf.Odometric)) & (pf.Off & gom.sonar & gom.mcl -> AX (pf.Off | \
-                 pf.Optimal)) & (to.Off & !faults.sonar -> AX !to.Full) & (to.Off & gom.sonar -> AX !to.Degraded) & \
+                 pf.Optimal)) & (to.Off & !faults.sonar -> AX !to.Full) & (to.Off & !faults.avoidance -> AX !to.Full) & (to.Off & gom.avoidance -> AX !to.Degraded) & \
                  (!(faults.camera & faults.wifi) -> AX (!to.Off | ls.Teleoperated | !permit.Granted | ls.Following)) & \
                  (to.Off & !(gom.camera & gom.wifi) -> AX to.Off))";
     CS1 Stated "What a report means is a function of the report, of where the robot is and of what is left; where it is reached, it is this one.",
@@ -275,12 +276,13 @@ requirements! {
     CS3 Inferred "Every flag that tells something new is reported and decided upon in the next round, once.",
         checked "AG ((turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | cs.hard.waiting | \
                  cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
-                 cs.vital.waiting | cs.wifi_lost.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
-                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
+                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
+                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
                  gom.bumper_flag.waiting | gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting)) & \
                  (turn.gom.vital_flag & gom.vital -> AX cs.vital.waiting) & (turn.gom.wifi_flag & gom.wifi -> AX cs.wifi_lost.waiting) & \
                  (turn.gom.camera_flag & gom.camera -> AX cs.camera.waiting) & (turn.gom.sonar_flag & gom.sonar -> AX cs.sonar.waiting) & \
                  (turn.gom.mcl_flag & gom.mcl -> AX cs.mcl_lost.waiting) & \
+                 (turn.gom.avoidance_flag & gom.avoidance -> AX cs.avoidance.waiting) & \
                  (turn.gom.drift_flag & !gom.suspected -> AX cs.ambiguous.waiting) & (turn.gom.bumper_flag -> AX cs.collision.waiting) & \
                  (turn.gom.planner_flag -> AX cs.planner.waiting) & (turn.gom.hard_flag -> AX cs.hard.waiting) & \
                  (turn.gom.deadline_flag -> AX cs.slow.waiting))";
@@ -295,19 +297,19 @@ requirements! {
             "!((ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) & !faults.wifi)",
             3
         )];
-    GM1 Inferred "The status vector is closed under dependencies: without sonars there is no localisation by particles.",
-        checked "AG ((gom.mcl -> gom.sonar) & (turn.outside -> (gom.sonar <-> faults.sonar) & (gom.camera <-> faults.camera) & \
+    GM1 Inferred "The status vector is closed under dependencies: without sonars there is neither localisation by particles nor avoidance.",
+        checked "AG ((gom.mcl -> gom.sonar) & (gom.avoidance -> gom.sonar) & (turn.outside -> (gom.avoidance <-> faults.sonar & faults.avoidance) & (gom.sonar <-> faults.sonar) & (gom.camera <-> faults.camera) & \
                  (gom.wifi <-> faults.wifi) & (gom.vital <-> faults.vital) & (gom.mcl -> faults.mcl)))",
         tested in "models/tests/cotama_data/availability.rs";
     GM2 Inferred "Nothing that is lost is available again.",
-        checked "AG ((!gom.mcl -> AX !gom.mcl) & (!gom.sonar -> AX !gom.sonar) & (!gom.camera -> AX !gom.camera) & \
+        checked "AG ((!gom.mcl -> AX !gom.mcl) & (!gom.sonar -> AX !gom.sonar) & (!gom.avoidance -> AX !gom.avoidance) & (!gom.camera -> AX !gom.camera) & \
                  (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital))",
         tested in "models/tests/cotama_data/availability.rs";
     GM3 Inferred "What tells nothing new is not reported: a loss that is known, and a suspicion until the robot sets out again.",
-        checked "AG ((turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & (turn.gom.drift_flag & gom.suspected -> \
+        checked "AG ((turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & (turn.gom.drift_flag & gom.suspected -> \
                  AX !cs.ambiguous.waiting) & cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + cs.hard.waiting + \
                  cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + cs.slow.waiting + cs.sonar.waiting + \
-                 cs.vital.waiting + cs.wifi_lost.waiting <= 1 & (gom.suspected & turn.outside & !ls.Planning & !ls.Following -> \
+                 cs.vital.waiting + cs.wifi_lost.waiting + cs.avoidance.waiting <= 1 & (gom.suspected & turn.outside & !ls.Planning & !ls.Following -> \
                  AX (gom.suspected <-> !ls.Planning & !ls.Following)) & (gom.suspected & turn.ls.start_drive & ls.Idle -> \
                  AX !gom.suspected) & (gom.suspected & turn.outside & ls.Planning -> AX (gom.suspected <-> !ls.Following)))";
     WD1 Stated "Fewer violations in a row than the limit raise no real-time fault.", tested in "verification/tests/tpn/watchdog.rs";
@@ -344,6 +346,8 @@ const DECISIONS: &str = "AG (\
         pf.adapt_rt.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
     (after.cs.sonar -> (pf.adapt_sonar.waiting <-> ls.Following & !pf.Degraded) & (to.adapt_sonar.waiting <-> to.Full) & \
         ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_bump.waiting = 0) & \
+    (after.cs.avoidance -> (to.adapt_sonar.waiting <-> to.Full) & ls.local_event.waiting + gs.global_event.waiting + \
+        pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting = 0) & \
     (after.cs.ambiguous -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | ls.Following)) & \
         (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | ls.Following))) & \
     (after.cs.collision -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | pf.Degraded)) & \

@@ -1,6 +1,7 @@
 //! A system as a net that acts in rounds: it does what a player does, and COTAMA's decisional level keeps its properties in it.
 //!
 //! `UPDATE_GOLDEN=1` writes the tables in `tests/golden/rounds` anew; that of mutants with `--ignored`.
+#![allow(clippy::type_complexity, clippy::needless_for_each)]
 #![allow(missing_docs)]
 
 mod conformance;
