@@ -202,8 +202,13 @@ fn formula_of(formula: &certificate::Formula, pt: &Pt) -> Formula {
 fn speaks_of_runs(formula: &certificate::Formula) -> bool {
     use certificate::Formula as Said;
     match formula {
-        Said::AtMost(_) | Said::Fireable(_) | Said::Deadlock => false,
-        Said::Exists(_) | Said::All(_) | Said::ExistsNext(_) | Said::AllNext(_) => false,
+        Said::AtMost(_)
+        | Said::Fireable(_)
+        | Said::Deadlock
+        | Said::Exists(_)
+        | Said::All(_)
+        | Said::ExistsNext(_)
+        | Said::AllNext(_) => false,
         Said::Not(it) => speaks_of_runs(it),
         Said::And(all) | Said::Or(all) => all.iter().any(speaks_of_runs),
         Said::Next(_) | Said::Finally(_) | Said::Globally(_) | Said::Until(_) => true,
