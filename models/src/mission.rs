@@ -9,8 +9,8 @@
 //! | --- | --- |
 //! | `[supervision]` `decides = "cotama"` | that it is supervised |
 //! | `does` in each `[[objective]]` | [what it is](Does) to its supervisor: `drive`, `receive`, `deliver` or `wait` |
-//! | `configuration` in each `[[tio]]` of the task `MOV` | the [set of modules](crate::cotama::configurations) that runs: `PF.OPT`, `PF.OPTR`, `PF.ODO`, `PF.DEG` |
-//! | `[[run.event]]` with `kind = "failure"`, `mode` | a [failure mode](crate::cotama::failure_modes) that observers have to find |
+//! | `configuration` in each `[[tio]]` of the task `MOV` | the [set of modules](crate::cotama::Configuration) that runs: `PF.OPT`, `PF.OPTR`, `PF.ODO`, `PF.DEG` |
+//! | `[[run.event]]` with `kind = "failure"`, `mode` | a [failure mode](crate::cotama::FailureMode) that observers have to find |
 //! | `[[run.event]]` with `kind = "operator"`, `answers`, `delay_ms` | what the operator [answers](crate::faults::Answer) to the next request, with the time before each answer |
 //!
 //! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say their `duration_ms` and
