@@ -199,7 +199,8 @@ fn the_seven_points_are_a_run_of_the_checked_system() {
         let refused = [less, later].map(|it| game.refusal(&it).is_some());
         // With the sonars localisation is gone already, so nobody answers that it is lost.
         let is_known = run.told[altered].1 == Told::Failure(faults::Event::lose_mcl);
-        assert_eq!(refused, [!is_known; 2], "{:?}", run.told[altered]);
+        assert_eq!(refused[0], !is_known, "{:?}", run.told[altered]);
+        assert!(refused[1] || is_known, "{:?}", run.told[altered]);
     }
 }
 
