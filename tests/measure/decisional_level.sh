@@ -85,7 +85,7 @@ class() { awk -v name="$1" '$1 == name { print $4 }' "$work/classes"; }
 echo "instructions in each of the $(is states) states that the supervisors reach; of diagnoses, in each of $(is situations) situations with"
 echo "each set of losses; of plans, from each activity with each set of modules:        calls    mean    most"
 awk '{ printf "  %-68s %8d %7d %7d\n", $1, $2, $3, $4 }' "$work/classes"
-promise "states" "$(is states)" 31266
+promise "states" "$(is states)" 14824
 worst=$(awk '/^tell_/ { if ($4 > most) most = $4 } END { print most }' "$work/classes")
 promise "the worst event, instructions" "$worst" 10000
 echo "the worst event: $worst instructions; the worst round: $(class round)"
