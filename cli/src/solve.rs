@@ -134,10 +134,8 @@ fn without(verdict: Verdict, steps: u64) -> Solution {
 
 fn panorama(problem: &Problem<'_, 2>) -> Result<(Answer<2>, Vec<u16>), MemoryError> {
     let activities = problem.activities();
-    let widest = activities.iter().map(|candidates| candidates.len()).max().unwrap_or(0);
-    let (mut caps, mut sorted) = (vec![[0; 2]; activities.len()], vec![0; widest]);
-    let mut plan = vec![0; activities.len()];
-    let answer = Panorama::new(&mut caps, &mut sorted).allocate(problem, &mut plan)?;
+    let (mut caps, mut plan) = (vec![[0; 2]; activities.len()], vec![0; activities.len()]);
+    let answer = Panorama::new(&mut caps).allocate(problem, &mut plan)?;
     Ok((answer, plan))
 }
 

@@ -21,8 +21,8 @@
 //! let (a, b) = ([c(5, 1), c(1, 2)], [c(5, 1), c(1, 10)]);
 //! let activities = [&a[..], &b[..]];
 //! let mut plan = [0; 2];
-//! let (mut caps, mut sorted) = ([[0; 2]; 2], [0; 2]);
-//! let mut rule = Panorama::new(&mut caps, &mut sorted);
+//! let mut caps = [[0; 2]; 2];
+//! let mut rule = Panorama::new(&mut caps);
 //!
 //! let duration_first = Problem::new(&activities, [6, 3], [0, 1]).unwrap();
 //! assert!(matches!(rule.allocate(&duration_first, &mut plan), Ok(Answer::Infeasible { axis: 1, least: 11, .. })));
@@ -38,14 +38,12 @@ use crate::problem::{Candidate, Problem};
 #[derive(Debug)]
 pub struct Panorama<'m, const A: usize> {
     caps: &'m mut [[u32; A]],
-    sorted: &'m mut [u32],
 }
 
 impl<'m, const A: usize> Panorama<'m, A> {
-    /// An allocator in this memory: `caps` holds one element an activity, `sorted` one a candidate of the
-    /// activity that has the most.
-    pub const fn new(caps: &'m mut [[u32; A]], sorted: &'m mut [u32]) -> Self {
-        Self { caps, sorted }
+    /// An allocator in this memory: one element an activity.
+    pub const fn new(caps: &'m mut [[u32; A]]) -> Self {
+        Self { caps }
     }
 }
 
@@ -64,7 +62,7 @@ fn highest<'c, const A: usize>(
         .iter()
         .enumerate()
         .filter(|(_, c)| left(c, caps))
-        .reduce(|best, next| if next.1.cost[axis] > best.1.cost[axis] { next } else { best })
+        .reduce(|best, next| if next.1.cost.get(axis) > best.1.cost.get(axis) { next } else { best })
 }
 
 impl<const A: usize> Allocator<A> for Panorama<'_, A> {
@@ -72,14 +70,13 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
         let activities = problem.activities();
         enough("plan", activities.len(), plan.len())?;
         enough("caps of the paper's rule", activities.len(), self.caps.len())?;
-        let widest = activities.iter().map(|candidates| candidates.len()).max().unwrap_or(0);
-        enough("sorted costs of the paper's rule", widest, self.sorted.len())?;
 
         let caps = &mut self.caps[..activities.len()];
         caps.fill([u32::MAX; A]);
         let mut steps = 0;
         for axis in problem.order() {
-            let limit = problem.limits()[axis];
+            // An order names axes only; said again, it spares every look-up below a check that could panic.
+            let Some(&limit) = problem.limits().get(axis) else { continue };
             let mut sum = 0;
             for (candidates, cap) in activities.iter().zip(caps.iter_mut()) {
                 cap[axis] = highest(candidates, cap, axis).map_or(0, |(_, c)| c.cost[axis]);
@@ -90,20 +87,18 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
                 if sum <= limit {
                     break;
                 }
-                // Rule 1: sort what is left, then find the highest that fits by dichotomy.
-                let mut count = 0;
-                for candidate in candidates.iter().filter(|c| left(c, cap)) {
-                    self.sorted[count] = candidate.cost[axis];
-                    count += 1;
+                // Rule 1. The paper sorts what is left and searches by dichotomy; one pass finds the same.
+                let others = sum - u64::from(cap[axis]);
+                let room = limit.saturating_sub(others);
+                let (mut fitting, mut lowest) = (None, cap[axis]);
+                for cost in candidates.iter().filter(|c| left(c, cap)).map(|c| c.cost[axis]) {
+                    lowest = lowest.min(cost);
+                    if u64::from(cost) <= room {
+                        fitting = fitting.max(Some(cost));
+                    }
                 }
                 steps += candidates.len() as u64;
-                let sorted = &mut self.sorted[..count];
-                sorted.sort_unstable();
-                let others = sum - u64::from(cap[axis]);
-                let fitting = limit
-                    .checked_sub(others)
-                    .map_or(0, |room| sorted.partition_point(|&cost| u64::from(cost) <= room));
-                cap[axis] = sorted.get(fitting.saturating_sub(1)).copied().unwrap_or(0);
+                cap[axis] = fitting.unwrap_or(lowest);
                 sum = others + u64::from(cap[axis]);
             }
             if sum > limit {

@@ -2,25 +2,30 @@
 
 use cotama_core::executive::{Executive, Happening, Overruns, Stage, Task, TaskSet, What};
 use cotama_core::units::Micros;
-use cotama_models::cotama::load::{
-    self, DEADLINE, DEGRADED, EXTRA, LOCALISATION, Load, LoadError, MODULES, MOST, ODOMETRIC, OPTIMAL,
-    PARTICLES, PERIOD, PLANNING, SPARE, TELEOPERATION, most_particles,
+use cotama_models::cotama::Configuration::{
+    self, FollowingDegraded, FollowingOdometric, FollowingOptimal, Planning, TeleoperationFull,
 };
+use cotama_models::cotama::load::{
+    self, COSTS, DEADLINE, EXTRA, Load, MOST, PARTICLES, PERIOD, SPARE, most_particles,
+};
+use cotama_models::cotama::{Module, Modules};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-fn tasks(modules: &[&str], load: Load, particles: u32) -> Vec<Task> {
-    load::tasks(modules, load, particles, &mut [SPARE; MOST]).unwrap().to_vec()
+fn tasks(configuration: Configuration, load: Load, particles: u32) -> Vec<Task> {
+    load::tasks(configuration, load, particles, &mut [SPARE; MOST]).to_vec()
 }
 
 /// Each module with its response time, what is left to its deadline, and its response time when another one overruns; in ms.
-fn table(modules: &[&str], load: Load, particles: u32) -> String {
-    let tasks = tasks(modules, load, particles);
+fn table(configuration: Configuration, load: Load, particles: u32) -> String {
+    let tasks = tasks(configuration, load, particles);
     let set = TaskSet::new(&tasks).unwrap();
     let names = (load != Load::Quiet).then_some("load").into_iter();
-    let names = names.chain(MODULES.iter().map(|it| it.name).filter(|name| modules.contains(name)));
+    let scheduled = configuration.scheduled();
+    let names =
+        names.chain(COSTS.iter().map(|it| it.module).filter(|it| scheduled.has(*it)).map(Module::name));
     let ms = |time: Micros| Duration::from_micros(time.0).as_secs_f64() * 1_000.0;
     let mut table =
         format!("{load:?}, {particles} particles\nmodule  period   cost  response  slack  one overruns\n");
@@ -44,7 +49,7 @@ fn table(modules: &[&str], load: Load, particles: u32) -> String {
 #[test]
 fn response_times_of_the_optimal_path_following() {
     let tables = [(Load::Quiet, 500), (Load::Busy, 500), (Load::Busy, 200)];
-    let shown = tables.map(|(load, particles)| table(OPTIMAL, load, particles)).join("\n");
+    let shown = tables.map(|(load, particles)| table(FollowingOptimal, load, particles)).join("\n");
     println!("{shown}");
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/load.txt");
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
@@ -55,15 +60,15 @@ fn response_times_of_the_optimal_path_following() {
 
 #[test]
 fn particles_are_what_the_processor_affords() {
-    let most = |modules, load| most_particles(modules, load, &mut [SPARE; MOST]);
+    let most = |configuration, load| most_particles(configuration, load, &mut [SPARE; MOST]);
     assert_eq!(
-        [Load::Heavy, Load::Busy, Load::Quiet].map(|load| most(OPTIMAL, load)),
+        [Load::Heavy, Load::Busy, Load::Quiet].map(|load| most(FollowingOptimal, load)),
         PARTICLES.map(|it| Ok(Some(it)))
     );
-    assert_eq!(most(ODOMETRIC, Load::Quiet), Ok(None)); // it does not localise with particles
+    assert_eq!(most(FollowingOdometric, Load::Quiet), Ok(None)); // it does not localise with particles
     for (load, particles) in [(Load::Heavy, 100), (Load::Busy, 200), (Load::Quiet, 500)] {
         let is_in_time = |particles| {
-            let tasks = tasks(OPTIMAL, load, particles);
+            let tasks = tasks(FollowingOptimal, load, particles);
             TaskSet::new(&tasks).unwrap().schedulable(Overruns::None).is_ok()
         };
         assert!(is_in_time(particles) && !is_in_time(particles + 1));
@@ -72,17 +77,17 @@ fn particles_are_what_the_processor_affords() {
 
 #[test]
 fn every_set_but_the_optimal_one_is_in_time_when_the_computer_is_busy() {
-    for set in [ODOMETRIC, DEGRADED, PLANNING, TELEOPERATION] {
+    for set in [FollowingOdometric, FollowingDegraded, Planning, TeleoperationFull] {
         for load in [Load::Quiet, Load::Busy] {
             let tasks = tasks(set, load, 0);
             assert_eq!(TaskSet::new(&tasks).unwrap().schedulable(Overruns::None), Ok(()), "{set:?} {load:?}");
         }
     }
     // Whatever one module does, and whatever the localisation takes, the others are in time.
-    let full = tasks(OPTIMAL, Load::Busy, PARTICLES[2]);
+    let full = tasks(FollowingOptimal, Load::Busy, PARTICLES[2]);
     assert_eq!(TaskSet::new(&full[..13]).unwrap().schedulable(Overruns::One), Ok(()));
     // With fewer particles any one module may overrun when the computer is quiet.
-    let reduced = tasks(OPTIMAL, Load::Quiet, PARTICLES[1]);
+    let reduced = tasks(FollowingOptimal, Load::Quiet, PARTICLES[1]);
     assert_eq!(TaskSet::new(&reduced).unwrap().schedulable(Overruns::One), Ok(()));
 }
 
@@ -98,7 +103,7 @@ fn troubles(executive: &mut Executive<14>, until: Micros) -> Vec<(u64, usize, Wh
 /// periods, and with fewer particles all is in time.
 #[test]
 fn the_localisation_alone_is_found_too_slow_and_fewer_particles_cure_it() {
-    let under_load = |particles| tasks(OPTIMAL, Load::Busy, particles).try_into().unwrap();
+    let under_load = |particles| tasks(FollowingOptimal, Load::Busy, particles).try_into().unwrap();
     let mut full = Executive::<14>::new(under_load(PARTICLES[2])).unwrap();
     let late = |period: u64| {
         let skipped = What::Skipped { rt_fault: period == 3 };
@@ -120,14 +125,14 @@ fn the_watchdog_of_the_loop_has_the_numbers_of_its_tasks() {
     assert_eq!(ms(within("w3")), (DEADLINE.0 / 1_000, Some(DEADLINE.0 / 1_000)));
     assert_eq!(ms(within("w5")), (EXTRA.0 / 1_000, Some(EXTRA.0 / 1_000)));
     assert_eq!(DEADLINE.0 + EXTRA.0, PERIOD.0); // a fault is raised before the next release
-    assert!(tasks(OPTIMAL, Load::Quiet, 500).iter().all(|task| task.patience == 3));
+    assert!(tasks(FollowingOptimal, Load::Quiet, 500).iter().all(|task| task.patience == 3));
 }
 
 #[test]
-fn modules_that_are_not_there_and_memory_that_is_too_short_are_refused() {
-    let error = load::tasks(&["P3D", "MLC"], Load::Quiet, 0, &mut [SPARE; MOST]).unwrap_err();
-    assert_eq!(error.to_string(), "no module is called MLC; `MODULES` lists them");
-    let error = load::tasks(OPTIMAL, Load::Busy, 0, &mut [SPARE; 13]).unwrap_err();
-    assert_eq!(error, LoadError::Memory(13));
-    assert_eq!(MODULES[MODULES.len() - 1].name, LOCALISATION);
+fn every_module_is_scheduled_in_some_configuration_but_the_parts_of_another() {
+    let scheduled = Configuration::ALL.iter().fold(Modules::NONE, |all, it| all.union(it.scheduled()));
+    assert_eq!(Modules::ALL.without(scheduled).to_string(), "SCH ODO CTR");
+    let costed = COSTS.iter().fold(Modules::NONE, |all, it| all.with(it.module));
+    assert_eq!(costed, scheduled);
+    assert_eq!(COSTS[COSTS.len() - 1].module, Module::Mcl);
 }

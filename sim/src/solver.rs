@@ -14,7 +14,6 @@ const SEEN: usize = 1 << 12;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Solver {
     caps: Vec<[u32; 2]>,
-    sorted: Vec<u32>,
     items: Vec<Item<2>>,
     stages: Vec<Stage<2>>,
     seen: Vec<Seen<2>>,
@@ -56,11 +55,9 @@ impl Solver {
 
     fn panorama(&mut self, problem: &Problem<'_, 2>) -> Result<Found, NotFound> {
         let activities = problem.activities();
-        let widest = activities.iter().map(|candidates| candidates.len()).max().unwrap_or(0);
         at_least(&mut self.caps, activities.len(), [0; 2]);
-        at_least(&mut self.sorted, widest, 0);
         at_least(&mut self.plan, activities.len(), 0);
-        let mut rule = Panorama::new(&mut self.caps, &mut self.sorted);
+        let mut rule = Panorama::new(&mut self.caps);
         found(&mut rule, "panorama", problem, &mut self.plan)
     }
 

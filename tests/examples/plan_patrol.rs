@@ -35,8 +35,8 @@ fn exact_hard(instance: &Instance<2>, plan: &mut [u16]) -> Option<u64> {
 
 #[inline(never)]
 fn panorama_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
-    let (mut caps, mut sorted) = ([[0; 2]; 17], [0; 21]);
-    match Panorama::new(&mut caps, &mut sorted).allocate(problem, plan) {
+    let mut caps = [[0; 2]; 17];
+    match Panorama::new(&mut caps).allocate(problem, plan) {
         Ok(Answer::Planned(planned)) => Some(planned.steps),
         _ => None,
     }

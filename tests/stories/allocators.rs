@@ -232,10 +232,9 @@ fn rules_of_the_paper<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> 
 }
 
 pub(crate) fn panorama<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
-    let widest = problem.activities().iter().map(|c| c.len()).max().unwrap_or(0);
-    let (mut caps, mut sorted) = (vec![[0; A]; problem.activities().len()], vec![0; widest]);
-    let mut plan = vec![0; problem.activities().len()];
-    match Panorama::new(&mut caps, &mut sorted).allocate(problem, &mut plan).unwrap() {
+    let activities = problem.activities().len();
+    let (mut caps, mut plan) = (vec![[0; A]; activities], vec![0; activities]);
+    match Panorama::new(&mut caps).allocate(problem, &mut plan).unwrap() {
         Answer::Planned(planned) => {
             assert_eq!(problem.totals(&plan), Some((planned.cost, planned.quality)));
             assert!(problem.within_limits(&planned.cost));
@@ -364,8 +363,8 @@ fn the_rule_takes_at_most_five_looks_at_each_candidate() {
         let instance = paper_like(17, Zones::Three, [seed % 1000, 999 - seed % 1000], seed);
         let slices = instance.slices();
         let problem = instance.problem(&slices);
-        let (mut caps, mut sorted, mut plan) = ([[0; 2]; 17], [0; 21], [0; 17]);
-        let steps = match Panorama::new(&mut caps, &mut sorted).allocate(&problem, &mut plan) {
+        let (mut caps, mut plan) = ([[0; 2]; 17], [0; 17]);
+        let steps = match Panorama::new(&mut caps).allocate(&problem, &mut plan) {
             Ok(Answer::Planned(planned)) => planned.steps,
             Ok(Answer::Infeasible { steps, .. }) => steps,
             other => panic!("seed {seed}: {other:?}"),

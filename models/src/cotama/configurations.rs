@@ -3,7 +3,7 @@
 use super::label::Label::{self, Assumed, Inferred, Stated};
 use super::members::members;
 use super::modules::Module::{self, Cam, Dvz, Gui, Lan, Mcl, Nav, P3d, Ppl, Sim, Smz, Ust};
-use super::modules::Modules;
+use super::modules::{Kind, ModuleFacts, Modules};
 use cotama_core::units::MillimetresPerSecond;
 
 members! {
@@ -161,6 +161,31 @@ impl Configuration {
         available.covers(self.facts().required)
     }
 
+    /// The modules that the scheduler runs under it: those that it requires or may use, the GOM, and every observer that has
+    /// what it observes (inferred).
+    ///
+    /// ```
+    /// use cotama_models::cotama::Configuration::{FollowingDegraded, FollowingOptimal};
+    /// assert_eq!(
+    ///     FollowingOptimal.scheduled().to_string(),
+    ///     "GOM P3D SIM UST MCL NAV SMZ LAN O-SEN O-EFF O-COM O-LOC O-PF"
+    /// );
+    /// assert_eq!(FollowingDegraded.scheduled().to_string(), "GOM P3D NAV GUI LAN O-EFF O-COM O-PF");
+    /// ```
+    pub const fn scheduled(self) -> Modules {
+        let facts = self.facts();
+        let (set, mut at) = (facts.required.union(facts.optional), 0);
+        let mut scheduled = set.with(Module::Gom);
+        while at < Module::ALL.len() {
+            let it = Module::ALL[at].facts();
+            if matches!(it.kind, Kind::Observer) && lacks(it, set).is_empty() {
+                scheduled = scheduled.with(it.module);
+            }
+            at += 1;
+        }
+        scheduled
+    }
+
     /// Those that run on the available modules.
     pub const fn running_on(available: Modules) -> Configurations {
         let (mut set, mut at) = (Configurations::NONE, 0);
@@ -174,16 +199,19 @@ impl Configuration {
     }
 }
 
+/// What a module needs and a set does not hold.
+const fn lacks(it: &ModuleFacts, set: Modules) -> Modules {
+    let all = it.needs.without(set);
+    if it.needs_one_of.common(set).is_empty() { all.union(it.needs_one_of) } else { all }
+}
+
 /// The modules that a set needs and does not hold. The scheduler and the GOM run under every set and are listed in none.
 const fn missing(set: Modules) -> Modules {
     let (mut missing, mut at) = (Modules::NONE, 0);
     while at < Module::ALL.len() {
         let it = Module::ALL[at].facts();
         if set.has(it.module) {
-            missing = missing.union(it.needs.without(set));
-            if it.needs_one_of.common(set).is_empty() {
-                missing = missing.union(it.needs_one_of);
-            }
+            missing = missing.union(lacks(it, set));
         }
         at += 1;
     }

@@ -5,7 +5,7 @@
 //! | control loop of each sub-objective | less than 100 ms | stated |
 //! | period of the loop: that of the robot's information packets | 100 ms | of the robot's firmware |
 //! | deadline of a module; extra time, which ends with the period; misses in a row that are a fault | 80 ms; 20 ms; 3 | assumed |
-//! | costs of modules and of a particle | see [`MODULES`], [`PARTICLES`] | assumed |
+//! | costs of modules and of a particle | see [`COSTS`], [`PARTICLES`] | assumed |
 //! | load of the computer beside the modules | see [`Load`] | assumed |
 //!
 //! The modules are listed in the order of urgency, which is that of the data but for the localisation: it comes last. That
@@ -17,17 +17,20 @@
 //!
 //! ```
 //! use cotama_core::executive::{Overruns, TaskSet, Unschedulable};
+//! use cotama_models::cotama::Configuration::FollowingOptimal;
 //! use cotama_models::cotama::load::{self, Load, SPARE};
 //!
 //! let mut tasks = [SPARE; load::MOST];
-//! assert_eq!(load::most_particles(load::OPTIMAL, Load::Quiet, &mut tasks), Ok(Some(500)));
-//! assert_eq!(load::most_particles(load::OPTIMAL, Load::Busy, &mut tasks), Ok(Some(200)));
+//! assert_eq!(load::most_particles(FollowingOptimal, Load::Quiet, &mut tasks), Ok(Some(500)));
+//! assert_eq!(load::most_particles(FollowingOptimal, Load::Busy, &mut tasks), Ok(Some(200)));
 //!
-//! let tasks = load::tasks(load::OPTIMAL, Load::Busy, 500, &mut tasks).unwrap();
+//! let tasks = load::tasks(FollowingOptimal, Load::Busy, 500, &mut tasks);
 //! let late = TaskSet::new(tasks).unwrap().schedulable(Overruns::None);
 //! assert!(matches!(late, Err(Unschedulable::Late { task, .. }) if task == tasks.len() - 1)); // the localisation
 //! ```
 
+use super::configurations::Configuration;
+use super::modules::Module::{self, Mcl};
 use core::fmt;
 use cotama_core::executive::{Overruns, Task, TaskError, TaskSet, Unschedulable};
 use cotama_core::units::Micros;
@@ -43,43 +46,45 @@ pub const DEADLINE: Micros = ms(80);
 /// How long a late module may go on.
 pub const EXTRA: Micros = ms(20);
 
-/// The localisation: the module with particles.
-pub const LOCALISATION: &str = "MCL";
-
-/// A module of the control loop. Which modules make a configuration is for the supervisors to say; a name is what joins the two.
+/// What a job of a module costs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ModuleCost {
-    /// Its name.
-    pub name: &'static str,
+    /// The module.
+    pub module: Module,
     /// Its worst-case execution time; of the localisation, without particles.
     pub cost: Micros,
 }
 
-/// All modules that are scheduled, the most urgent first, with assumed costs. ODO and CTR are parts of NAV.
-pub const MODULES: [ModuleCost; 17] = {
-    const fn module(name: &'static str, cost_ms: u64) -> ModuleCost {
-        ModuleCost { name, cost: ms(cost_ms) }
+/// All modules that are scheduled, the most urgent first, with assumed costs. ODO and CTR are parts of NAV, and the scheduler is
+/// no job of its own.
+pub const COSTS: [ModuleCost; 17] = {
+    use Module as M;
+    const fn costs(module: Module, cost_ms: u64) -> ModuleCost {
+        ModuleCost { module, cost: ms(cost_ms) }
     }
     [
-        module("P3D", 4),
-        module("SIM", 6),
-        module("UST", 3),
-        module("NAV", 3),
-        module("DVZ", 5),
-        module("SMZ", 7),
-        module("GUI", 4),
-        module("LAN", 4),
-        module("O-SEN", 1),
-        module("O-EFF", 2),
-        module("O-COM", 1),
-        module("O-LOC", 1),
-        module("O-PF", 1),
-        module("GOM", 1),
-        module("CAM", 8),
-        module("PPL", 25),
-        module(LOCALISATION, 6),
+        costs(M::P3d, 4),
+        costs(M::Sim, 6),
+        costs(M::Ust, 3),
+        costs(M::Nav, 3),
+        costs(M::Dvz, 5),
+        costs(M::Smz, 7),
+        costs(M::Gui, 4),
+        costs(M::Lan, 4),
+        costs(M::OSen, 1),
+        costs(M::OEff, 2),
+        costs(M::OCom, 1),
+        costs(M::OLoc, 1),
+        costs(M::OPf, 1),
+        costs(M::Gom, 1),
+        costs(M::Cam, 8),
+        costs(M::Ppl, 25),
+        LOCALISATION,
     ]
 };
+
+/// The module with particles, which comes last.
+const LOCALISATION: ModuleCost = ModuleCost { module: Mcl, cost: ms(6) };
 
 /// The processor time of a particle in each period; assumed.
 pub const PARTICLE: Micros = Micros(80);
@@ -106,103 +111,71 @@ impl Load {
     }
 }
 
-/// Modules of the optimal path following, and of the one with fewer particles, with their observers.
-pub const OPTIMAL: &[&str] =
-    &["P3D", "SIM", "UST", "MCL", "NAV", "SMZ", "LAN", "O-SEN", "O-EFF", "O-COM", "O-LOC", "O-PF", "GOM"];
-/// Modules of the path following on odometry.
-pub const ODOMETRIC: &[&str] =
-    &["P3D", "SIM", "UST", "NAV", "SMZ", "LAN", "O-SEN", "O-EFF", "O-COM", "O-PF", "GOM"];
-/// Modules of the most degraded path following: no avoidance, no localisation.
-pub const DEGRADED: &[&str] = &["P3D", "NAV", "GUI", "LAN", "O-EFF", "O-COM", "O-PF", "GOM"];
-/// Modules of the path planning.
-pub const PLANNING: &[&str] = &["P3D", "NAV", "PPL", "LAN", "O-EFF", "O-COM", "GOM"];
-/// Modules of the teleoperation with avoidance.
-pub const TELEOPERATION: &[&str] =
-    &["P3D", "SIM", "UST", "DVZ", "NAV", "CAM", "LAN", "O-SEN", "O-EFF", "O-COM", "GOM"];
-
-/// Particles of the levels of the adapter supervisor, from the floor up: what [`OPTIMAL`] affords under heavy load, when busy
-/// and when quiet.
+/// Particles of the levels of the adapter supervisor, from the floor up: what the optimal path following affords under
+/// heavy load, when busy and when quiet.
 pub const PARTICLES: [u32; 3] = [100, 200, 500];
 
 /// The most tasks that there are: every module, and the load.
-pub const MOST: usize = MODULES.len() + 1;
+pub const MOST: usize = COSTS.len() + 1;
 
 /// What memory for tasks is filled with.
 pub const SPARE: Task = Task::new(Micros::ZERO, Micros::ZERO);
 
-/// Why modules cannot be made tasks.
+/// Why nothing can be said of a configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LoadError<'n> {
-    /// No module is called so.
-    NoSuchModule(&'n str),
-    /// There is memory for so many tasks only; [`MOST`] always suffice.
-    Memory(usize),
-    /// A task makes no sense: with so many particles no job would ever be done.
+pub enum LoadError {
+    /// A task makes no sense.
     Task(TaskError),
     /// The limit of iterations was reached.
     Iterations(Unschedulable),
 }
 
-impl fmt::Display for LoadError<'_> {
+impl fmt::Display for LoadError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::NoSuchModule(name) => write!(f, "no module is called {name}; `MODULES` lists them"),
-            Self::Memory(length) => write!(f, "there is memory for {length} tasks; give {MOST}"),
             Self::Task(error) => error.fmt(f),
             Self::Iterations(unknown) => unknown.fmt(f),
         }
     }
 }
 
-impl core::error::Error for LoadError<'_> {}
+impl core::error::Error for LoadError {}
 
-/// The tasks of modules under a load, the most urgent first: the load if there is one, the modules in the order of [`MODULES`],
-/// so the localisation last if it is among them, with so many particles.
-///
-/// # Errors
-/// [`LoadError::NoSuchModule`], [`LoadError::Memory`].
-pub fn tasks<'n, 't>(
-    modules: &[&'n str],
-    load: Load,
-    particles: u32,
-    memory: &'t mut [Task],
-) -> Result<&'t [Task], LoadError<'n>> {
-    if let Some(name) = modules.iter().find(|name| MODULES.iter().all(|it| it.name != **name)) {
-        return Err(LoadError::NoSuchModule(name));
-    }
-    let members = MODULES.iter().filter(|it| modules.contains(&it.name)).map(|it| {
-        let particles = if it.name == LOCALISATION { u64::from(particles) } else { 0 };
+/// The tasks of a configuration under a load, the most urgent first: the load if there is one, the modules that are scheduled for
+/// it in the order of [`COSTS`], so the localisation last if it is among them, with so many particles.
+pub fn tasks(configuration: Configuration, load: Load, particles: u32, memory: &mut [Task; MOST]) -> &[Task] {
+    let scheduled = configuration.scheduled();
+    let members = COSTS.iter().filter(|it| scheduled.has(it.module)).map(|it| {
+        let particles = if matches!(it.module, Mcl) { u64::from(particles) } else { 0 };
         // A cost of a known module and of 2^32 particles of microseconds fits 64 bits.
         let cost = Micros(it.cost.0.saturating_add(PARTICLE.0.saturating_mul(particles)));
         Task { deadline: DEADLINE, extra: EXTRA, ..Task::new(PERIOD, cost) }
     });
     let mut length = 0;
-    for task in load.task().into_iter().chain(members) {
-        let Some(slot) = memory.get_mut(length) else { return Err(LoadError::Memory(length)) };
+    for (slot, task) in memory.iter_mut().zip(load.task().into_iter().chain(members)) {
         *slot = task;
         length += 1;
     }
-    Ok(memory.get(..length).unwrap_or(&[]))
+    memory.get(..length).unwrap_or(&[])
 }
 
-/// The most particles with which all modules are in time under a load, no module overrunning; `None` when they are not even
-/// without any, or the localisation is not among them.
+/// The most particles with which all modules of a configuration are in time under a load, no module overrunning; `None` when
+/// they are not even without any, or it does not localise with particles.
 ///
 /// # Errors
 /// [`LoadError`].
-pub fn most_particles<'n>(
-    modules: &[&'n str],
+pub fn most_particles(
+    configuration: Configuration,
     load: Load,
-    memory: &mut [Task],
-) -> Result<Option<u32>, LoadError<'n>> {
-    let Some(localisation) = MODULES.iter().find(|it| it.name == LOCALISATION && modules.contains(&it.name))
-    else {
+    memory: &mut [Task; MOST],
+) -> Result<Option<u32>, LoadError> {
+    if !configuration.scheduled().has(Mcl) {
         return Ok(None);
-    };
-    let tasks = tasks(modules, load, 0, memory)?;
+    }
+    let tasks = tasks(configuration, load, 0, memory);
     let set = TaskSet::new(tasks).map_err(LoadError::Task)?;
     let most = set.most_cost(tasks.len().saturating_sub(1), Overruns::None).map_err(LoadError::Iterations)?;
-    let left = most.and_then(|most| most.checked_sub(localisation.cost));
+    let left = most.and_then(|most| most.checked_sub(LOCALISATION.cost));
     Ok(left.and_then(|left| u32::try_from(left.0 / PARTICLE.0).ok()))
 }
 

@@ -16,10 +16,14 @@ members! {
         Mcl = "mcl",
         /// The sonars are lost.
         Sonar = "sonar",
+        /// The operator's avoidance is lost.
+        Avoidance = "avoidance",
         /// Several diagnoses are possible, or the robot cannot judge alone: localisation, for one, is ambiguous.
         Ambiguous = "ambiguous",
         /// The robot touched something.
         Collision = "collision",
+        /// Any other failure that is hard where it happens.
+        Hard = "hard",
         /// No path was found.
         Planner = "planner",
         /// The camera is lost.
@@ -105,12 +109,15 @@ impl Report {
     /// The loss that it tells of; none for what may pass.
     pub const fn loss(self) -> Option<Loss> {
         match self {
+            Self::Avoidance => Some(Loss::Avoidance),
             Self::Mcl => Some(Loss::Mcl),
             Self::Sonar => Some(Loss::Sonar),
             Self::Camera => Some(Loss::Camera),
             Self::Wifi => Some(Loss::Wifi),
             Self::Vital => Some(Loss::Vital),
-            Self::Slow | Self::Ambiguous | Self::Collision | Self::Planner | Self::Refusal => None,
+            Self::Slow | Self::Ambiguous | Self::Collision | Self::Hard | Self::Planner | Self::Refusal => {
+                None
+            }
         }
     }
 }
@@ -153,6 +160,7 @@ pub const fn decide(report: Report, situation: Situation) -> Decision {
     let asks_operator = match report {
         Report::Ambiguous => matches!(place, Planning | Following),
         Report::Collision => matches!(place, Planning) || degraded,
+        Report::Hard => matches!(place, Planning | Following | Teleoperated),
         Report::Planner => matches!(place, Planning),
         Report::Camera => matches!(place, Teleoperated),
         _ => false,
@@ -182,7 +190,9 @@ pub(super) const fn adaptation(report: Report, situation: Situation) -> Option<D
             Some(Decision::AdaptMcl)
         }
         (Report::Sonar, _) if following && !degraded => Some(Decision::AdaptSonar),
-        (Report::Sonar, _) if matches!(situation.teleoperation, teleoperation::State::Full) => {
+        (Report::Sonar | Report::Avoidance, _)
+            if matches!(situation.teleoperation, teleoperation::State::Full) =>
+        {
             Some(Decision::AdaptSonarTeleoperation)
         }
         (Report::Collision, _) if following && !degraded => Some(Decision::AdaptBump),

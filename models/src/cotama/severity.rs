@@ -56,11 +56,12 @@ pub const fn severity(report: Report, situation: Situation) -> Severity {
     match report {
         Report::Vital => Severity::Fatal,
         Report::Wifi if !autonomous => Severity::Fatal,
-        Report::Refusal => Severity::Hard,
+        Report::Hard | Report::Refusal => Severity::Hard,
         Report::Ambiguous | Report::Planner if autonomous => Severity::Hard,
         Report::Collision if autonomous && !avoids => Severity::Hard,
         Report::Camera if !autonomous => Severity::Hard,
         Report::Sonar | Report::Collision => Severity::Medium,
+        Report::Avoidance if !autonomous => Severity::Medium,
         Report::Slow | Report::Mcl if autonomous => Severity::Medium,
         _ => Severity::Weak,
     }
@@ -140,13 +141,14 @@ pub const fn judge(report: Report, severity: Severity, situation: Situation) -> 
     }
 }
 
-/// The decision by the two rules. [`decide`](super::decide) is the same but for five cells:
+/// The decision by the two rules. [`decide`](super::decide) is the same but for seven cells:
 ///
 /// | report | place | rules | table | why the table says less |
 /// |---|---|---|---|---|
 /// | planner | following | local | record | no planner runs there; such a report never comes |
 /// | refusal | planning, following | global | record | nobody was asked there; such a report never comes |
 /// | camera | hand-over, teleprogrammed | local | record | the operator is asked already; `l7` of [`local`](super::local) keeps teleoperation shut |
+/// | hard | hand-over, teleprogrammed | local | record | the operator is asked already |
 ///
 /// and but for situations in which an earlier loss is not answered yet ([`is_settled`]): there the rules answer both, and the
 /// table each loss by its own report.

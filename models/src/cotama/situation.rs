@@ -12,6 +12,8 @@ members! {
     Loss,
     /// Losses.
     Losses(u8) {
+        /// The operator's avoidance.
+        Avoidance = "avoidance",
         /// Monte Carlo localisation.
         Mcl = "mcl",
         /// The sonars.
@@ -98,6 +100,9 @@ impl Losses {
     /// What the losses mean for modules and resources.
     pub const fn health(self) -> Health {
         let mut health = Health::SOUND;
+        if self.has(Loss::Avoidance) {
+            health.faulty = health.faulty.with(Module::Dvz);
+        }
         if self.has(Loss::Mcl) {
             health.faulty = health.faulty.with(Module::Mcl);
         }
@@ -129,11 +134,12 @@ impl Losses {
     /// robot does not wait for an operator who would have to drive it all the way).
     ///
     /// ```
-    /// use cotama_models::cotama::{Losses, Modules, Module::{Gui, Mcl, Ust}};
+    /// use cotama_models::cotama::{Losses, Modules, Module::{Dvz, Gui, Mcl, Ust}};
     /// let lacking = |modules: &[_]| Losses::lacking(Modules::ALL.without(Modules::of(modules))).to_string();
     /// assert_eq!(lacking(&[Mcl]), "mcl");
     /// assert_eq!(lacking(&[Gui]), "-"); // it guides in PF.DEG alone
     /// assert_eq!(lacking(&[Gui, Ust]), "mcl sonar vital");
+    /// assert_eq!(lacking(&[Dvz]), "avoidance"); // the operator's; path following has its own
     /// ```
     #[must_use]
     pub const fn lacking(left: Modules) -> Self {
@@ -143,6 +149,9 @@ impl Losses {
             Configuration::FollowingOdometric.runs_on(left),
             Configuration::FollowingDegraded.runs_on(left),
         ];
+        if !left.has(Module::Dvz) {
+            lost = lost.with(Loss::Avoidance);
+        }
         if !optimal {
             lost = lost.with(Loss::Mcl);
         }
@@ -168,6 +177,7 @@ impl From<Health> for Losses {
         let Health { faulty, lost, .. } = health;
         let following = Configuration::FollowingDegraded.facts().required;
         let gone = [
+            (Loss::Avoidance, faulty.has(Module::Dvz)),
             (Loss::Mcl, faulty.has(Module::Mcl) || lost.has(Resource::Map)),
             (
                 Loss::Sonar,

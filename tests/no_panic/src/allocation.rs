@@ -42,13 +42,12 @@ fn root_problem_combinations(problem: &Problem<'_, A>) -> Option<u128> {
 }
 
 #[unsafe(no_mangle)]
-fn open_panorama_allocate(
+fn root_panorama_allocate(
     caps: &mut [[u32; A]],
-    sorted: &mut [u32],
     problem: &Problem<'_, A>,
     plan: &mut [u16],
 ) -> Result<Answer<A>, MemoryError> {
-    Panorama::new(caps, sorted).allocate(problem, plan)
+    Panorama::new(caps).allocate(problem, plan)
 }
 
 #[unsafe(no_mangle)]

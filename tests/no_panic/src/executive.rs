@@ -6,7 +6,8 @@ use cotama_core::executive::{
     Executive, Happening, Mailbox, NotRunning, Overruns, Task, TaskError, TaskSet, Unschedulable,
 };
 use cotama_core::units::Micros;
-use cotama_models::cotama::load::{self, Load, LoadError};
+use cotama_models::cotama::Configuration;
+use cotama_models::cotama::load::{self, Load, LoadError, MOST};
 
 /// Modules of a control loop.
 const N: usize = 8;
@@ -66,10 +67,10 @@ fn root_executive_most_cost(tasks: &[Task], task: usize) -> Option<Result<Option
 }
 
 #[unsafe(no_mangle)]
-fn root_executive_most_particles<'n>(
-    modules: &[&'n str],
+fn root_executive_most_particles(
+    configuration: Configuration,
     load: Load,
-    memory: &mut [Task],
-) -> Result<Option<u32>, LoadError<'n>> {
-    load::most_particles(modules, load, memory)
+    memory: &mut [Task; MOST],
+) -> Result<Option<u32>, LoadError> {
+    load::most_particles(configuration, load, memory)
 }

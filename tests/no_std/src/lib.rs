@@ -55,8 +55,8 @@ fn quality(allocator: &mut impl Allocator<2>, problem: &Problem<'_, 2>, plan: &m
 /// Plans with the paper's rule; the quality, or zero without a plan.
 #[unsafe(no_mangle)]
 pub extern "C" fn cotama_panorama(first: usize, left: u64, plan: &mut Plan) -> u64 {
-    let (mut caps, mut sorted) = ([[0; 2]; STAGES], [0; CANDIDATES]);
-    let mut allocator = Panorama::new(&mut caps, &mut sorted);
+    let mut caps = [[0; 2]; STAGES];
+    let mut allocator = Panorama::new(&mut caps);
     with_rest(first, left, |problem| quality(&mut allocator, problem, plan)).unwrap_or(0)
 }
 

@@ -103,9 +103,6 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
         let left = self.known.available();
         self.lose(Losses::lacking(left), cause);
-        if before.has(Module::Dvz) && !left.has(Module::Dvz) && !self.lost.has(Loss::Vital) {
-            self.untold.push_back((Told::Failure(faults::Event::lose_avoidance), cause));
-        }
         let (report, severity) = match diagnosis {
             Diagnosis::None => return,
             Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
@@ -411,6 +408,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
 /// The event of a loss.
 const fn lost_event(loss: Loss) -> faults::Event {
     match loss {
+        Loss::Avoidance => faults::Event::lose_avoidance,
         Loss::Mcl => faults::Event::lose_mcl,
         Loss::Sonar => faults::Event::lose_sonar,
         Loss::Camera => faults::Event::lose_camera,
@@ -426,6 +424,7 @@ const fn passing_event(report: Report) -> Option<faults::Event> {
         Report::Ambiguous => Some(faults::Event::drift),
         Report::Collision => Some(faults::Event::bump),
         Report::Planner => Some(faults::Event::no_path),
+        Report::Hard => Some(faults::Event::fail_hard),
         _ => None,
     }
 }

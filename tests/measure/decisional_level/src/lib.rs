@@ -12,7 +12,8 @@ use cotama_core::monitor::{Monitor, Request};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{Micros, Millis};
-use cotama_models::cotama::load::{self, Load, MOST, OPTIMAL, SPARE};
+use cotama_models::cotama::Configuration::FollowingOptimal;
+use cotama_models::cotama::load::{self, Load, MOST, SPARE};
 use cotama_models::cotama::{
     Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report, Severity,
     Told, decide, diagnose, judge,
@@ -21,7 +22,7 @@ use cotama_models::delivery_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::tables::{EMPTY, Rest, buffer_sizes, remaining};
 
 /// The tasks of the optimal path following: its modules, and the load of the computer.
-pub const TASKS: usize = OPTIMAL.len() + 1;
+pub const TASKS: usize = FollowingOptimal.scheduled().len() + 1;
 const STAGES: usize = ACTIVITIES.len();
 const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;
 /// The most steps that the exact allocator may take.
@@ -41,7 +42,7 @@ pub struct Robot {
 /// The memory of the caller's that planning needs while it goes on, by the rule and exactly; on the stack here.
 pub const PLANNING_BYTES: [usize; 2] = {
     let problem = CANDIDATES * size_of::<Candidate<2>>() + STAGES * size_of::<&[Candidate<2>]>();
-    let rule = STAGES * size_of::<[u32; 2]>() + CANDIDATES * size_of::<u32>();
+    let rule = STAGES * size_of::<[u32; 2]>();
     let exact = CANDIDATES * size_of::<Item<2>>() + STAGES * size_of::<Stage<2>>();
     [problem + rule, problem + exact]
 };
@@ -63,8 +64,8 @@ impl Robot {
     /// At rest, with localisation by so many particles; `None` when they do not fit the processor.
     pub fn new(load: Load) -> Option<Self> {
         let mut tasks = [SPARE; MOST];
-        let particles = load::most_particles(OPTIMAL, load, &mut tasks).ok()??;
-        let tasks = load::tasks(OPTIMAL, load, particles, &mut tasks).ok()?;
+        let particles = load::most_particles(FollowingOptimal, load, &mut tasks).ok()??;
+        let tasks = load::tasks(FollowingOptimal, load, particles, &mut tasks);
         TaskSet::new(tasks).ok()?.schedulable(Overruns::None).ok()?;
         Some(Self {
             level: DecisionalLevel::default(),
@@ -141,8 +142,8 @@ impl Robot {
 
     /// Plans the mission from one of its activities on, of which `rest` is left, by the rule of the paper; whether there is a plan.
     pub fn plan_by_rule(&mut self, first: usize, rest: Rest, units: Units) -> bool {
-        let (mut caps, mut sorted) = ([[0; 2]; STAGES], [0; CANDIDATES]);
-        self.plan(first, rest, units, &mut Panorama::new(&mut caps, &mut sorted)).is_some()
+        let mut caps = [[0; 2]; STAGES];
+        self.plan(first, rest, units, &mut Panorama::new(&mut caps)).is_some()
     }
 
     /// The same, exactly.

@@ -4,7 +4,7 @@ use cotama_core::units::Millis;
 use cotama_models::cotama::{Cause, DecisionalLevel, Told, faults, global, local, operator};
 
 /// Everything that the level can be told.
-pub const TOLD: [Told; 22] = [
+pub const TOLD: [Told; 23] = [
     Told::Mission(global::Event::mission_received),
     Told::Mission(global::Event::object_received),
     Told::Mission(global::Event::object_delivered),
@@ -15,6 +15,7 @@ pub const TOLD: [Told; 22] = [
     Told::Failure(faults::Event::lose_wifi),
     Told::Failure(faults::Event::lose_camera),
     Told::Failure(faults::Event::lose_sonar),
+    Told::Failure(faults::Event::lose_avoidance),
     Told::Failure(faults::Event::lose_mcl),
     Told::Failure(faults::Event::drift),
     Told::Failure(faults::Event::bump),
