@@ -49,8 +49,7 @@ size "allocation exactly, mission tables" plan_exactly
 size "all but allocation" "${level[@]}"
 size "all, allocation exactly" "${level[@]}" plan_exactly
 size "all, allocation by the rule" "${level[@]}" plan_by_rule
-# The aim is 49152 (48 KiB): missed since the operator's avoidance is a loss of its own. Kept from growing further.
-promise "the whole level, bytes of code and tables" $((code + tables)) 50300
+promise "the whole level, bytes of code and tables" $((code + tables)) $((48 * 1024))
 promise "statics in RAM, bytes" "$ram" 0
 
 gcc -O2 -fPIC -shared -o "$work/icount.so" ../../compare/supervisor/firmware/icount.c
@@ -86,7 +85,8 @@ class() { awk -v name="$1" '$1 == name { print $4 }' "$work/classes"; }
 echo "instructions in each of the $(is states) states that the supervisors reach; of diagnoses, in each of $(is situations) situations with"
 echo "each set of losses; of plans, from each activity with each set of modules:        calls    mean    most"
 awk '{ printf "  %-68s %8d %7d %7d\n", $1, $2, $3, $4 }' "$work/classes"
-promise "states" "$(is states)" 14824
+# As many as the model checker finds: nothing is left out.
+[ "$(is states)" = 31266 ] || { echo "$(is states) states, 31266 between rounds by the checker" >&2; failed=1; }
 worst=$(awk '/^tell_/ { if ($4 > most) most = $4 } END { print most }' "$work/classes")
 promise "the worst event, instructions" "$worst" 10000
 echo "the worst event: $worst instructions; the worst round: $(class round)"

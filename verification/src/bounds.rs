@@ -8,11 +8,31 @@ use crate::pt::Pt;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::rc::Rc;
+use std::sync::OnceLock;
 
 /// The most sums that are kept at a time, and that one transition may add.
 const SUMS: usize = 2_000;
 /// Numbers that may be looked at: some tenths of a second.
 const WORK: usize = 50_000_000;
+
+/// What [`bounds`] found of a net, so that it is looked for once. A copy of the net may be changed, so it knows nothing yet; and
+/// what is known of two nets is no difference between them.
+#[derive(Debug, Default)]
+pub struct Bounds(OnceLock<Vec<Option<u32>>>);
+
+impl Clone for Bounds {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Bounds {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Bounds {}
 
 /// For each place the most tokens that it can hold by the sums found; `None` where none was found.
 ///
@@ -30,7 +50,11 @@ const WORK: usize = 50_000_000;
 /// net.transition(OwnedTransition::new("release").take(on, 1).give(off, 1)).unwrap();
 /// assert_eq!(bounds(&Pt::from(&net.view().net())), [Some(1), Some(1), None]);
 /// ```
-pub fn bounds(pt: &Pt) -> Vec<Option<u32>> {
+pub fn bounds(pt: &Pt) -> &[Option<u32>] {
+    pt.bounds.0.get_or_init(|| proved(pt))
+}
+
+fn proved(pt: &Pt) -> Vec<Option<u32>> {
     let mut bounds = vec![None; pt.places.len()];
     for sum in sums(pt).iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0)) {
         let at_start = |&(place, weight): &(u32, i64)| {
@@ -70,8 +94,11 @@ struct Sums<'p> {
     /// For each place the sums whose first place it is, and maybe some that were given up.
     first: Vec<Vec<u32>>,
     costs: Vec<Cost>,
-    /// The transitions that increase some sum, the cheapest first.
+    /// The transitions that increase some sum, the cheapest first, with the costs under which they are listed.
     open: BTreeSet<(Cost, u32)>,
+    listed: Vec<Cost>,
+    /// Transitions whose costs have changed since they were listed.
+    stale: Vec<u32>,
     /// Transitions that increase no sum any more.
     settled: Vec<bool>,
     /// Numbers that were looked at.
@@ -107,6 +134,8 @@ fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
         first: vec![Vec::new(); places],
         costs: vec![Cost::default(); transitions],
         open: BTreeSet::new(),
+        listed: vec![Cost::default(); transitions],
+        stale: Vec::new(),
         settled: vec![false; transitions],
         work: 0,
     };
@@ -114,7 +143,7 @@ fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
         let grows = pt.changers.of(place).to_vec();
         sums.keep(Sum { weights: vec![(place, 1)], grows, places: 1 << (place % 64) });
     }
-    while let Some((_, transition)) = sums.open.first().copied().filter(|_| sums.work < WORK) {
+    while let Some(transition) = sums.cheapest().filter(|_| sums.work < WORK) {
         for pair in sums.settle(transition) {
             let Some(sum) = balanced(&pair.up, &pair.down, transition) else { continue };
             sums.work += sum.weights.len() + sum.grows.len();
@@ -144,15 +173,28 @@ impl Sums<'_> {
         self.work += sum.grows.len();
         for &(transition, by) in &sum.grows {
             let cost = &mut self.costs[transition as usize];
-            self.open.remove(&(*cost, transition));
+            // A step changes the costs of a transition many times: it is listed anew once, when the next one is looked for.
+            if *cost == self.listed[transition as usize] {
+                self.stale.push(transition);
+            }
             let side = if by > 0 { &mut cost.up } else { &mut cost.down };
             *side = change(*side, 1);
             cost.length = change(cost.length, sum.weights.len());
             cost.pairs = cost.up * cost.down;
+        }
+    }
+
+    /// The transition that increases some sum and costs least.
+    fn cheapest(&mut self) -> Option<u32> {
+        for transition in self.stale.drain(..) {
+            let (cost, listed) = (self.costs[transition as usize], &mut self.listed[transition as usize]);
+            self.open.remove(&(*listed, transition));
+            *listed = cost;
             if cost.up > 0 {
-                self.open.insert((*cost, transition));
+                self.open.insert((cost, transition));
             }
         }
+        self.open.first().map(|it| it.1)
     }
 
     fn give_up(&mut self, number: Option<usize>) {
@@ -201,9 +243,8 @@ impl Sums<'_> {
             let adds_nothing = self.adds_nothing(up);
             for &number in &shrunk {
                 let Some(down) = &self.all[number] else { continue };
-                let Some([a, b]) = factors(up, down, transition) else { continue };
-                let Some(weights) = combined(&up.weights, a, &down.weights, b) else { continue };
-                let (up, down, length) = (Rc::clone(up), Rc::clone(down), weights.len());
+                let length = union(&up.weights, &down.weights);
+                let (up, down) = (Rc::clone(up), Rc::clone(down));
                 new.push(Pair { up, down, length, replaces: adds_nothing.then_some(number) });
             }
         }
@@ -242,13 +283,32 @@ fn balanced(up: &Sum, down: &Sum, transition: u32) -> Option<Sum> {
     let [a, b] = factors(up, down, transition)?;
     let mut weights = combined(&up.weights, a, &down.weights, b)?;
     let mut grows = combined(&up.grows, a, &down.grows, b)?;
-    let all = weights.iter().chain(&grows).fold(0, |all, &(_, it)| gcd(all, it.unsigned_abs())).cast_signed();
+    let mut all = 0;
+    for (_, it) in weights.iter().chain(&grows) {
+        all = gcd(it.unsigned_abs(), all);
+        if all == 1 {
+            break;
+        }
+    }
+    let all = all.cast_signed();
     if all > 1 {
         weights.iter_mut().chain(&mut grows).for_each(|it| it.1 /= all);
     }
     weights.shrink_to_fit();
     grows.shrink_to_fit();
     Some(Sum { weights, grows, places: up.places | down.places })
+}
+
+/// How many ids are in one of the two lists.
+fn union(first: &[(u32, i64)], second: &[(u32, i64)]) -> usize {
+    let (mut at, mut common) = (0, 0);
+    for (id, _) in first {
+        while second.get(at).is_some_and(|it| it.0 < *id) {
+            at += 1;
+        }
+        common += usize::from(second.get(at).is_some_and(|it| it.0 == *id));
+    }
+    first.len() + second.len() - common
 }
 
 /// `a` times the first list plus `b` times the second; `None` when a number passes 63 bits.

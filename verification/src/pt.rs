@@ -1,5 +1,6 @@
 //! A net without time and priorities, in the form in which engines read it.
 
+use crate::bounds::Bounds;
 use cotama_core::net::{Net, PlaceId, TransitionId};
 
 /// A place/transition net: every order in which enabled transitions can fire.
@@ -26,6 +27,8 @@ pub struct Pt {
     pub changers: Lists<i64>,
     /// How many arcs the net has, a read counted as two, as in PNML.
     pub arcs: usize,
+    /// What its structure says of bounds, once somebody has asked.
+    pub bounds: Bounds,
 }
 
 /// Lists of ids with a weight each, one list after the other.
@@ -129,6 +132,7 @@ impl From<&Net<'_>> for Pt {
             consumers,
             changers,
             arcs: net.transitions.iter().map(|it| it.take.len() + 2 * it.read.len() + it.give.len()).sum(),
+            bounds: Bounds::default(),
         }
     }
 }

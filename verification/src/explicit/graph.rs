@@ -6,7 +6,7 @@ use super::space::{Search, Space, TooNarrow, search};
 use super::table::hash;
 use super::{Limit, Limits, Progress, Unfinished};
 use crate::pt::Pt;
-use cotama_core::net::TransitionId;
+use cotama_core::net::{PlaceId, TransitionId};
 use std::time::Instant;
 
 /// Successors whose places in the index are looked up at once: their loads overlap.
@@ -96,6 +96,22 @@ impl Graph {
         self.space.enabling.look(marking, &mut view, &mut seen);
         let word = |at: usize| if at < stored { marking[at] } else { view.computed[at - stored] };
         self.space.layout.fields.iter().map(|it| it.tokens(word(it.word)) as u32).collect()
+    }
+
+    /// The tokens of a place in each marking.
+    ///
+    /// # Panics
+    /// When there is no such place.
+    pub fn tokens(&self, place: PlaceId) -> impl Iterator<Item = u32> {
+        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+        let field = &self.space.layout.fields[place.0 as usize];
+        self.markings.chunks_exact(self.words).map(move |marking| {
+            let word = marking.get(field.word).copied().unwrap_or_else(|| {
+                self.space.enabling.look(marking, &mut view, &mut seen);
+                view.computed[field.word - self.words]
+            });
+            field.tokens(word) as u32
+        })
     }
 
     /// For each marking whether the goal holds in it.

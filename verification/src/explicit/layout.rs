@@ -28,7 +28,7 @@ impl Width {
     /// For each place what is proved, or a first guess; `None` when a firing can add more tokens than there may be.
     pub(super) fn of(pt: &Pt) -> Option<Vec<Self>> {
         let width = |tokens: u32| (u32::BITS - tokens.leading_zeros()).max(1);
-        let first = |(place, bound): (usize, Option<u32>)| {
+        let first = |(place, &bound): (usize, &Option<u32>)| {
             if let Some(bound) = bound {
                 return Some(Self { bits: width(bound), proved: true });
             }
@@ -36,7 +36,7 @@ impl Width {
             let given = pt.changers.of(place as u32).iter().map(|it| it.1).max().unwrap_or(0).max(0);
             Some(Self { bits: width(pt.initial[place].max(u32::try_from(given).ok()?)), proved: false })
         };
-        bounds(pt).into_iter().enumerate().map(first).collect()
+        bounds(pt).iter().enumerate().map(first).collect()
     }
 
     fn field(self) -> u32 {

@@ -27,13 +27,11 @@ impl Rounds {
     /// Counts rounds in the graph of the net.
     pub fn size(&self, graph: &Graph) -> Size {
         let mut size = Size::default();
-        for state in 0..graph.states() as u32 {
-            let marked = |state: u32, place: PlaceId| graph.marking(state)[place.0 as usize] > 0;
-            if !marked(state, self.round) {
-                continue;
-            }
+        let marked = |place: PlaceId| graph.tokens(place).map(|it| it > 0).collect::<Vec<_>>();
+        let (round, outside) = (marked(self.round), marked(self.outside));
+        for state in (0..graph.states() as u32).filter(|&it| round[it as usize]) {
             let mut at = state;
-            while !marked(at, self.outside) {
+            while !outside[at as usize] {
                 // Until then one transition is enabled in each marking, and none twice.
                 let Some(&next) = graph.successors(at).first() else { break };
                 at = next;

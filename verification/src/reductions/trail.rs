@@ -1,6 +1,7 @@
 //! From a reduced net back to the original one.
 
 use super::{draft::Draft, supply::Supply};
+use crate::bounds::Bounds;
 use crate::pt::{Lists, Pt};
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::BTreeMap;
@@ -331,6 +332,7 @@ impl Draft {
             consumers: needs.reversed(places.len()),
             changers: effects.reversed(places.len()),
             arcs: self.transitions().map(given).sum(),
+            bounds: Bounds::default(),
             needs,
             effects,
         };

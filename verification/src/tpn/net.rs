@@ -1,5 +1,6 @@
 //! A net whose transitions have a clock each.
 
+use crate::bounds::Bounds;
 use crate::pt::{Lists, Pt};
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use std::collections::HashSet;
@@ -252,6 +253,7 @@ impl TimeNet {
             needs,
             effects,
             arcs: self.transitions.iter().map(arcs).sum(),
+            bounds: Bounds::default(),
         }
     }
 }

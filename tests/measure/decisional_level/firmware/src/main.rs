@@ -19,7 +19,7 @@ use entries::{
 };
 use semihosting::println;
 
-const STATES: usize = 16 * 1024;
+const STATES: usize = 40 * 1024;
 /// The situations of the supervisors of a drive, at most.
 const SITUATIONS: usize = 32;
 
