@@ -1,8 +1,8 @@
 //! What the decisional level is required to do where modules may return, in place of [`REPLACED`] of the requirements of
 //! [`delivery`](super::delivery).
 
-use super::properties::{Asked, Requirement, at_end, requirements, said};
 use super::label::Label;
+use super::properties::{Asked, Requirement, at_end, requirements, said};
 
 /// The requirements of [`delivery`](super::delivery) that say that nothing returns. All others are those of
 /// [`recovering`](super::recovering) as well.

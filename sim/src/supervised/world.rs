@@ -20,8 +20,8 @@ use cotama_models::cotama::{
     Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, local, recovering,
 };
 use cotama_models::mission::Mission;
-use std::collections::VecDeque;
 use recovery::Recovery;
+use std::collections::VecDeque;
 use telling::Objective;
 
 mod records;

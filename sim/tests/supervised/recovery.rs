@@ -2,9 +2,10 @@
 
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Configuration::{
-    self, FollowingDegraded, FollowingOdometric, FollowingOptimal, TeleoperationFull,
+    self, FollowingDegraded, FollowingOdometric, FollowingOptimal, TeleoperationDegraded, TeleoperationFull,
+    Teleprogramming,
 };
-use cotama_models::cotama::FailureMode;
+use cotama_models::cotama::{FailureMode, Module};
 use cotama_models::faults::Faults;
 use cotama_models::mission::Mission;
 use cotama_sim::faults_text::faults_text;
@@ -59,22 +60,31 @@ fn with_recovery_it_is_used_when_it_was_sound_for_ten_seconds() {
     assert_eq!((run.outcome, run.plans.len(), ups(&run)), (Outcome::Completed, 3, 1));
     let since = run.fired.iter().filter(|it| it.at.0 > 100_000 && it.cause.0 == 1);
     let since: Vec<_> = since.map(|it| format!("{} {}.{}", it.at.0, it.net, it.transition)).collect();
-    let expected =
-        ["111500 gom.sonar_back", "111500 gom.avoidance_back", "111500 gom.mcl_back", "111500 cs.better1", "111600 pf.u1"];
+    let expected = [
+        "111500 gom.sonar_back",
+        "111500 gom.avoidance_back",
+        "111500 gom.mcl_back",
+        "111500 cs.better1",
+        "111600 pf.u1",
+    ];
     assert_eq!(since, expected);
 }
 
 #[test]
 fn localisation_alone_returns_as_well() {
-    let run = run(true, vec![fails(FailureMode::Loc1, 10_000, 15_000)]);
+    let crash = Injection { part: Module::Mcl, ..fails(FailureMode::Sw1, 10_000, 15_000) };
+    let run = run(true, vec![crash]);
     let drive: Vec<_> = first_drive(&run).into_iter().map(|it| it.1).collect();
-    assert_eq!(drive, [FollowingOptimal, FollowingOdometric, FollowingOptimal]);
+    // A crash is hard: the operator leads past it, and the robot goes on by odometry until localisation has returned.
+    let helped = [TeleoperationFull, Teleprogramming];
+    assert_eq!(drive[..4], [&[FollowingOptimal, FollowingOdometric], &helped[..]].concat());
+    assert_eq!(drive[4..], [FollowingOdometric, FollowingOptimal]);
     assert_eq!((run.outcome, ups(&run)), (Outcome::Completed, 1));
 }
 
 #[test]
 fn a_loose_contact_moves_nothing() {
-    let flicker = (0..230).map(|it| 10_000 + 300 * it).map(|x| fails(FailureMode::Son2, x, x + 150));
+    let flicker = (10_000..80_000).step_by(600).map(|x| fails(FailureMode::Son2, x, x + 450));
     let run = run(true, flicker.collect());
     assert_eq!(first_drive(&run), [(2, FollowingOptimal), (37, FollowingDegraded)]);
     assert_eq!((run.outcome, run.plans.len(), ups(&run)), (Outcome::Completed, 2, 0));
@@ -101,8 +111,7 @@ fn who_does_not_run_does_not_go_up_and_starts_with_what_is_there() {
     let run = run(true, vec![son2, bump]);
     assert_eq!((run.outcome, ups(&run)), (Outcome::Completed, 0));
     let after: Vec<_> = first_drive(&run).into_iter().map(|it| it.1).skip(2).collect();
-    println!("{after:?} {TeleoperationFull:?}");
-    for it in &run.fired { println!("{it:?}"); }
+    assert_eq!(after, [TeleoperationDegraded, TeleoperationFull, Teleprogramming, FollowingOptimal]);
 }
 
 const EVENTS: &str = r#"
@@ -129,9 +138,11 @@ fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
     let options = Options { planner: PLANNER, ..Options::default() };
     let (trace, _) = Trace::record("delivery", &text, &options).unwrap();
     assert!(replay(&Trace::parse("trace", &trace.to_json_lines()).unwrap()).unwrap().identical);
-    let plans = trace.records.iter().filter_map(|it| if let Record::Plan(it) = it { Some(&it.cause) } else { None });
+    let plans =
+        trace.records.iter().filter_map(|it| if let Record::Plan(it) = it { Some(&it.cause) } else { None });
     assert_eq!(plans.collect::<Vec<_>>(), ["start", "one SIM lost", "SIM back"]);
-    let told = trace.records.iter().filter_map(|it| if let Record::Told(it) = it { Some(&it.event) } else { None });
+    let told =
+        trace.records.iter().filter_map(|it| if let Record::Told(it) = it { Some(&it.event) } else { None });
     let told: Vec<_> = told.filter(|it| it.starts_with("faults.regain")).collect();
     assert_eq!(told, ["faults.regain_mcl", "faults.regain_avoidance", "faults.regain_sonar"]);
     let up = trace.records.iter().find_map(|it| match it {

@@ -102,7 +102,9 @@ fn rising(rounds: &Rounds, (name, ranks): (&str, &[&str])) -> Observer {
     for (from, before) in (0..ranks.len()).flat_map(|from| [(from, 0), (from, 1)]) {
         for (to, runs) in ranks.iter().enumerate() {
             let unasked = from > 0 && to > from && before == 0;
-            for (returned, when) in [format!("({runs}) & returned = 0"), (*runs).to_owned()].iter().enumerate() {
+            for (returned, when) in
+                [format!("({runs}) & returned = 0"), (*runs).to_owned()].iter().enumerate()
+            {
                 let after = if unasked { most } else { state(to, returned) };
                 steps.push((state(from, before), rounds.condition(when).unwrap(), after));
             }
@@ -146,14 +148,16 @@ fn place(net: &Net<'_>, name: &str) -> PlaceId {
 fn without(name: &str, flag: &str) -> System<'static> {
     with(name, |net, it| {
         let flag = place(net, flag);
-        let is_it = |arc: &Arc| arc.place == flag || net.places[arc.place.0 as usize].role == Role::Complement(flag);
+        let is_it =
+            |arc: &Arc| arc.place == flag || net.places[arc.place.0 as usize].role == Role::Complement(flag);
         it.read = it.read.iter().copied().filter(|arc| !is_it(arc)).collect::<Vec<_>>().leak();
     })
 }
 
 /// It comes from or goes to other places.
 fn moved(name: &str, from: &str, to: &str) -> System<'static> {
-    let one = |net: &Net<'_>, name| -> &'static [Arc] { vec![Arc { place: place(net, name), weight: 1 }].leak() };
+    let one =
+        |net: &Net<'_>, name| -> &'static [Arc] { vec![Arc { place: place(net, name), weight: 1 }].leak() };
     with(name, |net, it| (it.take, it.give) = (one(net, from), one(net, to)))
 }
 

@@ -124,8 +124,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// An event of the supervisors: its net and its name.
     fn event_name(&self, told: cotama::Told) -> String {
         let event = told.event();
-        let component =
-            self.system.components.get(usize::from(event.component)).map_or("", |it| it.name);
+        let component = self.system.components.get(usize::from(event.component)).map_or("", |it| it.name);
         let name =
             self.net(component).and_then(|net| net.events.get(event.id.0 as usize)).map_or("", |it| it.name);
         format!("{component}.{name}")

@@ -13,8 +13,7 @@ use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
-    Severity, Told, by_availability, decide, diagnose, faults, global, is_detectable, judge, local,
-    operator,
+    Severity, Told, by_availability, decide, diagnose, faults, global, is_detectable, judge, local, operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
