@@ -6,7 +6,7 @@ use cotama_core::net;
 macro_rules! contextual {
     (
         $(#[doc = $doc:literal])*
-        $name:ident {
+        pub mod $name:ident {
             shared { $($shared:tt)* }
             events { $($events:tt)* }
             outputs { $($outputs:tt)* }
@@ -86,7 +86,7 @@ contextual! {
     /// Contextual supervisor (Durand et al., TAROS 2010, Section IV): from a report, by its severity where the robot is and
     /// by what is still available, to an event for the adapter, the local or the global supervisor. What is not listed is
     /// acknowledged and recorded only.
-    contextual {
+    pub mod contextual {
         shared {}
         events {}
         outputs {}
@@ -98,7 +98,7 @@ contextual! {
 contextual! {
     /// The contextual supervisor where modules may return: what is available again is for the adapter that runs without it. In
     /// every other place it is recorded only, since an adapter that starts looks at what is available. Assumed.
-    recovering_contextual {
+    pub mod recovering_contextual {
         shared { given_up }
         events { sonar_back, avoidance_back, mcl_back }
         outputs { adapt_better, adapt_better_teleoperation }

@@ -11,7 +11,7 @@ use cotama_core::system;
 macro_rules! level {
     (
         $(#[doc = $doc:literal])*
-        $name:ident {
+        pub mod $name:ident {
             nets { $pf:ident, $to:ident, $gom:ident, $cs:ident, $faults:ident }
             links { $($links:tt)* }
             shared { $($shared:tt)* }
@@ -115,7 +115,7 @@ macro_rules! level {
 level! {
     /// COTAMA's decisional level as it drives the robot, with everything that may fail and the operator. Events that no net here
     /// causes come from the robot and from whoever gives missions and objects.
-    delivery {
+    pub mod delivery {
         nets { path_following, teleoperation, observation, contextual, faults }
         links {}
         shared {}
@@ -125,7 +125,7 @@ level! {
 level! {
     /// The same where sonars, the operator's avoidance and localisation may return: then the adapters go up again. Assumed, and
     /// off unless a mission asks for it: the paper states no such transition.
-    recovering {
+    pub mod recovering {
         nets {
             recovering_path_following, recovering_teleoperation, recovering_observation, recovering_contextual,
             recovering_faults

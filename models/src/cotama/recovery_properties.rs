@@ -31,10 +31,9 @@ requirements! {
     RC5 Assumed "Who does not run does not go up: neither in the hand-over, nor in tele-programming, nor at rest.",
         checked "AG ((turn.pf.adapt_better & pf.Off -> AX pf.Off) & (turn.to.adapt_better & to.Off -> AX to.Off) & \
                  (turn.outside & pf.adapt_better.waiting -> ls.Following) & (turn.outside & to.adapt_better.waiting -> ls.Teleoperated))";
-    RC6 Assumed "Going up neither grants nor withdraws the permit to move, and changes no activity.",
-        checked "AG (turn.pf.adapt_better | turn.to.adapt_better -> (permit.Granted & AX permit.Granted | permit.Withheld & AX permit.Withheld | \
-                 permit.Destroyed & AX permit.Destroyed) & (ls.Idle & AX ls.Idle | ls.Planning & AX ls.Planning | ls.Following & AX ls.Following | \
-                 ls.HandOver & AX ls.HandOver | ls.Teleprogrammed & AX ls.Teleprogrammed | ls.Teleoperated & AX ls.Teleoperated | ls.End & AX ls.End))";
+    RC6 Assumed "Going up neither grants nor withdraws the permit to move, and ends no activity.",
+        checked "AG (turn.pf.adapt_better | turn.to.adapt_better -> (permit.Granted -> AX permit.Granted) & (!permit.Granted -> AX !permit.Granted) & \
+                 (ls.Following -> AX ls.Following) & (ls.Teleoperated -> AX ls.Teleoperated))";
     RC7 Assumed "Only what returns is available again; localisation that was given up is not.",
         checked "AG ((!gom.mcl & !turn.gom.mcl_sound -> AX !gom.mcl) & (!gom.sonar & !turn.gom.sonar_sound -> AX !gom.sonar) & \
                  (!gom.avoidance & !turn.gom.avoidance_sound -> AX !gom.avoidance) & (!gom.camera -> AX !gom.camera) & \

@@ -6,7 +6,7 @@ use cotama_core::net;
 macro_rules! observation {
     (
         $(#[doc = $doc:literal])*
-        $name:ident {
+        pub mod $name:ident {
             flags { $($flags:tt)* }
             events { $($events:tt)* }
             outputs { $($outputs:tt)* }
@@ -83,7 +83,7 @@ observation! {
     ///
     /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation by particles and avoidance along; a
     /// diagnosis that is not unique makes its candidates suspect until the robot sets out again, and is reported once.
-    observation {
+    pub mod observation {
         flags {}
         events {}
         outputs {}
@@ -95,7 +95,7 @@ observation! {
     /// The observation module where modules may return: what was lost is available again when it is said to be sound, and what
     /// it needs is. Assumed: the paper states no such transition. Whoever says so holds it back for long enough; see
     /// [`recovery`](super::recovery).
-    recovering_observation {
+    pub mod recovering_observation {
         flags {
             /// Localisation was too slow at the floor of its particles, and counts as lost for good.
             given_up: false,

@@ -142,7 +142,7 @@ net! {
 macro_rules! path_following {
     (
         $(#[doc = $doc:literal])*
-        $name:ident {
+        pub mod $name:ident {
             events { $($events:tt)* }
             outputs { $($outputs:tt)* }
             transitions { $($lines:tt)* }
@@ -206,7 +206,7 @@ macro_rules! path_following {
 path_following! {
     /// Adapter supervisor of autonomous path following (Durand et al., TAROS 2010, Fig. 4): which modules, and how many
     /// particles.
-    path_following {
+    pub mod path_following {
         events {}
         outputs {}
         transitions {}
@@ -217,7 +217,7 @@ path_following! {
 path_following! {
     /// The adapter of path following where modules may return: it goes up again when it is told so and what it needs is
     /// there. Assumed: the paper states no such transition.
-    recovering_path_following {
+    pub mod recovering_path_following {
         events {
             /// More is available again than it uses.
             adapt_better,
@@ -239,7 +239,7 @@ path_following! {
 macro_rules! teleoperation {
     (
         $(#[doc = $doc:literal])*
-        $name:ident {
+        pub mod $name:ident {
             events { $($events:tt)* }
             outputs { $($outputs:tt)* }
             transitions { $($lines:tt)* }
@@ -277,7 +277,7 @@ macro_rules! teleoperation {
 
 teleoperation! {
     /// Adapter supervisor of teleoperation: with avoidance, or without.
-    teleoperation {
+    pub mod teleoperation {
         events {}
         outputs {}
         transitions {}
@@ -287,7 +287,7 @@ teleoperation! {
 
 teleoperation! {
     /// The adapter of teleoperation where modules may return: with avoidance again. Assumed.
-    recovering_teleoperation {
+    pub mod recovering_teleoperation {
         events {
             /// Avoidance is available again.
             adapt_better,

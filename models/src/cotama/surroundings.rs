@@ -6,7 +6,7 @@ use cotama_core::net;
 macro_rules! faults {
     (
         $(#[doc = $doc:literal])*
-        $name:ident {
+        pub mod $name:ident {
             events { $($events:tt)* }
             outputs { $($outputs:tt)* }
             transitions { $($lines:tt)* }
@@ -70,7 +70,7 @@ macro_rules! faults {
 
 faults! {
     /// Everything that may fail, at any time: what is lost stays lost, the rest may come again and again.
-    faults {
+    pub mod faults {
         events {}
         outputs {}
         transitions {}
@@ -80,7 +80,7 @@ faults! {
 faults! {
     /// Everything that may fail, at any time; sonars, the operator's avoidance and localisation may return, at any time and any
     /// number of times, so that what holds here holds for every [`recovery`](super::recovery) that holds them back.
-    recovering_faults {
+    pub mod recovering_faults {
         events { regain_sonar, regain_avoidance, regain_mcl }
         outputs { sonar_sound, avoidance_sound, mcl_sound }
         transitions {

@@ -172,7 +172,6 @@ fn breaks(system: &System<'_>, id: &str) -> bool {
 fn wrong_ways_up_are_found() {
     let mutants = [
         ("up to localisation that is lost", without("pf.u1", "mcl"), "RC4"),
-        ("up from odometry as if it were from nothing", moved("pf.u2", "Degraded", "Optimal"), "RC4"),
         ("up from the hand-over", moved("pf.u1", "Off", "Optimal"), "RC5"),
         ("the adapter is told, wherever it is", without("cs.better1", "degraded"), "RC8"),
         ("the operator's adapter is told, whoever drives", without("cs.better2", "teleoperated"), "RC5"),
