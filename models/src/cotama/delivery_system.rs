@@ -123,8 +123,8 @@ level! {
 }
 
 level! {
-    /// The same where sonars, the operator's avoidance and localisation may return: then the adapters go up again. Assumed, and
-    /// off unless a mission asks for it: the paper states no such transition.
+    /// COTAMA's decisional level where sonars, the operator's avoidance and localisation may return: then adapters go up again.
+    /// Assumed, and off unless a mission asks for it: the paper states no such transition. The rest is [`delivery`].
     pub mod recovering {
         nets {
             recovering_path_following, recovering_teleoperation, recovering_observation, recovering_contextual,

@@ -33,7 +33,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let mut restored = false;
         for (player, it) in players.iter_mut().zip(Return::ALL) {
             restored |= player.advance(now).fired > 0;
-            if !it.works(known) {
+            // What needs the sonars is lost and returns with them, and has its own returns left.
+            let by_itself = it == Return::Sonar || Return::Sonar.works(known);
+            if by_itself && !it.works(known) {
                 let _ = player.offer(now, if it.works(sound) { &Event::sound } else { &Event::lost });
             }
         }
@@ -48,9 +50,14 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let Some(recovery) = self.recovery else { return };
         let has_returned = |health: Health| {
             let left = health.available();
-            let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left)).peekable();
+            let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left));
             let for_good = Losses::lacking(left).without(Losses::of(&[Loss::Mcl, Loss::Sonar]));
-            lost.peek().is_some() && lost.all(|it| recovery.is_available(it)) && for_good.is_empty()
+            let returned = match lost.next() {
+                None => false,
+                Some(Return::Sonar) => recovery.is_available(Return::Sonar),
+                Some(first) => recovery.is_available(first) && lost.all(|it| recovery.is_available(it)),
+            };
+            returned && for_good.is_empty()
         };
         let (mut over, mut known, mut cause) = (Health::SOUND, Health::SOUND, None);
         for ((failure, conduct), number) in self.failures.iter().zip(&self.run.conduct).zip(1..) {
