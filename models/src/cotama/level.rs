@@ -44,8 +44,8 @@ impl Return {
     /// Whether it works with these modules: a set that uses it runs.
     ///
     /// ```
-    /// use cotama_models::cotama::{Module, Modules, Return};
-    /// let without_sonars = Modules::ALL.without(Modules::of(&[Module::Ust]));
+    /// use cotama_models::cotama::{Modules, Resource, Resources, Return, available};
+    /// let without_sonars = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
     /// assert!(Return::ALL.iter().all(|it| it.works(Modules::ALL) && !it.works(without_sonars)));
     /// ```
     pub const fn works(self, available: Modules) -> bool {
