@@ -3,8 +3,9 @@
 use cotama_core::net::{Known, Net};
 use cotama_core::system::System;
 use cotama_models::cotama::{
-    REQUIREMENTS, Requirement, contextual, decision, delivery, environment, faults, global, local,
-    observation, operator, path_following, permit, teleoperation,
+    RECOVERY_REQUIREMENTS, REPLACED, REQUIREMENTS, Requirement, contextual, decision, delivery, environment,
+    faults, global, local, observation, operator, path_following, permit, recovering, recovery,
+    teleoperation,
 };
 use cotama_models::nets::families::Family;
 use cotama_models::nets::{self, Model};
@@ -47,7 +48,7 @@ impl Entry {
     }
 }
 
-static SYSTEMS: [System<'static>; 2] = [decision::SYSTEM, delivery::SYSTEM];
+static SYSTEMS: [System<'static>; 3] = [decision::SYSTEM, delivery::SYSTEM, recovering::SYSTEM];
 
 /// All of them, in the order in which they are listed.
 pub(crate) fn entries() -> Vec<Entry> {
@@ -59,7 +60,7 @@ pub(crate) fn entries() -> Vec<Entry> {
             Model::Family(family) => Kind::Family(family),
         },
     });
-    let supervisors: [(&'static Net<'static>, Known); 10] = [
+    let supervisors: [(&'static Net<'static>, Known); 11] = [
         (&global::NET, global::KNOWN),
         (&local::NET, local::KNOWN),
         (&path_following::NET, path_following::KNOWN),
@@ -70,6 +71,7 @@ pub(crate) fn entries() -> Vec<Entry> {
         (&observation::NET, observation::KNOWN),
         (&faults::NET, faults::KNOWN),
         (&operator::NET, operator::KNOWN),
+        (&recovery::NET, recovery::KNOWN),
     ];
     let supervisors = supervisors.map(|(net, known)| Entry {
         name: net.name,
@@ -82,8 +84,13 @@ pub(crate) fn entries() -> Vec<Entry> {
 }
 
 /// What the system of this name is required to do.
-pub(crate) fn requirements(name: &str) -> &'static [Requirement] {
-    if name == delivery::SYSTEM.name { REQUIREMENTS } else { &[] }
+pub(crate) fn requirements(name: &str) -> Vec<&'static Requirement> {
+    let kept = || REQUIREMENTS.iter().filter(|it| !REPLACED.contains(&it.id));
+    match name {
+        _ if name == delivery::SYSTEM.name => REQUIREMENTS.iter().collect(),
+        _ if name == recovering::SYSTEM.name => kept().chain(RECOVERY_REQUIREMENTS).collect(),
+        _ => Vec::new(),
+    }
 }
 
 /// The model of this name.

@@ -10,12 +10,12 @@ use crate::answers::check::{
 };
 use crate::args::{CheckArgs, EngineName};
 use crate::budget::Budget;
+use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::progress::Progress;
 use crate::render::{self, visible};
 use crate::subject::Subject;
-use cotama_models::cotama::{REQUIREMENTS, delivery};
 use cotama_verification::certificate::Evidence;
 use cotama_verification::check::{Answer, Checker, Choice, Extent, Options, Reason, Verdict};
 use cotama_verification::diagnosis::Diagnosis;
@@ -99,7 +99,7 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
         results.push(row);
     }
-    let otherwise = otherwise(&asked);
+    let otherwise = otherwise(&asked, &subject.name);
     let answer = CheckAnswer {
         schema: "cotama/check/1",
         model: subject.name.clone(),
@@ -119,12 +119,11 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
 }
 
 /// What is known of requirements without a checker. That transitions say what they must is looked up in the nets.
-fn otherwise(asked: &questions::Asked) -> Vec<OtherwiseRow> {
-    if asked.requirements.is_empty() {
-        return Vec::new();
-    }
-    let rows = REQUIREMENTS.iter().flat_map(|it| {
-        let unsaid: Vec<_> = it.said.iter().flat_map(|said| said.unsaid(&delivery::SYSTEM)).collect();
+fn otherwise(asked: &questions::Asked, model: &str) -> Vec<OtherwiseRow> {
+    let entry = catalogue::entry(model).filter(|_| !asked.requirements.is_empty());
+    let Some(Entry { kind: Kind::System(system), .. }) = entry else { return Vec::new() };
+    let rows = catalogue::requirements(model).into_iter().flat_map(|it| {
+        let unsaid: Vec<_> = it.said.iter().flat_map(|said| said.unsaid(system)).collect();
         let said = match (it.said.len(), unsaid.as_slice()) {
             (0, _) => None,
             (_, []) => Some("each transition that must says so".to_owned()),

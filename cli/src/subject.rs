@@ -36,9 +36,10 @@ pub(crate) struct Subject {
 impl Subject {
     /// The model of this name, or of the file at this path; without its intervals where that is wanted.
     pub(crate) fn load(name: &str, untimed: bool, semantics: Option<Semantics>) -> Result<Self, Failure> {
-        let usual = match catalogue::requirements(name) {
-            [] => Semantics::Interleaving,
-            _ => Semantics::Rounds,
+        let usual = if catalogue::requirements(name).is_empty() {
+            Semantics::Interleaving
+        } else {
+            Semantics::Rounds
         };
         let loaded = Self::found(name, untimed, semantics.unwrap_or(usual))?;
         if semantics == Some(Semantics::Rounds) && loaded.semantics.is_none() {

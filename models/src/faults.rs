@@ -41,7 +41,7 @@ pub struct Faults {
     /// What happens anywhere.
     pub random: Vec<RandomEvent>,
     /// What the supervisors of a supervised mission have to deal with, sorted by place; in files these are events of
-    /// the kinds `failure` and `operator`. A plan, and a run without supervisors, knows nothing of them.
+    /// the kinds `failure`, `repair` and `operator`. A plan, and a run without supervisors, knows nothing of them.
     pub incidents: Vec<Incident>,
 }
 
@@ -228,7 +228,7 @@ fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
         fields.abandon();
         return None;
     };
-    if incidents::KINDS.contains(&kind) {
+    if incidents::is_incident(&fields, kind) {
         let found = incidents::incident(&mut fields, kind, names);
         on_the_path(&fields, x, names);
         fields.finish();

@@ -8,9 +8,11 @@
 //! | key | what it says |
 //! | --- | --- |
 //! | `[supervision]` `decides = "cotama"` | that it is supervised |
+//! | `recovery = true` there | that modules which were lost and [are sound for long enough](crate::cotama::recovery) are used again; without it nothing returns |
 //! | `does` in each `[[objective]]` | [what it is](Does) to its supervisor: `drive`, `receive`, `deliver` or `wait` |
 //! | `configuration` in each `[[tio]]` of the task `MOV` | the [set of modules](crate::cotama::Configuration) that runs: `PF.OPT`, `PF.OPTR`, `PF.ODO`, `PF.DEG` |
 //! | `[[run.event]]` with `kind = "failure"`, `mode` | a [failure mode](crate::cotama::FailureMode) that observers have to find |
+//! | `[[run.event]]` with `kind = "repair"`, `mode` | that such a failure, if it is under way, ends there |
 //! | `[[run.event]]` with `kind = "operator"`, `answers`, `delay_ms` | what the operator [answers](crate::faults::Answer) to the next request, with the time before each answer |
 //!
 //! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say their `duration_ms` and
@@ -261,6 +263,8 @@ pub struct Definition {
     pub zones: Vec<Zone>,
     /// Who decides while it runs; none for a plain mission, which only plans again.
     pub supervision: Option<Supervision>,
+    /// Whether its supervisors use again what [returns](crate::cotama::recovering).
+    pub recovery: bool,
     /// How the mission is run by a simulator.
     pub run: Run,
 }

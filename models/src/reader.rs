@@ -194,6 +194,15 @@ impl<'t> Fields<'t> {
         }
     }
 
+    /// A truth value that may be left out.
+    pub(crate) fn optional_flag(&mut self, key: &'static str) -> Result<Option<bool>, Reported> {
+        let Some(node) = self.optional(key) else { return Ok(None) };
+        if node.get_ref().as_bool().is_none() {
+            self.wrong_type(key, node, "`true` or `false`");
+        }
+        node.get_ref().as_bool().map(Some).ok_or(Reported)
+    }
+
     /// Whether a text is an id; reports it if not.
     fn is_id(&self, id: &str, span: Range<usize>) -> bool {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');

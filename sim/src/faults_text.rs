@@ -43,6 +43,7 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
         let _ = writeln!(text, "\n[[event]]\nx_mm = {}", incident.x.0);
         let _ = match &incident.kind {
             IncidentKind::Failure(mode) => writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.name()),
+            IncidentKind::Repair(mode) => writeln!(text, "kind = \"repair\"\nmode = \"{}\"", mode.name()),
             IncidentKind::Operator { answers, delay } => {
                 let answers: Vec<_> = answers.iter().map(|answer| format!("\"{}\"", answer.name())).collect();
                 let answers = answers.join(", ");

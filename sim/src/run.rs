@@ -100,12 +100,17 @@ pub enum Cause {
         /// The units lost.
         units: u8,
     },
+    /// Hardware that had failed works again.
+    Returned {
+        /// The index of the hardware.
+        hardware: usize,
+    },
     /// The margins leave room for a better plan.
     Room,
 }
 
 impl Cause {
-    /// In words: `start`, `energy margin below zero`, `one laser lost`, `room for a better plan`.
+    /// In words: `start`, `energy margin below zero`, `one laser lost`, `UST back`, `room for a better plan`.
     pub fn text(self, mission: &Mission) -> String {
         match self {
             Self::Start => "start".into(),
@@ -115,6 +120,10 @@ impl Cause {
                 let name = mission.hardware.get(hardware).map_or("hardware", |it| it.name.as_str());
                 let plural = if units == 1 || name.ends_with('s') { "" } else { "s" };
                 format!("{} {name}{plural} lost", NUMBERS[usize::from(units).min(7)])
+            }
+            Self::Returned { hardware } => {
+                let name = mission.hardware.get(hardware).map_or("hardware", |it| it.name.as_str());
+                format!("{name} back")
             }
             Self::Room => "room for a better plan".into(),
         }

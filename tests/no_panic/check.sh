@@ -57,10 +57,10 @@ while read -r name; do
     printf '%-28s %s\n' "$name" "$verdict"
 done <"$work/names"
 
-# Every net and every system of the models, and of this crate, by the module that `net!`, `watchdog!` or `system!` makes of it, has a
+# Every net and every system of the models, and of this crate, by the module that `net!`, `system!` or a macro over them makes of it, has a
 # player's roots here.
 find ../../models/src src -name '*.rs' -exec awk '
-    /^ *(cotama_core::|crate::)?(net|watchdog|system)! *\{/ { open = 1 }
+    /^ *(cotama_core::|crate::)?(net|watchdog|recovery|path_following|teleoperation|observation|contextual|faults|system|level)! *\{/ { open = 1 }
     open && /^ *(pub )?mod [a-z0-9_]+ *\{/ { sub(/pub /, ""); print $2; open = 0 }' {} + | sort -u >"$work/shipped"
 sed -n 's/^\(root\|open\)_\(.*\)_start$/\2/p' "$work/names" | sort >"$work/rooted"
 if ! diff "$work/shipped" "$work/rooted"; then

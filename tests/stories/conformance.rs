@@ -6,8 +6,9 @@
 
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::OwnedNet;
+use cotama_core::system::System;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Configuration, FailureMode, Module, Told, delivery, faults, local};
+use cotama_models::cotama::{Configuration, FailureMode, Module, Told, delivery, faults, local, recovering};
 use cotama_models::mission::Mission;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
@@ -32,8 +33,8 @@ struct Game {
 }
 
 impl Game {
-    fn new() -> Self {
-        let rounds = rounds(&delivery::SYSTEM).unwrap();
+    fn new(system: &System<'_>) -> Self {
+        let rounds = rounds(system).unwrap();
         let net = rounds.net().unwrap();
         let mut from = vec![Vec::new(); net.places.len()];
         let is_phase =
@@ -175,7 +176,7 @@ impl Game {
 /// An event as the net of rounds calls it.
 fn name(told: Told) -> String {
     let event = told.event();
-    let component = &delivery::SYSTEM.components[usize::from(event.component)];
+    let component = &recovering::SYSTEM.components[usize::from(event.component)]; // and those of delivery before
     format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
 }
 
@@ -189,7 +190,7 @@ fn the_seven_points_are_a_run_of_the_checked_system() {
     let mission = mission();
     let script = Script::from(&mission.run.faults);
     let run = Supervised::new(&mission).unwrap().run(&script).unwrap();
-    let mut game = Game::new();
+    let mut game = Game::new(&delivery::SYSTEM);
     assert_eq!(game.refusal(&run), None);
     // And one that was told less, or later, is not.
     for altered in 0..run.told.len() {
@@ -265,7 +266,7 @@ const PLACES: [local::State; 5] = [
 fn every_row_in_every_place_is_a_run_of_the_checked_system() {
     let mission = mission();
     let supervised = Supervised::new(&mission).unwrap();
-    let mut game = Game::new();
+    let mut game = Game::new(&delivery::SYSTEM);
     let mut runs = 0;
     for &mode in FailureMode::ALL {
         let parts = if mode.rule().one_module { Module::ALL } else { &[Module::Smz] };
@@ -290,7 +291,7 @@ fn one<T: Copy>(stream: &mut Stream, of: &[T]) -> T {
 fn two_hundred_triples_of_failures_are_runs_of_the_checked_system() {
     let mission = mission();
     let supervised = Supervised::new(&mission).unwrap();
-    let mut game = Game::new();
+    let mut game = Game::new(&delivery::SYSTEM);
     for seed in 0..200 {
         let mut stream = Streams::new(seed).stream("triple");
         let injections = (0..3).map(|_| {
@@ -306,4 +307,44 @@ fn two_hundred_triples_of_failures_are_runs_of_the_checked_system() {
         let run = supervised.run(&script).unwrap();
         assert_eq!(game.refusal(&run), None, "{script:?}");
     }
+}
+
+/// Where modules return: one failure after another, each for a while.
+#[test]
+fn two_hundred_missions_with_returns_are_runs_of_the_checked_system() {
+    let embedded = cotama_models::embedded::mission("delivery").unwrap();
+    let decides = "decides = \"cotama\"";
+    let text = embedded.text.replacen(decides, &format!("{decides}\nrecovery = true"), 1);
+    let mission = Mission::parse(embedded.name, &text).unwrap();
+    let supervised = Supervised::new(&mission).unwrap();
+    let mut game = Game::new(&recovering::SYSTEM);
+    let mut returns = 0;
+    for seed in 0..200 {
+        let mut stream = Streams::new(seed).stream("returns");
+        let mut place = |least: u64, more: u64| least + stream.below(more);
+        let lengths = [(); 4].map(|()| (place(1_000, 12_000), place(1_000, 8_000)));
+        let mut x = 0;
+        let injections = lengths.map(|(before, during)| {
+            let from = x + before;
+            x = from + during;
+            let mode = one(
+                &mut stream,
+                &[
+                    FailureMode::Son1,
+                    FailureMode::Son2,
+                    FailureMode::Sw1,
+                    FailureMode::Rt1,
+                    FailureMode::Loc3,
+                ],
+            );
+            let [from, until] = [from, x].map(|it| When::Place(Millimetres(it)));
+            let part = one(&mut stream, &[Module::Mcl, Module::Ust, Module::Dvz, Module::Smz]);
+            Injection { part, until: Some(until), ..Injection::new(from, mode) }
+        });
+        let script = Script { injections: injections.to_vec(), answers: Vec::new() };
+        let run = supervised.run(&script).unwrap();
+        assert_eq!(game.refusal(&run), None, "{script:?}");
+        returns += run.told.iter().filter(|it| matches!(it.1, Told::Return(_))).count();
+    }
+    assert_eq!(returns, 1_068);
 }

@@ -21,9 +21,9 @@ By name: deadlock, live, quasi_live, one_safe, stable.
 
 A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with #
 are left out. A property file of the Model Checking Contest (XML) is read as well. Without
-properties, the laws of the model are checked, or the requirements of the system `delivery`; where it
-has none, the usual three questions: is there no deadlock, is it 1-safe or else how many tokens are
-there, can each transition fire.
+properties, the laws of the model are checked, or the requirements of the systems `delivery` and
+`recovering`; where it has none, the usual three questions: is there no deadlock, is it 1-safe or else
+how many tokens are there, can each transition fire.
 
 Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
 pass through markings.

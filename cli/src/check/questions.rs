@@ -44,7 +44,7 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     }
     let required = catalogue::requirements(&subject.name);
     if subject.rounds.is_some() && !required.is_empty() {
-        return requirements(required, subject);
+        return requirements(&required, subject);
     }
     let laws = subject.net.as_ref().map(laws).unwrap_or_default();
     if laws.are_laws {
@@ -54,9 +54,9 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
 }
 
 /// The requirements of a system.
-fn requirements(all: &'static [Requirement], subject: &Subject) -> Result<Asked, Failure> {
+fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked, Failure> {
     let mut asked = Asked { is_usual: true, ..Asked::default() };
-    for requirement in all {
+    for &requirement in all {
         let Some(it) = requirement.asked else { continue };
         let refused = |error: String| Failure::new(format!("{}: {error}", requirement.id));
         let watched = match it.watches {

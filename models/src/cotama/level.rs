@@ -1,7 +1,10 @@
 //! The decisional level with names in place of numbers: what the robot tells it, and what it decided.
 
 use super::situation::{Losses, Situation};
-use super::{delivery, faults, global, local, operator, path_following, permit, teleoperation};
+use super::{
+    Configuration, Module, Modules, delivery, faults, global, local, operator, path_following, permit,
+    recovering, recovering_faults, teleoperation,
+};
 use core::marker::PhantomData;
 use cotama_core::net::{EventId, PlaceId};
 use cotama_core::system::{Happening, Of, Offered, Player, Program, Turned, Witness};
@@ -14,6 +17,45 @@ pub struct Cause(pub u16);
 
 /// The event of a global supervisor made from a mission in which the robot waits, behind those of [`global`].
 pub(super) const WAIT_OVER: EventId = EventId(global::NET.events.len() as u32);
+
+/// What returns, as far as the supervisors tell it apart.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Return {
+    /// The sonars.
+    Sonar,
+    /// The operator's avoidance.
+    Avoidance,
+    /// Localisation by particles.
+    Mcl,
+}
+
+impl Return {
+    /// All, in the order of the supervisors' events.
+    pub const ALL: [Self; 3] = [Self::Sonar, Self::Avoidance, Self::Mcl];
+
+    const fn event(self) -> recovering_faults::Event {
+        match self {
+            Self::Sonar => recovering_faults::Event::regain_sonar,
+            Self::Avoidance => recovering_faults::Event::regain_avoidance,
+            Self::Mcl => recovering_faults::Event::regain_mcl,
+        }
+    }
+
+    /// Whether it works with these modules: a set that uses it runs.
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Modules, Resource, Resources, Return, available};
+    /// let without_sonars = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
+    /// assert!(Return::ALL.iter().all(|it| it.works(Modules::ALL) && !it.works(without_sonars)));
+    /// ```
+    pub const fn works(self, available: Modules) -> bool {
+        match self {
+            Self::Sonar => Configuration::FollowingOdometric.runs_on(available),
+            Self::Avoidance => available.has(Module::Dvz),
+            Self::Mcl => Configuration::FollowingOptimal.runs_on(available),
+        }
+    }
+}
 
 /// What the level is told. Each is an event that no supervisor causes; one a round keeps the runs those that were checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,6 +70,8 @@ pub enum Told {
     Failure(faults::Event),
     /// The operator says something.
     Operator(operator::Event),
+    /// A module has returned: only of the supervisors of [`recovering`](recovering::SYSTEM).
+    Return(Return),
 }
 
 impl Told {
@@ -41,6 +85,7 @@ impl Told {
             Self::Drive(event) => delivery::on::ls(event),
             Self::Failure(event) => delivery::on::faults(event),
             Self::Operator(event) => delivery::on::operator(event),
+            Self::Return(module) => recovering::on::faults(&module.event()),
         }
     }
 }
@@ -101,7 +146,8 @@ macro_rules! marked {
 }
 
 impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, C, S> {
-    /// The supervisors of a packed system whose components are those of [`delivery`](delivery::SYSTEM), in their order.
+    /// The supervisors of a packed system whose components are those of [`delivery`](delivery::SYSTEM) or
+    /// [`recovering`](recovering::SYSTEM), in their order.
     pub fn start(program: P) -> Self {
         Self(Player::start(program, Millis(0), &mut ()))
     }

@@ -28,6 +28,8 @@ mod module_table;
 mod modules;
 mod ports;
 mod properties;
+pub mod recovery;
+mod recovery_properties;
 mod report;
 mod resources;
 mod robot;
@@ -43,8 +45,8 @@ pub use configurations::{
     CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED, Mode,
     SubObjective,
 };
-pub use decision_table::contextual;
-pub use delivery_system::delivery;
+pub use decision_table::{contextual, recovering_contextual};
+pub use delivery_system::{delivery, recovering};
 pub use diagnosis::{
     Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose, is_detectable,
     shared_flags, undetectable,
@@ -54,19 +56,22 @@ pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signatu
 pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
 pub use health::{Health, Status, StatusVector};
 pub use label::Label;
-pub use level::{Cause, DecisionalLevel, Level, Permit, Told, fired};
+pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told, fired};
 pub use module_table::MODULES;
 pub use modules::{Kind, Module, ModuleFacts, Modules, available};
 pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
 pub use properties::{Asked, REQUIREMENTS, Requirement, Said, Watch};
+pub use recovery_properties::{RECOVERY_REQUIREMENTS, REPLACED};
 pub use report::{Class, Decision, Report, Reports, decide, lost_after};
 pub use resources::{Resource, Resources};
 pub use robot::permit;
 pub use severity::{Severity, by_availability, by_rules, by_severity, is_settled, judge, severity};
 pub use situation::{Loss, Losses, Situation};
-pub use status_vector::observation;
-pub use supervisors::{global, local, path_following, teleoperation};
-pub use surroundings::{faults, operator};
+pub use status_vector::{observation, recovering_observation};
+pub use supervisors::{
+    global, local, path_following, recovering_path_following, recovering_teleoperation, teleoperation,
+};
+pub use surroundings::{faults, operator, recovering_faults};
 pub use world::environment;
 
 use cotama_core::system;

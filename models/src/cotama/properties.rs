@@ -107,7 +107,7 @@ impl Said {
     }
 }
 
-const fn said(
+pub(super) const fn said(
     net: &'static str,
     from: &'static [&'static str],
     to: &'static [&'static str],
@@ -116,7 +116,7 @@ const fn said(
     Said { net, from, to, output, on: None }
 }
 
-const fn at_end(name: &'static str, begins: &'static str, ends: &'static str, most: u32) -> Watch {
+pub(super) const fn at_end(name: &'static str, begins: &'static str, ends: &'static str, most: u32) -> Watch {
     Watch { name, at_end: true, begins, ends, most }
 }
 
@@ -133,12 +133,12 @@ macro_rules! used_without {
 }
 
 macro_rules! requirements {
-    ($($id:ident $label:ident $sentence:literal
+    ($(#[doc = $doc:literal])* $list:ident; $($id:ident $label:ident $sentence:literal
         $(, checked $text:expr $(, watched by [$($watch:expr),+])?)?
         $(, said [$($said:expr),+])?
         $(, tested in $file:literal)?;)+) => {
-        /// The requirements of [`delivery`](super::delivery).
-        pub static REQUIREMENTS: &[Requirement] = &[$(Requirement {
+        $(#[doc = $doc])*
+        pub static $list: &[Requirement] = &[$(Requirement {
             id: stringify!($id),
             sentence: $sentence,
             label: Label::$label,
@@ -154,7 +154,11 @@ macro_rules! requirements {
     (tests $file:literal) => { Some($file) };
 }
 
+pub(super) use requirements;
+
 requirements! {
+    /// The requirements of [`delivery`](super::delivery).
+    REQUIREMENTS;
     GS1 Stated "The mission is in exactly one place.",
         checked "AG gs.Wait + gs.DriveA + gs.Receive + gs.DriveB + gs.Deliver + gs.Done + gs.Security + gs.Safe = 1";
     GS2 Inferred "A drive is under way only while the mission drives, and then it is, but for the round of its start and of its end.",
@@ -332,7 +336,7 @@ requirements! {
 
 impl Said {
     /// The same of the transitions that answer this event.
-    const fn on(self, event: &'static str) -> Self {
+    pub(super) const fn on(self, event: &'static str) -> Self {
         Self { on: Some(event), ..self }
     }
 }

@@ -21,6 +21,8 @@ pub struct Incident {
 pub enum IncidentKind {
     /// Something fails; what that does to the signals is the business of who simulates it.
     Failure(FailureMode),
+    /// It ends, if it is under way. Whether the module is used again is for the supervisors to say.
+    Repair(FailureMode),
     /// The operator answers the next request of the robot from there on.
     Operator {
         /// The answers, one after the other: see [`Answer`].
@@ -84,6 +86,11 @@ impl Answer {
 /// The kinds of incidents in mission files.
 pub(super) const KINDS: [&str; 2] = ["failure", "operator"];
 
+/// Whether an event of this kind is an incident: `repair` is one when it names a failure mode, and else about hardware.
+pub(super) fn is_incident(fields: &Fields<'_>, kind: &str) -> bool {
+    KINDS.contains(&kind) || (kind == "repair" && fields.has("mode"))
+}
+
 /// Reads what is left of an incident of this kind.
 pub(super) fn incident(fields: &mut Fields<'_>, kind: &str, names: &Names<'_>) -> Option<IncidentKind> {
     if names.supervised == Some(false) {
@@ -91,10 +98,11 @@ pub(super) fn incident(fields: &mut Fields<'_>, kind: &str, names: &Names<'_>) -
         let help = "leave it out, or add [supervision] with decides = \"cotama\"";
         fields.report(Diagnostic::new(fields.span_of("kind"), message, "not supervised").help(help));
     }
-    if kind == "failure" {
+    if kind != "operator" {
         let mode = fields.text("mode")?;
         fields.index_of(&mode, "failure mode", FailureMode::ALL.iter().map(|it| it.name()))?;
-        return FailureMode::named(&mode.value).map(IncidentKind::Failure);
+        let incident = if kind == "failure" { IncidentKind::Failure } else { IncidentKind::Repair };
+        return FailureMode::named(&mode.value).map(incident);
     }
     let delay = fields.integer("delay_ms", 0..=MAX_QUANTITY).map(Millis);
     let found = fields.texts("answers");

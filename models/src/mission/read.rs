@@ -48,6 +48,7 @@ pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     unique(&root, "objective", items(&objectives).map(|it| (&it.id, &it.span)));
     root.finish();
     let (limits, order) = limits?;
+    let (supervision, recovery) = supervised.get().ok()?.unzip();
     Some(Definition {
         name: name?,
         path_length: path_length?,
@@ -59,7 +60,8 @@ pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
         tios: complete(tios)?,
         objectives: complete(objectives)?,
         zones: complete(zones)?,
-        supervision: supervised.get().ok()?,
+        supervision,
+        recovery: recovery.unwrap_or(false),
         run: run?,
     })
 }

@@ -54,8 +54,8 @@ impl Does {
     }
 }
 
-/// Whether the mission is supervised, as far as it could be read.
-pub(super) struct Supervised(Result<Option<Supervision>, Reported>);
+/// Whether the mission is supervised, and by supervisors that use again what returns, as far as it could be read.
+pub(super) struct Supervised(Result<Option<(Supervision, bool)>, Reported>);
 
 impl Supervised {
     /// `None` when it is not known.
@@ -63,8 +63,8 @@ impl Supervised {
         self.0.as_ref().ok().map(Option::is_some)
     }
 
-    /// Who decides, if anyone.
-    pub(super) fn get(self) -> Result<Option<Supervision>, Reported> {
+    /// Who decides, if anyone, and whether what returns is used again.
+    pub(super) fn get(self) -> Result<Option<(Supervision, bool)>, Reported> {
         self.0
     }
 }
@@ -74,8 +74,10 @@ pub(super) fn read(root: &mut Fields<'_>) -> Supervised {
     Supervised(root.optional_table("supervision").and_then(|table| {
         let Some(mut table) = table else { return Ok(None) };
         let found = table.choice("decides", "supervision", &Supervision::NAMES);
+        let recovery = table.optional_flag("recovery");
         table.finish();
-        found.map(|_| Some(Supervision::Cotama)).ok_or(Reported)
+        let recovery = recovery?.unwrap_or(false);
+        found.map(|_| Some((Supervision::Cotama, recovery))).ok_or(Reported)
     }))
 }
 

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 /// A way to break a mission: its name, what the message about it says, and what it does.
 type Breaking = (&'static str, &'static str, fn(&mut File));
 
-const BREAKINGS: [Breaking; 38] = [
+const BREAKINGS: [Breaking; 40] = [
     ("nothing on board", "but no object is on board there", |file| {
         file.objectives.remove(file.first("receive"));
     }),
@@ -69,6 +69,13 @@ const BREAKINGS: [Breaking; 38] = [
         file.supervision = "[supervision]\ndecides = \"cotema\"\n".into();
     }),
     ("no supervision named", "missing key `decides`", |file| file.supervision = "[supervision]\n".into()),
+    ("recovery of no kind", "`recovery` must be `true` or `false`, not", |file| {
+        file.supervision = "[supervision]\ndecides = \"cotama\"\nrecovery = 1\n".into();
+    }),
+    ("a repair of a plain mission", "events of the kind `repair` are for missions", |file| {
+        file.supervision.clear();
+        file.events = failure(0, "RT1").replace("failure", "repair");
+    }),
     ("an unknown configuration", "unknown configuration `TO.DEG`", |file| {
         file.options[0].configuration = Some("TO.DEG".into());
     }),
@@ -131,7 +138,7 @@ const BREAKINGS: [Breaking; 38] = [
 #[test]
 fn a_thousand_missions_are_accepted_and_their_broken_twins_refused_for_their_reason() {
     let mut refused = [0; BREAKINGS.len()];
-    for seed in 0..1000 {
+    for seed in 0..1_040 {
         let file = File::right(seed);
         let mission = Mission::parse("right.toml", &file.to_string())
             .unwrap_or_else(|errors| panic!("{seed}: {errors}"));

@@ -51,6 +51,7 @@ fn its_script_is_the_timeline_of_the_seven_points() {
         .iter()
         .map(|it| match &it.kind {
             IncidentKind::Failure(mode) => format!("{} {}", it.x.0, mode.name()),
+            IncidentKind::Repair(mode) => format!("{} {} ends", it.x.0, mode.name()),
             IncidentKind::Operator { answers, .. } => {
                 let answers: Vec<_> = answers.iter().map(|answer| answer.name()).collect();
                 format!("{} {}", it.x.0, answers.join(" "))

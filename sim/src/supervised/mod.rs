@@ -32,7 +32,7 @@ use cotama_core::system::{Packed, Program, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
     Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told, delivery,
-    global, local,
+    global, local, recovering,
 };
 use cotama_models::faults::{Faults, IncidentKind};
 use cotama_models::mission::{Does, Mission};
@@ -56,6 +56,12 @@ impl From<&Faults> for Script {
                 IncidentKind::Failure(mode) => {
                     script.injections.push(Injection::new(When::Place(incident.x), *mode));
                 }
+                IncidentKind::Repair(mode) => {
+                    let under_way = |it: &&mut Injection| it.mode == *mode && it.until.is_none();
+                    if let Some(it) = script.injections.iter_mut().rfind(under_way) {
+                        it.until = Some(When::Place(incident.x));
+                    }
+                }
                 IncidentKind::Operator { answers, delay } => {
                     let (answers, delay) = (answers.clone(), *delay);
                     script.answers.push(Answers { x: incident.x, answers, delay });
@@ -75,12 +81,14 @@ pub struct Injection {
     pub mode: FailureMode,
     /// Which module, if the failure is one of a module, whichever it is.
     pub part: Module,
+    /// When it ends, if not by itself.
+    pub until: Option<When>,
 }
 
 impl Injection {
     /// A failure; if it is one of a module, whichever it is, then of avoidance.
     pub const fn new(when: When, mode: FailureMode) -> Self {
-        Self { when, mode, part: Module::Smz }
+        Self { when, mode, part: Module::Smz, until: None }
     }
 }
 
@@ -227,7 +235,9 @@ pub struct Supervised<'m> {
 enum Supervisors {
     /// That of the embedded mission.
     Delivery,
-    /// The same with a global supervisor that was made from the mission.
+    /// The same where modules may return.
+    Recovering,
+    /// One of both with a global supervisor that was made from the mission.
     Made(OwnedNet, Box<Packed<WORDS>>),
 }
 
@@ -260,20 +270,21 @@ pub const PLANNER: Planner = Planner::Exact { aim: Aim::Quality, steps: 100_000 
 
 impl<'m> Supervised<'m> {
     /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its own where its objectives
-    /// are others; [`PLANNER`] plans.
+    /// are others, and those that use again what returns where it asks for them; [`PLANNER`] plans.
     ///
     /// # Errors
     /// When its file names no supervision.
     pub fn new(mission: &'m Mission) -> Result<Self, Unsupervised> {
         let made = mission.supervisor().ok_or(Unsupervised::Plain)?;
         let supervisors = if is_delivery(mission) {
-            Supervisors::Delivery
+            if mission.recovery { Supervisors::Recovering } else { Supervisors::Delivery }
         } else {
             let view = made.view();
             let net = view.net();
-            let mut components = delivery::SYSTEM.components.to_vec();
+            let shipped = shipped(mission);
+            let mut components = shipped.components.to_vec();
             components[0].net = &net;
-            let system = System { components: &components, ..delivery::SYSTEM };
+            let system = System { components: &components, ..shipped };
             let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
             Supervisors::Made(made.clone(), Box::new(packed))
         };
@@ -313,6 +324,10 @@ impl<'m> Supervised<'m> {
                 let world = World::start(mission, global::NET, delivery::Program, script, planner)?;
                 Ok(finish(world, period, recorder))
             }
+            Supervisors::Recovering => {
+                let world = World::start(mission, global::NET, recovering::Program, script, planner)?;
+                Ok(finish(world, period, recorder))
+            }
             Supervisors::Made(net, packed) => {
                 let view = net.view();
                 let world = World::start(mission, view.net(), packed.code(), script, planner)?;
@@ -320,6 +335,11 @@ impl<'m> Supervised<'m> {
             }
         }
     }
+}
+
+/// The supervisors that a mission asks for, with the global supervisor of the embedded one.
+fn shipped(mission: &Mission) -> System<'static> {
+    if mission.recovery { recovering::SYSTEM } else { delivery::SYSTEM }
 }
 
 /// Whether the objectives are those of the embedded mission, in their order.

@@ -9,21 +9,23 @@ use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
-use super::{Conduct, Injection, Run, Script, When};
+use super::{Conduct, Injection, Run, Script, When, shipped};
 use crate::options::Planner;
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
 use cotama_core::net::{Net, PlaceId};
-use cotama_core::system::Program;
+use cotama_core::system::{Program, System};
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, delivery, local,
+    Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, local, recovering,
 };
 use cotama_models::mission::Mission;
+use recovery::Recovery;
 use std::collections::VecDeque;
 use telling::Objective;
 
 mod records;
+mod recovery;
 mod telling;
 
 pub(super) use records::Recorded;
@@ -35,15 +37,16 @@ pub const PLANNING: Millis = Millis(2_000);
 /// A run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
 
-/// Clocks and slots of a player are those of the embedded mission, whatever the objectives.
-const CLOCKS: usize = delivery::SIZE.clocks;
-const SLOTS: usize = delivery::SIZE.slots;
+/// Clocks and slots of a player are those of the largest supervisors, whatever the objectives.
+const CLOCKS: usize = recovering::SIZE.clocks;
+const SLOTS: usize = recovering::SIZE.slots;
 
 /// A failure under way; its number is its place in [`Run::conduct`].
 #[derive(Clone, Copy, Debug)]
 struct Failure {
     mode: FailureMode,
     part: Modules,
+    until: Option<When>,
     /// For how long its observer has been able to see it.
     seen: Millis,
     since: Millis,
@@ -53,7 +56,8 @@ struct Failure {
 /// A mission under way.
 pub(super) struct World<'m, P, const W: usize> {
     mission: &'m Mission,
-    /// The net of the global supervisor.
+    /// The supervisors, and the net of the global one, which may be another one.
+    system: System<'static>,
     global_net: Net<'m>,
     waiting: Vec<Injection>,
     level: Level<P, W, CLOCKS, SLOTS>,
@@ -63,6 +67,8 @@ pub(super) struct World<'m, P, const W: usize> {
     failures: Vec<Failure>,
     /// What is diagnosed.
     known: Health,
+    /// The hysteresis of what may return; none where nothing does.
+    recovery: Option<Recovery>,
     /// What the supervisors take for lost: what is diagnosed, and what the plan does without.
     lost: Losses,
     /// What the supervisors are still to be told.
@@ -101,6 +107,7 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         let level = Level::start(program);
         let mut world = Self {
             mission,
+            system: shipped(mission),
             global_net,
             waiting: script.injections.clone(),
             situation: level.situation(Losses::NONE),
@@ -111,6 +118,7 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
             operator: Operator::new(script.answers.iter().cloned()),
             failures: Vec::new(),
             known: Health::SOUND,
+            recovery: mission.recovery.then(Recovery::default),
             lost: Losses::NONE,
             untold: VecDeque::new(),
             planning,
@@ -150,6 +158,7 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         self.travel();
         if self.thinks() {
             self.observe();
+            self.recover();
             self.watch_margins();
             self.take_a_round();
         }
@@ -192,18 +201,23 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
     /// What is to fail now fails.
     fn fail(&mut self) {
         let (now, x, first) = (self.now, self.robot.x(), &self.first);
-        let due = |it: &Injection| match it.when {
+        let due = |when: When| match when {
             When::At(at) => now >= at,
             When::Place(place) => x >= place,
             When::During(state, after) => {
                 first.iter().any(|(it, since)| *it == state && now.0 >= since.0 + after.0)
             }
         };
-        let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it));
+        let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it.when));
         self.waiting = wait;
-        for Injection { mode, part, .. } in fail {
+        for failure in &mut self.failures {
+            let by_itself =
+                matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
+            failure.over |= by_itself || failure.until.is_some_and(due);
+        }
+        for Injection { mode, part, until, .. } in fail {
             let part = Modules::of(&[part]);
-            self.failures.push(Failure { mode, part, seen: Millis(0), since: now, over: false });
+            self.failures.push(Failure { mode, part, until, seen: Millis(0), since: now, over: false });
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
@@ -216,11 +230,6 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
                 answered: None,
                 exposed: Millis(0),
             });
-        }
-        for failure in &mut self.failures {
-            let ended =
-                matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
-            failure.over |= ended;
         }
     }
 

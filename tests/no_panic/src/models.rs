@@ -104,5 +104,11 @@ roots! {
     machine operator: cotama_models::cotama::operator;
     machine path_following: cotama_models::cotama::path_following;
     machine permit: cotama_models::cotama::permit;
+    machine recovering_contextual: cotama_models::cotama::recovering_contextual;
+    machine recovering_faults: cotama_models::cotama::recovering_faults;
+    machine recovering_observation: cotama_models::cotama::recovering_observation;
+    machine recovering_path_following: cotama_models::cotama::recovering_path_following;
+    machine recovering_teleoperation: cotama_models::cotama::recovering_teleoperation;
+    machine recovery: cotama_models::cotama::recovery;
     machine teleoperation: cotama_models::cotama::teleoperation;
 }

@@ -11,6 +11,7 @@ mod delivery_mutants;
 mod mutants;
 mod mutations;
 mod reactions;
+mod recovering;
 mod responses;
 
 /// Compares a table with the one that is kept.

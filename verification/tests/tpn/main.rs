@@ -9,6 +9,7 @@ mod facts;
 mod growth;
 mod random;
 mod reading;
+mod recovery;
 mod regions;
 mod replay;
 mod response;

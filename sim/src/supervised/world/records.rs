@@ -9,7 +9,7 @@ use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
 use cotama_core::net::{Net, Role, Transition};
 use cotama_core::system::Program;
 use cotama_core::units::Millis;
-use cotama_models::cotama::{self, Class, Flag, Mode, Severity, delivery};
+use cotama_models::cotama::{self, Class, Flag, Mode, Severity};
 
 /// How much of a run is recorded.
 #[derive(Debug, Default)]
@@ -99,7 +99,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         if name == "gs" {
             return Some(&self.global_net);
         }
-        delivery::SYSTEM.components.iter().find(|it| it.name == name).map(|it| it.net)
+        self.system.components.iter().find(|it| it.name == name).map(|it| it.net)
     }
 
     /// The transition that fired.
@@ -124,8 +124,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// An event of the supervisors: its net and its name.
     fn event_name(&self, told: cotama::Told) -> String {
         let event = told.event();
-        let component =
-            delivery::SYSTEM.components.get(usize::from(event.component)).map_or("", |it| it.name);
+        let component = self.system.components.get(usize::from(event.component)).map_or("", |it| it.name);
         let name =
             self.net(component).and_then(|net| net.events.get(event.id.0 as usize)).map_or("", |it| it.name);
         format!("{component}.{name}")

@@ -13,8 +13,7 @@ use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
-    Severity, Told, by_availability, decide, delivery, diagnose, faults, global, is_detectable, judge, local,
-    operator,
+    Severity, Told, by_availability, decide, diagnose, faults, global, is_detectable, judge, local, operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
@@ -196,15 +195,19 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
 
     /// What the plan does without is withdrawn, so that the adapter comes to the configuration that is planned.
     pub(super) fn do_without(&mut self, cause: Cause) {
+        self.lose(self.unused(), cause);
+    }
+
+    /// What the plan does without.
+    pub(super) fn unused(&self) -> Losses {
         let at = self.progress();
         let drives = (at.activity..self.mission.scenario().activities.len())
             .find_map(|it| self.planning.configuration(it));
-        let unused = match drives {
+        match drives {
             Some(Configuration::FollowingOdometric) => Losses::of(&[Loss::Mcl]),
             Some(Configuration::FollowingDegraded) => Losses::of(&[Loss::Mcl, Loss::Sonar]),
             _ => Losses::NONE,
-        };
-        self.lose(unused, cause);
+        }
     }
 
     /// How far the mission has come.
@@ -251,7 +254,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
 
     /// Notes what happened.
     fn note(&mut self, happening: &Happening<Cause>) {
-        let system = delivery::SYSTEM;
+        let system = self.system;
         let conduct = |cause: Cause| usize::from(cause.0).checked_sub(1);
         match *happening {
             Happening::Fired { transition: id, carries, .. } => {
