@@ -70,8 +70,12 @@ struct Sums<'p> {
     /// For each place the sums whose first place it is, and maybe some that were given up.
     first: Vec<Vec<u32>>,
     costs: Vec<Cost>,
-    /// The transitions that increase some sum, the cheapest first.
+    /// The transitions that increase some sum, the cheapest first, by the costs that are listed.
     open: BTreeSet<(Cost, u32)>,
+    listed: Vec<Cost>,
+    /// Transitions whose cost may be another one than is listed: it changes many times between two looks.
+    unlisted: Vec<u32>,
+    is_unlisted: Vec<bool>,
     /// Transitions that increase no sum any more.
     settled: Vec<bool>,
     /// Numbers that were looked at.
@@ -107,6 +111,9 @@ fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
         first: vec![Vec::new(); places],
         costs: vec![Cost::default(); transitions],
         open: BTreeSet::new(),
+        listed: vec![Cost::default(); transitions],
+        unlisted: Vec::new(),
+        is_unlisted: vec![false; transitions],
         settled: vec![false; transitions],
         work: 0,
     };
@@ -114,7 +121,7 @@ fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
         let grows = pt.changers.of(place).to_vec();
         sums.keep(Sum { weights: vec![(place, 1)], grows, places: 1 << (place % 64) });
     }
-    while let Some((_, transition)) = sums.open.first().copied().filter(|_| sums.work < WORK) {
+    while let Some(transition) = sums.cheapest().filter(|_| sums.work < WORK) {
         for pair in sums.settle(transition) {
             let Some(sum) = balanced(&pair.up, &pair.down, transition) else { continue };
             sums.work += sum.weights.len() + sum.grows.len();
@@ -144,15 +151,30 @@ impl Sums<'_> {
         self.work += sum.grows.len();
         for &(transition, by) in &sum.grows {
             let cost = &mut self.costs[transition as usize];
-            self.open.remove(&(*cost, transition));
             let side = if by > 0 { &mut cost.up } else { &mut cost.down };
             *side = change(*side, 1);
             cost.length = change(cost.length, sum.weights.len());
             cost.pairs = cost.up * cost.down;
-            if cost.up > 0 {
-                self.open.insert((*cost, transition));
+            if !std::mem::replace(&mut self.is_unlisted[transition as usize], true) {
+                self.unlisted.push(transition);
             }
         }
+    }
+
+    /// The transition that increases some sum, and costs least.
+    fn cheapest(&mut self) -> Option<u32> {
+        for transition in std::mem::take(&mut self.unlisted) {
+            let at = transition as usize;
+            self.is_unlisted[at] = false;
+            if self.listed[at] != self.costs[at] {
+                self.open.remove(&(self.listed[at], transition));
+                self.listed[at] = self.costs[at];
+                if self.listed[at].up > 0 {
+                    self.open.insert((self.listed[at], transition));
+                }
+            }
+        }
+        self.open.first().map(|it| it.1)
     }
 
     fn give_up(&mut self, number: Option<usize>) {
@@ -242,9 +264,16 @@ fn balanced(up: &Sum, down: &Sum, transition: u32) -> Option<Sum> {
     let [a, b] = factors(up, down, transition)?;
     let mut weights = combined(&up.weights, a, &down.weights, b)?;
     let mut grows = combined(&up.grows, a, &down.grows, b)?;
-    let all = weights.iter().chain(&grows).fold(0, |all, &(_, it)| gcd(all, it.unsigned_abs())).cast_signed();
+    let mut all = 0;
+    // Most sums have a weight of 1, and soon.
+    for (_, it) in weights.iter().chain(&grows) {
+        all = gcd(all, it.unsigned_abs());
+        if all == 1 {
+            break;
+        }
+    }
     if all > 1 {
-        weights.iter_mut().chain(&mut grows).for_each(|it| it.1 /= all);
+        weights.iter_mut().chain(&mut grows).for_each(|it| it.1 /= all.cast_signed());
     }
     weights.shrink_to_fit();
     grows.shrink_to_fit();

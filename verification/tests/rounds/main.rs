@@ -4,6 +4,8 @@
 #![allow(clippy::type_complexity, clippy::needless_for_each)]
 #![allow(missing_docs)]
 
+mod breaks;
+mod cells;
 mod conformance;
 mod decision;
 mod delivery;
@@ -12,6 +14,7 @@ mod mutants;
 mod mutations;
 mod reactions;
 mod responses;
+mod steps;
 
 /// Compares a table with the one that is kept.
 fn golden(name: &str, text: &str) {

@@ -1,0 +1,59 @@
+//! What holds after the next firing, as a formula about the marking before it.
+
+use cotama_core::net::TransitionId;
+use cotama_verification::property::{Atom, Formula, Linear};
+use cotama_verification::pt::Pt;
+use std::collections::BTreeSet;
+
+/// The same formula without `AX` and `EX`, so that it can be looked at while markings are met; `None` where other operators
+/// remain.
+pub(crate) fn in_one_marking(formula: &Formula, pt: &Pt) -> Option<Formula> {
+    let list = |all: &[Formula]| all.iter().map(|it| in_one_marking(it, pt)).collect::<Option<_>>();
+    let not = |it: Formula| Formula::Not(it.into());
+    Some(match formula {
+        Formula::Atom(_) => formula.clone(),
+        Formula::Not(inner) => not(in_one_marking(inner, pt)?),
+        Formula::And(all) => Formula::And(list(all)?),
+        Formula::Or(all) => Formula::Or(list(all)?),
+        Formula::All(path) => match &**path {
+            Formula::Next(then) => after_each(then, pt)?,
+            _ => return None,
+        },
+        Formula::Exists(path) => match &**path {
+            Formula::Next(then) => not(after_each(&not((**then).clone()), pt)?),
+            _ => return None,
+        },
+        _ => return None,
+    })
+}
+
+/// That it holds after each transition that is enabled: Dijkstra's weakest precondition. A firing adds the same to a sum of tokens
+/// wherever it happens.
+fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
+    if !then.is_state() {
+        return None;
+    }
+    let mut changers = BTreeSet::new();
+    then.with_atoms(&mut |atom| {
+        let Atom::AtMost(sum) = atom else { return None };
+        changers.extend(sum.weights.iter().flat_map(|it| pt.changers.of(it.0.0)).map(|it| it.0));
+        Some(Formula::TRUE)
+    })?;
+    let unless = |enabled: Vec<u32>, then: Formula| {
+        let enabled = Formula::Atom(Atom::Fireable(enabled.into_iter().map(TransitionId).collect()));
+        Formula::Or(vec![then, Formula::Not(enabled.into())])
+    };
+    let others = (0..pt.transitions.len() as u32).filter(|it| !changers.contains(it));
+    let mut all = vec![unless(others.collect(), then.clone())];
+    for &changer in &changers {
+        let change = |place| pt.effects.of(changer).iter().find(|it| it.0 == place).map_or(0, |it| it.1);
+        let after = |atom: &Atom| {
+            let Atom::AtMost(sum) = atom else { return None };
+            let added: i64 = sum.weights.iter().map(|&(place, weight)| weight * change(place.0)).sum();
+            let after = Linear { constant: sum.constant + added, weights: sum.weights.clone() };
+            Some(Formula::Atom(Atom::AtMost(after)))
+        };
+        all.push(unless(vec![changer], then.with_atoms(&mut { after })?));
+    }
+    Some(Formula::And(all))
+}
