@@ -67,17 +67,12 @@ fn split((id, formula): Law, pt: &Pt, always: &mut Vec<Law>, others: &mut Vec<La
         Formula::And(parts) => parts.iter().for_each(|it| split((id, it.clone()), pt, always, others)),
         Formula::All(path) => match &**path {
             Formula::Globally(law) => {
-                let parts = if let Formula::And(parts) = &**law {
-                    parts.as_slice()
-                } else {
-                    std::slice::from_ref(&**law)
-                };
-                for part in parts {
+                let one = std::slice::from_ref(&**law);
+                for part in if let Formula::And(parts) = &**law { parts } else { one } {
+                    let whole = || Formula::All(Formula::Globally(part.clone().into()).into());
                     match in_one_marking(part, pt) {
                         Some(law) => always.push((id, law)),
-                        None => {
-                            others.push((id, Formula::All(Formula::Globally(part.clone().into()).into())))
-                        }
+                        None => others.push((id, whole())),
                     }
                 }
             }

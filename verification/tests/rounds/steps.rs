@@ -1,8 +1,12 @@
 //! What holds after the next firing, as a formula about the marking before it.
 
+use crate::delivery::explored;
 use cotama_core::net::TransitionId;
-use cotama_verification::property::{Atom, Formula, Linear};
+use cotama_models::cotama::decision;
+use cotama_verification::flat::rounds;
+use cotama_verification::property::{Atom, Ctl, Formula, Linear, Question, parse};
 use cotama_verification::pt::Pt;
+use cotama_verification::temporal::{Fairness, ctl};
 use std::collections::BTreeSet;
 
 /// The same formula without `AX` and `EX`, so that it can be looked at while markings are met; `None` where other operators
@@ -56,4 +60,21 @@ fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
         all.push(unless(vec![changer], then.with_atoms(&mut { after })?));
     }
     Some(Formula::And(all))
+}
+
+#[test]
+fn what_holds_after_the_next_firing_is_told_before_it() {
+    let (pt, graph) = explored(&rounds(&decision::SYSTEM).unwrap());
+    let asked = |formula: Formula| ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default()).verdict;
+    let not = |it: &Formula| Formula::Not(it.clone().into());
+    let some = |it: Formula| Formula::Exists(Formula::Finally(it.into()).into());
+    for text in
+        ["ls.Planning -> AX ls.Planning", "EX (pf.Reduced & pf.level <= 1)", "AX (ls.Idle + pf.Off = 2)"]
+    {
+        let Question::Formula(formula) = parse(text, &pt).unwrap().question else { panic!("{text}") };
+        let told = in_one_marking(&formula, &pt).unwrap();
+        assert!(told.is_state() && asked(some(told.clone())) && asked(some(not(&told))), "{text}");
+        let differ = [[not(&formula), told.clone()], [formula, not(&told)]].map(|it| Formula::And(it.into()));
+        assert!(!asked(some(Formula::Or(differ.into()))), "{text}");
+    }
 }
