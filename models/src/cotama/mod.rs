@@ -17,6 +17,7 @@ mod diagnosis;
 mod flags;
 mod fmeca;
 mod fmeca_table;
+mod guarded;
 mod health;
 mod label;
 mod level;
@@ -54,6 +55,7 @@ pub use diagnosis::{
 pub use flags::{Flag, Flags};
 pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
 pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
+pub use guarded::Guarded;
 pub use health::{Health, Status, StatusVector};
 pub use label::Label;
 pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told, fired};

@@ -14,6 +14,7 @@
 //! - hard failures without a report of their own are reported as `hard` (inferred);
 //! - the environment is two nets, faults and operator; what is really lost is known to the first one alone (improved).
 
+use super::guarded::Guarded;
 use super::label::Label;
 use cotama_core::net::{PlaceId, Transition};
 use cotama_core::system::System;
@@ -31,6 +32,8 @@ pub struct Requirement {
     pub asked: Option<Asked>,
     /// What transitions say.
     pub said: &'static [Said],
+    /// What transitions look at.
+    pub guarded: &'static [Guarded],
     /// The file of the tests that show the rest.
     pub tests: Option<&'static str>,
 }
@@ -136,6 +139,7 @@ macro_rules! requirements {
     ($(#[doc = $doc:literal])* $list:ident; $($id:ident $label:ident $sentence:literal
         $(, checked $text:expr $(, watched by [$($watch:expr),+])?)?
         $(, said [$($said:expr),+])?
+        $(, guarded [$($guarded:expr),+])?
         $(, tested in $file:literal)?;)+) => {
         $(#[doc = $doc])*
         pub static $list: &[Requirement] = &[$(Requirement {
@@ -144,6 +148,7 @@ macro_rules! requirements {
             label: Label::$label,
             asked: requirements!(asked $($text $(, [$($watch),+])?)?),
             said: &[$($($said),+)?],
+            guarded: &[$($($guarded),+)?],
             tests: requirements!(tests $($file)?),
         }),+];
     };
@@ -231,6 +236,8 @@ requirements! {
         checked "AG ((!ls.HandOver & !turn.ls.local_event -> AX !ls.HandOver) & (!ls.local_event.waiting & !(turn.cs.ambiguous | \
                  turn.cs.camera | turn.cs.collision | turn.cs.hard | turn.cs.planner) -> AX !ls.local_event.waiting) & \
                  (after.ls.local_event -> !ls.local_event.waiting))";
+    LS9 Inferred "The operator drives only with camera and link, as far as is known, whoever asks for it.",
+        guarded [Guarded { net: "ls", from: "HandOver", to: "Teleoperated", by: &["gom.camera", "gom.wifi"] }];
     AS1 Stated "Path following runs one set of modules at a time, and teleoperation too.",
         checked "AG (pf.Off + pf.Optimal + pf.Reduced + pf.Odometric + pf.Degraded = 1 & to.Off + to.Full + to.Degraded = 1)";
     AS2 Stated "What is lost is used at the ends of two rounds at most.",
@@ -247,9 +254,13 @@ requirements! {
                 "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded"
             )
         ];
-    AS3 Inferred "Until it is stopped, path following only degrades.",
+    AS3 Inferred "Until it is stopped, path following only degrades, and only when an adapter event asks for it.",
         checked "AG ((pf.Reduced -> AX !pf.Optimal) & (pf.Odometric -> AX !(pf.Optimal | pf.Reduced)) & \
-                 (pf.Degraded -> AX (pf.Degraded | pf.Off)) & (to.Degraded -> AX !to.Full))";
+                 (pf.Degraded -> AX (pf.Degraded | pf.Off)) & (to.Degraded -> AX !to.Full) & \
+                 (pf.Optimal & !(turn.pf.adapt_rt | turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> AX (pf.Optimal | pf.Off)) & \
+                 (pf.Reduced & !(turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> AX (pf.Reduced | pf.Off)) & \
+                 (pf.Odometric & !turn.pf.adapt_sonar -> AX (pf.Odometric | pf.Off)) & \
+                 (to.Full & !turn.to.adapt_sonar -> AX (to.Full | to.Off)))";
     AS4 Stated "Particles are reduced twice at most, each time with a request, and all are back when path following ends.",
         checked "AG ((pf.Reduced -> pf.level <= 1) & (pf.Reduced | pf.level = 2) & (pf.level = 0 -> AX (pf.level = 0 | \
                  !pf.Reduced)) & (pf.Reduced & pf.level = 1 & !turn.pf.adapt_rt -> AX (pf.level = 1 | !pf.Reduced)))",
@@ -310,7 +321,7 @@ requirements! {
                  (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital))",
         tested in "models/tests/cotama_data/availability.rs";
     GM3 Inferred "What tells nothing new is not reported: a loss that is known, and a suspicion until the robot sets out again.",
-        checked "AG ((turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & (turn.gom.drift_flag & gom.suspected -> \
+        checked "AG ((after.gom.drift_flag -> gom.suspected) & (turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & (turn.gom.drift_flag & gom.suspected -> \
                  AX !cs.ambiguous.waiting) & cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + cs.hard.waiting + \
                  cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + cs.slow.waiting + cs.sonar.waiting + \
                  cs.vital.waiting + cs.wifi_lost.waiting + cs.avoidance.waiting <= 1 & (gom.suspected & turn.outside & !ls.Planning & !ls.Following -> \

@@ -52,6 +52,7 @@ mod verified;
 pub mod verify;
 
 pub use build::{Answer, Uncertifiable};
+pub(crate) use read::most_markings;
 pub use verified::{Verified, VerifyError};
 pub use verify::verify;
 

@@ -18,6 +18,16 @@ pub const MAX_WORK: u64 = 1 << 33;
 /// The most memory, in bytes, about.
 pub const MAX_MEMORY: u64 = 1 << 30;
 
+/// About the bytes that one of many markings of so many places takes while all are passed through.
+pub(super) const fn marking_bytes(places: usize) -> usize {
+    160 + 4 * places
+}
+
+/// About how many markings of so many places fit into [`MAX_MEMORY`], where a few follow each.
+pub(crate) const fn most_markings(places: usize) -> u64 {
+    MAX_MEMORY / (marking_bytes(places + 1) + 128) as u64
+}
+
 pub(super) type Checked<T> = Result<T, VerifyError>;
 
 pub(super) fn error(message: impl Display) -> VerifyError {

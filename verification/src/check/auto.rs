@@ -5,7 +5,7 @@ use super::engines::{Coverability, Explicit, Structural, Stubborn, Temporal, gro
 use super::known::Known;
 use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
-use crate::certificate::{Evidence, One};
+use crate::certificate::{Evidence, One, most_markings};
 use crate::diagnosis::shrink;
 use crate::explicit::{Limit, Limits};
 use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
@@ -17,8 +17,8 @@ use std::time::{Duration, Instant};
 /// Markings that are few enough to be met before anything cleverer is tried.
 const FEW: u64 = 200_000;
 
-/// Markings of a net whose graph is evidence.
-const CERTIFIED: u64 = 100_000;
+/// Markings of a net whose graph is evidence: those that the small checker passes through in less than a minute.
+const CERTIFIED: u64 = 500_000;
 
 /// The longest way of which it is tried to leave firings out.
 const SHRUNK: usize = 500;
@@ -83,7 +83,8 @@ impl Asked<'_, '_> {
             Question::Response { .. } => false,
             _ => true,
         };
-        let states = self.budget.limits.states.min(CERTIFIED);
+        let few = CERTIFIED.min(most_markings(self.net.pt().places.len()));
+        let states = self.budget.limits.states.min(few);
         let few = Budget { limits: Limits { states, ..self.budget.limits }, ..self.budget };
         if !known {
             return Evidence::None;

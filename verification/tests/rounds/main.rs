@@ -4,6 +4,8 @@
 #![allow(clippy::type_complexity, clippy::needless_for_each)]
 #![allow(missing_docs)]
 
+mod breaks;
+mod cells;
 mod conformance;
 mod decision;
 mod delivery;
@@ -13,6 +15,7 @@ mod mutations;
 mod reactions;
 mod recovering;
 mod responses;
+mod steps;
 
 /// Compares a table with the one that is kept.
 fn golden(name: &str, text: &str) {

@@ -7,7 +7,7 @@
 mod refutation;
 mod truth;
 
-use super::read::{self, Checked, Numbered, at, each, ensure, error};
+use super::read::{self, Checked, Numbered, at, each, ensure, error, marking_bytes};
 use super::sum::Marking;
 use super::{Evidence, Formula, Growth, Question, Verified, VerifyError};
 use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};

@@ -1,11 +1,10 @@
 //! The firing rule, what questions mean, and where formulas hold.
 
-use super::{Checked, Marking, Numbered, at, each, ensure, error};
+use super::{Checked, Marking, Numbered, at, each, ensure, error, marking_bytes};
 use crate::certificate::Formula::{self, All, AllNext, And, AtMost, Exists, ExistsNext, Fireable};
 use crate::certificate::Formula::{Finally, Globally, Next, Not, Or, Until};
 use crate::certificate::{Lasso, Question};
-use std::collections::BTreeMap;
-use std::slice::from_ref;
+use std::{collections::BTreeMap, rc::Rc, slice::from_ref};
 
 enum Kind {
     Marking,
@@ -14,11 +13,11 @@ enum Kind {
 }
 
 /// Markings, and for each of them those that follow.
-pub(super) struct Space(Kind, Vec<Marking>, Vec<Vec<usize>>);
+pub(super) struct Space(Kind, Vec<Rc<Marking>>, Vec<Vec<usize>>);
 
 impl Space {
     pub(super) fn of(marking: &Marking) -> Self {
-        Self(Kind::Marking, vec![marking.clone()], Vec::new())
+        Self(Kind::Marking, vec![Rc::new(marking.clone())], Vec::new())
     }
 }
 
@@ -58,7 +57,7 @@ impl Numbered<'_> {
     /// The marking after a transition that is enabled.
     fn fire(&self, from: &Marking, transition: usize) -> Checked<Marking> {
         let ([take, give], mut after) = (&self.arcs[transition], from.clone());
-        self.hold(4 * from.len() + give.len())?;
+        self.spend(4 * from.len() + give.len())?;
         for (place, weight) in take {
             after[*place] -= weight;
         }
@@ -76,6 +75,7 @@ impl Numbered<'_> {
             let transition = self.transition(name)?;
             ensure(self.enabled(&now, transition)?, format_args!("`{name}` is not enabled"))?;
             let after = self.fire(&now, transition)?;
+            self.hold(marking_bytes(now.len()))?;
             Ok(std::mem::replace(&mut now, after))
         })?;
         Ok((way, now))
@@ -91,25 +91,25 @@ impl Numbered<'_> {
         let back = run.len();
         run.extend(if cycle.is_empty() { vec![start] } else { cycle });
         let next = (1..run.len()).chain([back]).map(|it| vec![it]).collect();
-        Ok(Space(Kind::Run, run, next))
+        Ok(Space(Kind::Run, run.into_iter().map(Rc::new).collect(), next))
     }
 
     /// All markings that are reachable from here, which is the first one.
     pub(super) fn graph(&self, from: &Marking, count: usize) -> Checked<Space> {
-        let (mut markings, mut next) = (vec![from.clone()], Vec::new());
-        let mut numbers = BTreeMap::from([(from.clone(), 0)]);
+        let (mut markings, mut next) = (vec![Rc::new(from.clone())], Vec::new());
+        let mut numbers = BTreeMap::from([(Rc::clone(&markings[0]), 0)]);
         while next.len() < markings.len() {
-            let mut after = Vec::new();
+            let (now, mut after) = (Rc::clone(&markings[next.len()]), Vec::new());
             for transition in 0..self.arcs.len() {
-                let now = &markings[next.len()];
-                if self.enabled(now, transition)? {
-                    let reached = self.fire(now, transition)?;
-                    let number = *numbers.entry(reached.clone()).or_insert(markings.len());
-                    markings.extend((number == markings.len()).then_some(reached));
+                if self.enabled(&now, transition)? {
+                    let reached = Rc::new(self.fire(&now, transition)?);
+                    let number = *numbers.entry(Rc::clone(&reached)).or_insert(markings.len());
+                    let is_new = number == markings.len();
+                    self.hold(16 + if is_new { marking_bytes(from.len()) } else { 0 })?;
+                    markings.extend(is_new.then_some(reached));
                     after.push(number);
                 }
             }
-            self.hold(16 * (from.len() + after.len()))?;
             ensure(markings.len() <= count, "there are more markings")?;
             next.push(after);
         }
