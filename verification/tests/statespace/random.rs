@@ -90,7 +90,7 @@ fn counts_are_those_of_a_plain_search_on_one_and_on_three_threads() {
         assert_eq!(space.limit.is_none(), expected.is_complete, "seed {seed}");
         complete += u32::from(expected.is_complete);
         dead += deadlocks;
-        for (bound, held) in bounds(&pt).into_iter().zip(&space.bounds) {
+        for (bound, held) in bounds(&pt).iter().zip(&space.bounds) {
             assert!(bound.is_none_or(|it| *held <= it.into()), "seed {seed}");
         }
         match &space.growth {
