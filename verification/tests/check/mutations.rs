@@ -4,6 +4,7 @@ use crate::nets::markings;
 use crate::oracle;
 use crate::random::Random;
 use cotama_core::net::{PlaceId, TransitionId};
+use cotama_verification::bounds::Bounds;
 use cotama_verification::certificate::{self, Certificate, verify};
 use cotama_verification::property::{Atom, Formula, Linear, Question};
 use cotama_verification::pt::{Lists, Pt};
@@ -148,6 +149,7 @@ fn net(net: &certificate::Net) -> Pt {
         needs,
         effects,
         arcs: 0,
+        bounds: Bounds::default(),
     }
 }
 

@@ -152,8 +152,7 @@ fn worst(id: &str) -> Vec<u32> {
         watches.retain(|of| uses(of) || of.name == it.name);
         watches.last_mut().unwrap().most = MANY;
         let (pt, graph) = explored(&watched(&plain, &watches).unwrap());
-        let place = pt.place(it.name).unwrap().0 as usize;
-        (0..graph.states() as u32).map(|state| graph.marking(state)[place]).max().unwrap()
+        graph.tokens(pt.place(it.name).unwrap()).max().unwrap()
     };
     watches.iter().enumerate().filter(|it| asked.text.contains(it.1.name)).map(of).collect()
 }

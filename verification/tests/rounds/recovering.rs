@@ -52,8 +52,7 @@ fn what_is_required_of_returns_holds() {
 /// The most that a watch counts when it may count further.
 fn worst(rounds: &Rounds, watch: &str) -> u32 {
     let (pt, graph) = explored(rounds);
-    let place = pt.place(watch).unwrap().0 as usize;
-    (0..graph.states() as u32).map(|state| graph.marking(state)[place]).max().unwrap()
+    graph.tokens(pt.place(watch).unwrap()).max().unwrap()
 }
 
 /// The worst cases of the duties in a requirement, in rounds; a watch that counts in how many rounds another one did is beside it.
@@ -62,11 +61,12 @@ fn duties(id: &str) -> Vec<u32> {
     let mut all = REQUIREMENTS.iter().chain(RECOVERY_REQUIREMENTS);
     let Asked { watches, text } = all.find(|it| it.id == id).unwrap().asked.unwrap();
     let asked = watches.iter().filter(|it| text.contains(it.name));
+    let plain = rounds(&recovering::SYSTEM).unwrap();
     let of = |it: &Watch| {
         let uses = |of: &&Watch| it.begins.split_whitespace().any(|word| word == of.name);
         let mut needed: Vec<_> = watches.iter().filter(uses).copied().collect();
         needed.push(Watch { most: MANY, ..*it });
-        worst(&watched(&recovering::SYSTEM, &needed).unwrap(), it.name)
+        worst(&watched(&plain, &needed).unwrap(), it.name)
     };
     asked.map(of).collect()
 }
@@ -164,7 +164,7 @@ fn moved(name: &str, from: &str, to: &str) -> System<'static> {
 fn breaks(system: &System<'_>, id: &str) -> bool {
     let mut all = REQUIREMENTS.iter().chain(RECOVERY_REQUIREMENTS);
     let asked = all.find(|it| it.id == id).unwrap().asked.unwrap();
-    let (pt, graph) = explored(&watched(system, asked.watches).unwrap());
+    let (pt, graph) = explored(&watched(&rounds(system).unwrap(), asked.watches).unwrap());
     !holds(asked.text, &pt, &graph)
 }
 
