@@ -112,19 +112,11 @@ const HARMLESS: &[(&str, &[&str])] = &[
     ),
     (
         "particles are at the floor in the reduced set only",
-        &[
-            "cs.slow3.mcl_0: not reduced",
-            "cs.slow3.mcl_0: without reduced",
-            "cs.slow3.mcl_1: without reduced",
-        ],
+        &["cs.slow3.mcl_0: without reduced", "cs.slow3.mcl_1: without reduced"],
     ),
     (
         "above the floor the line before it fires",
-        &[
-            "cs.slow3.mcl_0: not level < 1",
-            "cs.slow3.mcl_0: without level < 1",
-            "cs.slow3.mcl_1: without level < 1",
-        ],
+        &["cs.slow3.mcl_0: without level < 1", "cs.slow3.mcl_1: without level < 1"],
     ),
     (
         "with a link the line before it fires",
@@ -197,7 +189,7 @@ fn mutants_of_each_kind_break_a_requirement() {
 }
 
 #[test]
-#[ignore = "takes minutes of two cores when compiled with --release"]
+#[ignore = "some 15 minutes of one core when compiled with --release: 561 mutants"]
 fn every_mutant_breaks_a_requirement_or_is_known_to_be_harmless() {
     let all = mutants(delivery::SYSTEM, SUPERVISORS);
     let table = table(&all.iter().collect::<Vec<_>>());
