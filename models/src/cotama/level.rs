@@ -1,6 +1,6 @@
 //! The decisional level with names in place of numbers: what the robot tells it, and what it decided.
 
-use super::situation::{Losses, Situation};
+use super::situation::{Loss, Losses, Situation};
 use super::{
     Configuration, Module, Modules, delivery, faults, global, local, operator, path_following, permit,
     recovering, recovering_faults, teleoperation,
@@ -32,6 +32,15 @@ pub enum Return {
 impl Return {
     /// All, in the order of the supervisors' events.
     pub const ALL: [Self; 3] = [Self::Sonar, Self::Avoidance, Self::Mcl];
+
+    /// The loss that it ends.
+    pub const fn loss(self) -> Loss {
+        match self {
+            Self::Sonar => Loss::Sonar,
+            Self::Avoidance => Loss::Avoidance,
+            Self::Mcl => Loss::Mcl,
+        }
+    }
 
     const fn event(self) -> recovering_faults::Event {
         match self {

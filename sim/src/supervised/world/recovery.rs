@@ -51,7 +51,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let has_returned = |health: Health| {
             let left = health.available();
             let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left));
-            let for_good = Losses::lacking(left).without(Losses::of(&[Loss::Mcl, Loss::Sonar]));
+            let for_good = Losses::lacking(left).without(Losses::of(&Return::ALL.map(Return::loss)));
             let returned = match lost.next() {
                 None => false,
                 Some(Return::Sonar) => recovery.is_available(Return::Sonar),
@@ -91,11 +91,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             return; // the plan in force goes on
         }
         let lost = self.lost.common(Losses::lacking(left).union(self.unused()));
-        let back = |it: &Return| match it {
-            Return::Sonar => self.lost.has(Loss::Sonar) && !lost.has(Loss::Sonar),
-            Return::Mcl => self.lost.has(Loss::Mcl) && !lost.has(Loss::Mcl),
-            Return::Avoidance => it.works(left) && !it.works(before),
-        };
+        let back = |it: &Return| self.lost.without(lost).has(it.loss());
         let told = Return::ALL.into_iter().rev().filter(back).map(|it| (Told::Return(it), cause));
         self.untold.extend(told);
         self.lost = lost;
