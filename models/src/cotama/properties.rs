@@ -221,9 +221,11 @@ requirements! {
                  gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
                  gom.bumper_flag.waiting | gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
-    LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, unless something vital is lost.",
+    LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, unless something vital is lost; and it ends \
+        when failures do and everybody goes on.",
         checked "AG (EF ls.Idle & (gom.vital & gom.wifi & !ls.Idle & !gs.global_event.waiting & !cs.refusal.waiting & faults.wifi & \
-                 faults.vital -> EF ls.End))";
+                 faults.vital -> EF ls.End))",
+        tested in "verification/tests/rounds/liveness.rs";
     LS7 Stated "No two of planning, path following and teleoperation run together; what ends is stopped.",
         checked "AG (pf.Off + to.Off >= 1 & (ls.Planning -> pf.Off & to.Off))",
         said [

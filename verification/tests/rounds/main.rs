@@ -10,6 +10,7 @@ mod conformance;
 mod decision;
 mod delivery;
 mod delivery_mutants;
+mod liveness;
 mod mutants;
 mod mutations;
 mod reactions;
