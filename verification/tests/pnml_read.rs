@@ -245,7 +245,9 @@ fn damaged_files_never_panic_and_say_where() {
     ];
     let mut dice = Dice(0x9e37_79b9_7f4a_7c15);
     let (mut accepted, mut refused) = (0, 0);
-    for case in 0..100_000 {
+    // As many as a longer run asks for.
+    let inputs = std::env::var("MUTATED_INPUTS").map_or(100_000, |it| it.parse().unwrap());
+    for case in 0..inputs {
         let mut bytes = files[case % files.len()].clone();
         for _ in 0..=dice.below(3) {
             let at = dice.below(bytes.len());

@@ -76,11 +76,16 @@ fn mutate(random: &mut Random, text: &mut Vec<u8>, words: &[&str]) {
     }
 }
 
+/// How many mutated inputs: `MUTATED_INPUTS` asks for a longer run.
+fn inputs(usual: usize) -> usize {
+    std::env::var("MUTATED_INPUTS").map_or(usual, |it| it.parse().unwrap())
+}
+
 #[test]
 fn a_hundred_thousand_mutated_texts_are_read_or_refused() {
     let mut random = Random(21);
     let (mut read, mut refused) = (0, 0);
-    while read + refused < 100_000 {
+    while read + refused < inputs(100_000) {
         let mut net = net(&mut random);
         net.places[0] = (*random.choose(&NAMES)).to_owned();
         let original = if random.below(2) == 0 {
@@ -151,7 +156,7 @@ fn twenty_thousand_mutated_files_are_read_or_refused() {
     let net = net(&mut random);
     assert_eq!(mcc::read("file", file.as_bytes(), &net, Ids::default()).map(|it| it.len()), Ok(3));
     let mut read = 0;
-    for _ in 0..20_000 {
+    for _ in 0..inputs(20_000) {
         let mut bytes = file.as_bytes().to_vec();
         mutate(&mut random, &mut bytes, &ELEMENTS);
         if random.below(4) == 0 {
