@@ -42,7 +42,7 @@ fn root_problem_combinations(problem: &Problem<'_, A>) -> Option<u128> {
 }
 
 #[unsafe(no_mangle)]
-fn root_panorama_allocate(
+fn open_panorama_allocate(
     caps: &mut [[u32; A]],
     problem: &Problem<'_, A>,
     plan: &mut [u16],
