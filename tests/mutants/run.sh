@@ -155,11 +155,10 @@ if [[ ${1-} == --table ]]; then
     mv "$lists/README.new" "$lists/README.md"
     exit
 fi
+# All anew: what a run that was killed half-way has built may be a mutant.
+rm -rf "$work"
 mkdir -p "$copy"
-rm -rf "${copy:?}"/*
 (cd "$root" && tar cf - --exclude=./target --exclude='./.*' .) | tar xf - -C "$copy"
-# Newer than what an earlier run may have built of a mutant.
-find "$copy/verification" -name '*.rs' -exec touch {} +
 [[ $# -gt 0 ]] || set -- "${all[@]}"
 for name in "$@"; do run "$name"; done
 exit $bad

@@ -5,19 +5,13 @@
 //! and so the order within a level, is left to chance, but not which markings a level has, nor what is counted.
 
 use super::block::Block;
-use super::boxes::Boxes;
-use super::diamonds::Diamonds;
-use super::enabling::Seen;
 use super::goal::Packed;
 use super::space::{Space, TooNarrow};
-use super::table::{BATCH, TABLES, Table};
-use super::view::{Bits, View};
+use super::worker::{Shared, Tally, Worker, lock};
 use super::{Limit, Limits, Progress};
 use crate::pt::Pt;
-use std::sync::atomic::{AtomicU8, AtomicU64, Ordering::Relaxed};
-use std::sync::{Mutex, MutexGuard, PoisonError, RwLock, RwLockWriteGuard};
-use std::thread;
-use std::time::Instant;
+use std::sync::atomic::Ordering::Relaxed;
+use std::thread::{self, Scope};
 
 /// Threads are worth their start for so many blocks each.
 const BLOCKS_OF_A_THREAD: usize = 4;
@@ -41,17 +35,6 @@ pub(super) enum End {
     Limit(Limit),
 }
 
-/// What is counted of markings when what follows them is computed.
-#[derive(Clone, Debug)]
-pub(super) struct Tally {
-    pub(super) arcs: u64,
-    pub(super) dead: u64,
-    pub(super) sum: u64,
-    pub(super) seen: Seen,
-    /// A bit for each transition that was enabled.
-    pub(super) enabled: Vec<u64>,
-}
-
 /// A search that ended.
 pub(super) struct Explored<const S: usize> {
     pub(super) end: End,
@@ -69,69 +52,28 @@ pub(super) struct Explored<const S: usize> {
     pub(super) peak: u64,
 }
 
-/// What threads share.
-struct Shared<'s, const S: usize> {
-    space: &'s Space,
-    deltas: Vec<[u64; S]>,
-    diamonds: Diamonds,
-    limits: &'s Limits,
-    goal: Option<Packed<'s>>,
-    tables: Vec<Mutex<Table<S>>>,
-    /// Those of each thread; it holds the lock while it fills them.
-    boxes: Vec<RwLock<Boxes<S>>>,
-    queue: Mutex<Vec<Block<S>>>,
-    spare: Mutex<Vec<Block<S>>>,
-    states: AtomicU64,
-    bytes: AtomicU64,
-    peak: AtomicU64,
-    /// Zero, or the limit that was reached.
-    stop: AtomicU8,
-}
-
-/// A thread's own part, apart from that of another one in the caches of processors.
-#[repr(align(128))]
-struct Worker<const S: usize> {
-    /// Its number.
-    number: usize,
-    fresh: Vec<Block<S>>,
-    kept: Vec<Block<S>>,
-    goals: Vec<[u64; S]>,
-    view: View,
-    /// To look at goals.
-    scratch: (View, Seen),
-    tally: Tally,
-    /// All bits of all new markings.
-    union: [u64; S],
-}
-
 pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<Explored<S>, TooNarrow> {
-    let jobs = plan.jobs.max(1);
-    let shared = Shared::<S> {
-        space,
-        deltas: space.deltas(),
-        diamonds: Diamonds::new(plan.pt),
-        limits: plan.limits,
-        goal: plan.goal,
-        tables: (0..TABLES).map(|_| Mutex::new(Table::new())).collect(),
-        // Threads seldom wait for each other when each starts with another box.
-        boxes: (0..jobs).map(|it| RwLock::new(Boxes::new(it * TABLES / jobs))).collect(),
-        queue: Mutex::default(),
-        spare: Mutex::default(),
-        states: AtomicU64::new(0),
-        bytes: AtomicU64::new(0),
-        peak: AtomicU64::new(0),
-        stop: AtomicU8::new(0),
-    };
-    let mut workers: Vec<Option<Worker<S>>> = (0..jobs).map(|_| None).collect();
+    let shared = Shared::<S>::new(space, plan);
+    thread::scope(|scope| levels(scope, &shared, plan))
+}
+
+/// Goes from level to level.
+fn levels<'s, const S: usize>(
+    scope: &'s Scope<'s, '_>,
+    shared: &'s Shared<'s, S>,
+    plan: Plan<'_>,
+) -> Result<Explored<S>, TooNarrow> {
+    let mut workers: Vec<Option<Worker<S>>> = (0..plan.jobs.max(1)).map(|_| None).collect();
     let mut levels = Vec::new();
     let (mut states, mut depth) = (0, 0);
-    Worker::of(&mut workers[0], &shared, 0).start(&shared);
+    let mut crew = Vec::new();
+    Worker::of(&mut workers[0], shared, 0).start(shared);
     loop {
         let union = workers
             .iter()
             .flatten()
             .fold([0; S], |all: [u64; S], it| std::array::from_fn(|at| all[at] | it.union[at]));
-        let limit = space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
+        let limit = shared.space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
         let goals: Vec<[u64; S]> =
             workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.goals)).collect();
         let fresh: Vec<Block<S>> =
@@ -151,7 +93,7 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
         }
         if let Some(end) = end {
             // The levels before the last one are complete, and so is what is counted of them.
-            let mut tally = Tally::new(space);
+            let mut tally = Tally::new(shared.space);
             for worker in workers.iter().flatten() {
                 tally.add(&worker.tally);
             }
@@ -165,236 +107,23 @@ pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<E
         if plan.goal.is_some() {
             levels.push(Vec::new());
         }
-        let (first, others) = workers[..threads].split_at_mut(1);
-        thread::scope(|scope| {
-            for (place, number) in others.iter_mut().zip(1..) {
-                let shared = &shared;
-                let level = move || Worker::of(place, shared, number).level(shared, &|| ());
-                // Without another thread this one does all.
-                let _ = thread::Builder::new().spawn_scoped(scope, level);
-            }
-            Worker::of(&mut first[0], &shared, 0).level(&shared, &|| {
-                let states = shared.states.load(Relaxed);
-                (plan.progress)(Progress { states, depth, waiting });
-            });
+        // Without another thread this one does all.
+        while crew.len() + 1 < threads
+            && let Some(mate) = Worker::hire(scope, shared, crew.len() + 1)
+        {
+            crew.push(mate);
+        }
+        let called = &crew[..crew.len().min(threads - 1)];
+        for (mate, worker) in called.iter().zip(&mut workers[1..]) {
+            mate.send(worker.take());
+        }
+        Worker::of(&mut workers[0], shared, 0).level(shared, &|| {
+            let states = shared.states.load(Relaxed);
+            (plan.progress)(Progress { states, depth, waiting });
         });
+        for (mate, worker) in called.iter().zip(&mut workers[1..]) {
+            *worker = mate.wait().flatten();
+        }
         depth += 1;
-    }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn write<T>(lock: &RwLock<T>) -> RwLockWriteGuard<'_, T> {
-    lock.write().unwrap_or_else(PoisonError::into_inner)
-}
-
-impl<const S: usize> Shared<'_, S> {
-    fn is_stopped(&self) -> bool {
-        self.stop.load(Relaxed) != 0
-    }
-
-    fn stop(&self, limit: Limit) {
-        let _ = self.stop.compare_exchange(0, limit.code(), Relaxed, Relaxed);
-    }
-
-    /// Takes so many bytes; or stops the search when there are not as many.
-    fn reserve(&self, bytes: usize) -> bool {
-        let total = self.bytes.fetch_add(bytes as u64, Relaxed) + bytes as u64;
-        let is_free = total <= self.limits.bytes;
-        if is_free {
-            self.peak.fetch_max(total, Relaxed);
-        } else {
-            self.release(bytes);
-            self.stop(Limit::Bytes);
-        }
-        is_free
-    }
-
-    fn release(&self, bytes: usize) {
-        self.bytes.fetch_sub(bytes as u64, Relaxed);
-    }
-}
-
-impl Tally {
-    fn new(space: &Space) -> Self {
-        let enabled = vec![0; space.enabling.view().enabled.len()];
-        Self { arcs: 0, dead: 0, sum: 0, seen: space.enabling.unseen(), enabled }
-    }
-
-    /// Adds another one.
-    fn add(&mut self, other: &Self) {
-        self.arcs += other.arcs;
-        self.dead += other.dead;
-        self.sum = self.sum.max(other.sum);
-        self.seen.merge(&other.seen);
-        self.enabled.iter_mut().zip(&other.enabled).for_each(|(a, b)| *a |= b);
-    }
-}
-
-impl<const S: usize> Worker<S> {
-    /// That of a thread, which makes it, so that its memory lies apart from that of others.
-    fn of<'w>(place: &'w mut Option<Self>, shared: &Shared<'_, S>, number: usize) -> &'w mut Self {
-        place.get_or_insert_with(|| Self::new(shared, number))
-    }
-
-    fn new(shared: &Shared<'_, S>, number: usize) -> Self {
-        let enabling = &shared.space.enabling;
-        Self {
-            number,
-            fresh: Vec::new(),
-            kept: Vec::new(),
-            goals: Vec::new(),
-            view: enabling.view(),
-            scratch: (enabling.view(), enabling.unseen()),
-            tally: Tally::new(shared.space),
-            union: [0; S],
-        }
-    }
-
-    /// Adds the initial marking.
-    fn start(&mut self, shared: &Shared<'_, S>) {
-        let mut boxes = write(&shared.boxes[self.number]);
-        boxes.put(&shared.space.initial(), Diamonds::NONE);
-        boxes.next().into_iter().for_each(|it| self.empty(shared, &boxes, it));
-    }
-
-    /// Takes blocks of the level as long as there are any, and then boxes.
-    fn level(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
-        self.fill(shared, tick);
-        // Its own ones first: the others may not be filled yet.
-        let (before, after) = shared.boxes.split_at(self.number);
-        for boxes in after.iter().chain(before) {
-            let boxes = boxes.read().unwrap_or_else(PoisonError::into_inner);
-            while let Some(table) = boxes.next() {
-                self.empty(shared, &boxes, table);
-            }
-        }
-    }
-
-    /// Fills its boxes with what follows the blocks that it takes.
-    fn fill(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
-        // Before the first block is taken: who finds no more blocks waits for this lock.
-        let mut boxes = write(&shared.boxes[self.number]);
-        boxes.clear_all();
-        loop {
-            let Some(mut block) = lock(&shared.queue).pop() else { break };
-            if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
-                shared.stop(Limit::Time);
-            }
-            // Other limits let the level be counted to its end, so that the counts are those of complete levels.
-            if shared.stop.load(Relaxed) != Limit::Time.code() {
-                self.expand(shared, &mut boxes, &block);
-            }
-            tick();
-            if shared.goal.is_some() {
-                let before = block.bytes();
-                block.markings.shrink_to_fit();
-                block.via = Vec::new();
-                shared.release(before - block.bytes());
-                self.kept.push(block);
-            } else {
-                block.markings.clear();
-                block.via.clear();
-                lock(&shared.spare).push(block);
-            }
-        }
-    }
-
-    /// Computes what follows the markings of a block.
-    fn expand(&mut self, shared: &Shared<'_, S>, boxes: &mut Boxes<S>, block: &Block<S>) {
-        let (mut arcs, mut dead, mut most) = (0, 0, 0);
-        let deltas = shared.deltas.as_slice();
-        let mut view = std::mem::take(&mut self.view);
-        let mut ever = std::mem::take(&mut self.tally.enabled);
-        for (marking, &via) in block.markings.iter().zip(&block.via) {
-            shared.space.enabling.look(marking, &mut view, &mut self.tally.seen);
-            most = most.max(view.sum);
-            let before = arcs;
-            let left_out = shared.diamonds.of(via);
-            for (at, ((&enabled, ever), left_out)) in
-                view.enabled.iter().zip(&mut ever).zip(left_out).enumerate()
-            {
-                *ever |= enabled;
-                arcs += u64::from(enabled.count_ones());
-                for bit in Bits(enabled & !left_out) {
-                    let transition = 64 * at as u32 + bit;
-                    let delta = &deltas[transition as usize];
-                    let after = std::array::from_fn(|at| marking[at].wrapping_add(delta[at]));
-                    if let Some(full) = boxes.put(&after, transition) {
-                        self.empty(shared, boxes, full);
-                        boxes.clear(full);
-                    }
-                }
-            }
-            dead += u64::from(arcs == before);
-        }
-        self.view = view;
-        self.tally.enabled = ever;
-        self.tally.arcs += arcs;
-        self.tally.dead += dead;
-        self.tally.sum = self.tally.sum.max(most);
-    }
-
-    /// Adds what is in a box to its table.
-    #[inline(never)]
-    fn empty(&mut self, shared: &Shared<'_, S>, boxes: &Boxes<S>, table: usize) {
-        if shared.is_stopped() {
-            return;
-        }
-        let (markings, via) = boxes.content(table);
-        let mut table = lock(&shared.tables[table]);
-        let Self { fresh, goals, scratch: (view, seen), union, .. } = self;
-        let mut new = 0;
-        for (batch, via) in markings.chunks(BATCH).zip(via.chunks(BATCH)) {
-            if let Some(slots) = table.grown(batch.len()) {
-                let before = table.slots();
-                if !shared.reserve(Table::<S>::bytes(slots)) {
-                    break;
-                }
-                if !table.grow(slots) {
-                    shared.release(Table::<S>::bytes(slots));
-                    shared.stop(Limit::Bytes);
-                    break;
-                }
-                shared.release(Table::<S>::bytes(before));
-            }
-            table.insert(batch, |at| {
-                let marking = &batch[at];
-                new += 1;
-                for (all, word) in union.iter_mut().zip(marking) {
-                    *all |= word;
-                }
-                if shared.goal.is_some_and(|it| it.holds(shared.space, marking, view, seen)) {
-                    goals.push(*marking);
-                }
-                match fresh.last_mut() {
-                    Some(block) if block.via.len() < Block::<S>::ROOM => block.push(marking, via[at]),
-                    _ => fresh.extend(shared.block(marking, via[at])),
-                }
-            });
-        }
-        drop(table);
-        if shared.states.fetch_add(new, Relaxed) + new > shared.limits.states {
-            shared.stop(Limit::States);
-        }
-    }
-}
-
-impl<const S: usize> Shared<'_, S> {
-    /// A block with a marking in it, if there is memory for it.
-    fn block(&self, marking: &[u64; S], via: u32) -> Option<Block<S>> {
-        let mut block = lock(&self.spare).pop().or_else(|| {
-            let bytes = Block::<S>::ROOM * (size_of::<[u64; S]>() + size_of::<u32>());
-            let block = self.reserve(bytes).then(Block::new)?;
-            if block.is_none() {
-                self.release(bytes);
-                self.stop(Limit::Bytes);
-            }
-            block
-        })?;
-        block.push(marking, via);
-        Some(block)
     }
 }

@@ -28,6 +28,7 @@
 
 mod block;
 mod boxes;
+mod crew;
 mod diamonds;
 mod enabling;
 mod explore;
@@ -43,6 +44,7 @@ mod space;
 mod statespace;
 mod table;
 mod view;
+mod worker;
 
 pub use goal::Goal;
 pub use graph::Graph;

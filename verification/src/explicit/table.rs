@@ -31,6 +31,9 @@ pub(super) struct Table<const S: usize> {
 }
 
 impl<const S: usize> Table<S> {
+    /// Slots of the smallest table whose pages the system can remap: 128 KiB.
+    const SMALL: usize = (1 << 17) / size_of::<[u64; S]>();
+
     pub(super) const fn new() -> Self {
         Self { slots: Vec::new(), used: 0 }
     }
@@ -48,7 +51,9 @@ impl<const S: usize> Table<S> {
     /// How many slots are needed for so many more markings, if there are not enough.
     pub(super) fn grown(&self, more: usize) -> Option<usize> {
         let used = self.used + more;
-        (used * 5 > self.slots.len() * 4).then(|| (self.slots.len() * 7 / 5).max(used * 7 / 5).max(16))
+        // Small tables leave holes where they were, so they grow in few steps.
+        let grown = if self.slots.len() < Self::SMALL { self.slots.len() * 4 } else { self.slots.len() * 7 / 5 };
+        (used * 5 > self.slots.len() * 4).then(|| grown.max(used * 7 / 5).max(16))
     }
 
     /// Bytes of so many slots.
