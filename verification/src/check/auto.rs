@@ -89,7 +89,7 @@ impl Asked<'_, '_> {
         if !known {
             return Evidence::None;
         }
-        self.net.with_graph(&few, |graph| graph.map_or(Evidence::None, Evidence::graph))
+        self.net.graph(&few).map_or(Evidence::None, |it| Evidence::graph(&it))
     }
 
     fn one_safe(&mut self) -> Shown {

@@ -134,13 +134,13 @@ impl Engine for Explicit {
                 };
                 Finding { found, states: space.states }
             }
-            Task::Live => net.with_graph(budget, |graph| match graph {
+            Task::Live => match net.graph(budget) {
                 Ok(graph) => {
                     let found = Found::Holds(graph.liveness().is_live(), None, Evidence::None);
                     Finding { found, states: graph.states() as u64 }
                 }
                 Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
-            }),
+            },
             Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
         }
     }
@@ -227,7 +227,8 @@ impl Engine for Temporal {
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         let Task::Temporal(formula) = task else { return Finding::nothing(Reason::Unsuited, 0) };
-        match temporal::answer(net.pt(), formula, &budget.limits, budget.progress) {
+        let graph = || net.graph(budget);
+        match temporal::answer_with(net.pt(), formula, &budget.limits, budget.progress, &graph) {
             Verdict::Known { holds, run, states } => {
                 Finding { found: Found::Holds(holds, run, Evidence::None), states }
             }

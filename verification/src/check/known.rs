@@ -7,12 +7,17 @@ use crate::structural::{self, Structure};
 use std::cell::{OnceCell, RefCell, RefMut};
 use std::rc::Rc;
 
+/// Of the memory that may be used, a graph that is kept takes at most one of so many parts.
+const KEPT: u64 = 4;
+
+type Made = Result<Rc<Graph>, Unfinished>;
+
 /// A net, and what engines found of it, kept for the next question.
 #[derive(Debug)]
 pub struct Known<'n> {
     pt: &'n Pt,
     structure: OnceCell<RefCell<Structure<'n>>>,
-    graph: RefCell<Option<(Limits, Result<Graph, Unfinished>)>>,
+    graph: RefCell<Option<(Limits, Made)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
 }
 
@@ -33,21 +38,29 @@ impl<'n> Known<'n> {
         self.structure.get_or_init(made).borrow_mut()
     }
 
-    /// Does something with the graph of its markings, or with the limit that keeps it from being made.
-    pub(super) fn with_graph<R>(
-        &self,
-        budget: &Budget<'_>,
-        with: impl FnOnce(Result<&Graph, Unfinished>) -> R,
-    ) -> R {
+    /// The graph of its markings, or the limit that keeps it from being made.
+    pub(super) fn graph(&self, budget: &Budget<'_>) -> Made {
         let mut kept = self.graph.borrow_mut();
-        let is_cut =
-            |limits: &Limits, limit: Option<Limit>| limit.is_some_and(|it| budget.has_more(limits, it));
-        if kept.as_ref().is_none_or(|(limits, graph)| is_cut(limits, graph.as_ref().err().map(|it| it.limit)))
-        {
-            *kept = Some((budget.limits, Graph::new(self.pt, &budget.limits, budget.progress)));
+        match &*kept {
+            Some((_, Ok(graph))) => {
+                let (states, limit) = (graph.states() as u64, Limit::States);
+                let most = budget.limits.states;
+                return if states <= most {
+                    Ok(Rc::clone(graph))
+                } else {
+                    Err(Unfinished { limit, states: most })
+                };
+            }
+            Some((limits, Err(it))) if !budget.has_more(limits, it.limit) => return Err(*it),
+            _ => {}
         }
-        let graph = kept.as_ref().map(|it| it.1.as_ref().map_err(|&it| it));
-        with(graph.unwrap_or(Err(Unfinished { limit: Limit::Bytes, states: 0 })))
+        let graph = Graph::new(self.pt, &budget.limits, budget.progress).map(Rc::new);
+        // What is kept takes room that the next engine may need.
+        let is_small = |it: &Rc<Graph>| it.bytes() <= budget.limits.bytes / KEPT;
+        if graph.as_ref().map_or(true, is_small) {
+            *kept = Some((budget.limits, graph.clone()));
+        }
+        graph
     }
 
     /// What is counted of its markings.

@@ -67,6 +67,12 @@ impl Graph {
         self.successors.len()
     }
 
+    /// About how much memory it takes.
+    pub fn bytes(&self) -> u64 {
+        (size_of_val(&self.markings[..]) + size_of_val(&self.starts[..]) + size_of_val(&self.successors[..]))
+            as u64
+    }
+
     /// The markings that follow a marking, one for each transition that is enabled in it, in their order.
     ///
     /// # Panics

@@ -52,7 +52,8 @@ impl<const S: usize> Table<S> {
     pub(super) fn grown(&self, more: usize) -> Option<usize> {
         let used = self.used + more;
         // Small tables leave holes where they were, so they grow in few steps.
-        let grown = if self.slots.len() < Self::SMALL { self.slots.len() * 4 } else { self.slots.len() * 7 / 5 };
+        let grown =
+            if self.slots.len() < Self::SMALL { self.slots.len() * 4 } else { self.slots.len() * 7 / 5 };
         (used * 5 > self.slots.len() * 4).then(|| grown.max(used * 7 / 5).max(16))
     }
 

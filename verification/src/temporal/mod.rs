@@ -22,4 +22,5 @@ pub use ctl::{CtlAnswer, Witness, ctl};
 pub use fairness::Fairness;
 pub use ltl::{all_runs, some_runs};
 pub use run::{Rest, Run};
+pub(crate) use verdict::answer_with;
 pub use verdict::{Reason, Verdict, answer};

@@ -8,6 +8,8 @@ use crate::explicit::{Graph, Limit, Limits, Progress, Reached, Unfinished};
 use crate::property::{Condition, Ctl, Formula, Reachability};
 use crate::pt::Pt;
 use crate::stubborn::reach_reduced;
+use std::cell::OnceCell;
+use std::rc::Rc;
 
 /// What is known of a formula.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -71,16 +73,30 @@ impl From<Limit> for Reason {
 /// assert!(matches!(verdict, Verdict::Known { holds: true, .. }));
 /// ```
 pub fn answer(pt: &Pt, formula: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
-    let mut asked = Asked { pt, limits, progress, graph: None };
-    asked.verdict(&formula.simplified())
+    let made = OnceCell::new();
+    let graph = || made.get_or_init(|| Graph::new(pt, limits, progress).map(Rc::new)).clone();
+    answer_with(pt, formula, limits, progress, &graph)
+}
+
+/// Gives the graph of the net, which is made when it is asked for first.
+pub(crate) type Graphs<'a> = &'a dyn Fn() -> Result<Rc<Graph>, Unfinished>;
+
+/// The same as [`answer`] with a graph that others use too.
+pub(crate) fn answer_with(
+    pt: &Pt,
+    formula: &Formula,
+    limits: &Limits,
+    progress: &dyn Fn(Progress),
+    graph: Graphs<'_>,
+) -> Verdict {
+    Asked { pt, limits, progress, graph }.verdict(&formula.simplified())
 }
 
 struct Asked<'a> {
     pt: &'a Pt,
     limits: &'a Limits,
     progress: &'a dyn Fn(Progress),
-    /// Made when it is needed first.
-    graph: Option<Result<Graph, Unfinished>>,
+    graph: Graphs<'a>,
 }
 
 impl Asked<'_> {
@@ -146,10 +162,9 @@ impl Asked<'_> {
         let Some(formula) = Ctl::new(formula) else {
             return Verdict::Unknown { reason: Reason::Kind, states: 0 };
         };
-        let Self { pt, limits, progress, graph } = self;
-        match graph.get_or_insert_with(|| Graph::new(pt, limits, progress)) {
+        match (self.graph)() {
             Ok(graph) => {
-                let answer = ctl(graph, &formula, &Fairness::default());
+                let answer = ctl(&graph, &formula, &Fairness::default());
                 let run = answer.witness.filter(|it| it.is_complete || can_be_lost).map(|it| it.run);
                 Verdict::Known { holds: answer.verdict, run, states: graph.states() as u64 }
             }

@@ -67,6 +67,8 @@ fn every_operator_is_shown_true_and_false() {
         (ax(dead()), false),
         (e(f(dead())), true),
         (a(f(dead())), false),
+        (e(not(f(dead()))), true),
+        (a(not(f(dead()))), false),
         (e(g(not(dead()))), true),
         (a(g(not(dead()))), false),
         (e(u(full(), has("empty", 2))), true),

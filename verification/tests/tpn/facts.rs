@@ -54,6 +54,19 @@ fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
     assert_eq!(rows.len(), 17);
 }
 
+/// Every `step` makes `alarm` possible up to a unit earlier: of the marking with `walking` there are 300,001 classes, of that with
+/// `resting` 300,000 that differ in the earliest date of `alarm` alone, some of them with the same hash; of that with `walking`
+/// after the alarm two, and of that with `resting` one.
+#[test]
+fn classes_that_differ_in_one_earliest_date_alone_are_told_apart() {
+    let net = net(
+        "tr step [0,1] walking -> walking  tr rest [0,1] walking -> resting  tr alarm [300000,900000] armed ->\n\
+                   pl walking (1)  pl armed (1)",
+    );
+    let classes = tpn::classes(&net, &Limits::default());
+    assert_eq!((classes.classes(), classes.markings(), classes.bounded()), (600_004, 4, Some(true)));
+}
+
 /// A name as files write it, without its braces.
 fn bare(name: &str) -> String {
     match name.strip_prefix('{').and_then(|it| it.strip_suffix('}')) {
