@@ -16,14 +16,15 @@ Properties:
   bounds(a + b)            the most tokens that both ever hold together
   bound(t -> p)            time nets: the least and the most time from t to p
   AG (f -> AF<=200ms o)    time nets: at the latest after 200 ms
+  AF a assuming weak(t)    not on runs that could fire t for ever and never do
   a <= 2, 2*a - b = 1, fireable(t1, t2), deadlock, true, false: about one marking
 By name: deadlock, live, quasi_live, one_safe, stable.
 
 A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with #
 are left out. A property file of the Model Checking Contest (XML) is read as well. Without
 properties, the laws of the model are checked, or the requirements of the systems `delivery` and
-`recovering`; where it has none, the usual three questions: is there no deadlock, is it 1-safe or else
-how many tokens are there, can each transition fire.
+`recovering`; where it has none, the usual three questions: is there no deadlock, is it 1-safe or
+else how many tokens are there, can each transition fire.
 
 Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
 pass through markings.
@@ -49,6 +50,7 @@ Examples:
   $ printf 'ends: EF deadlock\\nlive\\n' > two.txt
   $ cotama check kanban:2 --properties two.txt --mcc   # it has no deadlock: exit code 1
   $ cotama check watchdog --property 'bound(w1 -> Fault)'
+  $ cotama check door --untimed --property 'AG (Opening -> AF Open) assuming weak(opened)'
   $ cotama check delivery
   $ cotama check decision --semantics rounds --property 'AG (round & gs.Safe -> ls.Idle)'";
 

@@ -7,7 +7,7 @@ use cotama_verification::check::{Answer, Checker, Options, Verdict};
 use cotama_verification::diagnosis::{Case, Diagnosis, Never, NotARun, Run, Step, Unused, vacuous};
 use cotama_verification::explicit::Limits;
 use cotama_verification::flat::{Part, Rounds};
-use cotama_verification::property::{Property, Question};
+use cotama_verification::property::{Formula, Property, Question};
 use cotama_verification::temporal::Rest;
 use std::fmt::Write;
 
@@ -126,16 +126,25 @@ pub(super) fn vacuity(
     answer: &Answer,
     options: &Options<'_>,
 ) -> Option<String> {
-    let (Question::Formula(formula), Verdict::Holds(true)) = (&property.question, &answer.verdict) else {
-        return None;
-    };
     let limits = Limits { states: options.limits.states.min(MARKINGS), ..options.limits };
     let options = Options { limits, evidence: false, ..*options };
-    let found = vacuous(formula).into_iter().take(QUESTIONS).find(|stronger| {
-        let question = Question::Formula(stronger.formula.clone());
+    let holds = |question| {
         let asked = Property { name: String::new(), question };
         checker.answer(&asked, &options).verdict == Verdict::Holds(true)
-    })?;
+    };
+    let formula = match (&property.question, &answer.verdict) {
+        (Question::Formula(formula), Verdict::Holds(true)) => formula,
+        (Question::Fair(_, assumed), Verdict::Holds(true)) => {
+            let never = Formula::All(Formula::Finally(Formula::FALSE.into()).into());
+            return holds(Question::Fair(never, assumed.clone()))
+                .then(|| "no run is as it is assumed to be".to_owned());
+        }
+        _ => return None,
+    };
+    let found = vacuous(formula)
+        .into_iter()
+        .take(QUESTIONS)
+        .find(|stronger| holds(Question::Formula(stronger.formula.clone())))?;
     let pt = subject.model.pt();
     Some(found.words(&property.question.display(pt).to_string(), pt))
 }

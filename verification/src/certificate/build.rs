@@ -27,6 +27,8 @@ pub enum Answer {
 pub enum Uncertifiable {
     /// It speaks of milliseconds.
     Time,
+    /// It speaks of fair runs.
+    Fairness,
     /// The answer does not fit the question, or is larger than 9,223,372,036,854,775,807.
     Answer,
 }
@@ -35,6 +37,7 @@ impl fmt::Display for Uncertifiable {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Time => "properties of time nets have no certificates",
+            Self::Fairness => "properties with assumptions about runs have no certificates",
             Self::Answer => "the answer does not fit the question",
         })
     }
@@ -117,6 +120,7 @@ impl Question {
         use property::Question as Asked;
         Ok(match (question, answer) {
             (Asked::Response { .. }, _) => return Err(Uncertifiable::Time),
+            (Asked::Fair(..), _) => return Err(Uncertifiable::Fairness),
             (Asked::Bound(places), Answer::Bound(most)) => Self::Bound {
                 places: places.iter().map(|it| pt.places[it.0 as usize].clone()).collect(),
                 most: i64::try_from(most).map_err(|_| Uncertifiable::Answer)?,

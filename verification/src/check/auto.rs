@@ -60,6 +60,14 @@ impl Asked<'_, '_> {
     fn question(&mut self, question: &Question) -> Shown {
         match question {
             Question::Formula(formula) => self.formula(&formula.simplified()),
+            Question::Fair(formula, assumed) => {
+                let task = Task::Fair(formula, assumed);
+                match self.ask(&Temporal, self.net, task, self.budget.limits).found {
+                    Found::Holds(holds, run, evidence) => (Verdict::Holds(holds), run, evidence),
+                    Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
+                    _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
+                }
+            }
             Question::Bound(places) => self.bound(places),
             Question::OneSafe => self.one_safe(),
             Question::QuasiLiveness => self.dead(|_, dead| dead.is_empty()),
@@ -80,7 +88,7 @@ impl Asked<'_, '_> {
         }
         let known = match question {
             Question::Formula(formula) => Ctl::new(&formula.simplified()).is_some(),
-            Question::Response { .. } => false,
+            Question::Fair(..) | Question::Response { .. } => false,
             _ => true,
         };
         let few = CERTIFIED.min(most_markings(self.net.pt().places.len()));

@@ -4,7 +4,7 @@ use super::{Known, Options};
 use crate::certificate::Evidence;
 use crate::coverability;
 use crate::explicit::{Limit, Limits, Progress};
-use crate::property::{Formula, Linear};
+use crate::property::{Assumptions, Formula, Linear};
 use crate::temporal::Run;
 use cotama_core::net::TransitionId;
 use std::fmt;
@@ -22,6 +22,8 @@ pub enum Task<'t> {
     Live,
     /// Whether a formula holds at the start.
     Temporal(&'t Formula),
+    /// Whether a formula of CTL holds at the start, on fair runs.
+    Fair(&'t Formula, &'t Assumptions),
 }
 
 /// The most of something.

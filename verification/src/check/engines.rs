@@ -6,11 +6,11 @@ use super::known::Known;
 use crate::certificate::Evidence;
 use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};
 use crate::explicit::{Goal, Limit, Limits, Reached, reach};
-use crate::property::{Atom, Formula, Linear};
+use crate::property::{Assumptions, Atom, Ctl, Formula, Linear};
 use crate::pt::Pt;
 use crate::structural;
 use crate::stubborn;
-use crate::temporal::{self, Verdict};
+use crate::temporal::{self, Fairness, Verdict, ctl};
 use cotama_core::net::{PlaceId, TransitionId};
 
 /// Looks at the structure of the net and visits no marking.
@@ -27,7 +27,7 @@ impl Engine for Structural {
             Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net),
             Task::Reach(goal) => goal_by_clauses(net, goal),
             Task::Bound(sum) => bound(net, sum),
-            Task::Dead | Task::Live | Task::Temporal(_) => Found::Nothing(Reason::Unsuited),
+            Task::Dead | Task::Live | Task::Temporal(_) | Task::Fair(..) => Found::Nothing(Reason::Unsuited),
         };
         Finding { found, states: 0 }
     }
@@ -141,7 +141,7 @@ impl Engine for Explicit {
                 }
                 Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
             },
-            Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
+            Task::Temporal(_) | Task::Fair(..) => Finding::nothing(Reason::Unsuited, 0),
         }
     }
 }
@@ -226,7 +226,11 @@ impl Engine for Temporal {
     }
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
-        let Task::Temporal(formula) = task else { return Finding::nothing(Reason::Unsuited, 0) };
+        let formula = match task {
+            Task::Temporal(formula) => formula,
+            Task::Fair(formula, assumed) => return fair(net, formula, assumed, budget),
+            _ => return Finding::nothing(Reason::Unsuited, 0),
+        };
         let graph = || net.graph(budget);
         match temporal::answer_with(net.pt(), formula, &budget.limits, budget.progress, &graph) {
             Verdict::Known { holds, run, states } => {
@@ -237,6 +241,24 @@ impl Engine for Temporal {
             }
             Verdict::Unknown { states, .. } => Finding::nothing(Reason::Unsuited, states),
         }
+    }
+}
+
+/// A formula as it is: what is the same on all runs need not be on fair ones, of which there may be none.
+fn fair(net: &Known<'_>, formula: &Formula, assumed: &Assumptions, budget: &Budget<'_>) -> Finding {
+    let Some((formula, fairness)) = Ctl::new(formula).zip(Fairness::of(assumed)) else {
+        return Finding::nothing(Reason::Unsuited, 0);
+    };
+    match net.graph(budget) {
+        Ok(graph) => {
+            let answer = ctl(&graph, &formula, &fairness);
+            let run = answer.witness.filter(|it| it.is_complete).map(|it| it.run);
+            Finding {
+                found: Found::Holds(answer.verdict, run, Evidence::None),
+                states: graph.states() as u64,
+            }
+        }
+        Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
     }
 }
 
@@ -268,7 +290,7 @@ impl Engine for Coverability {
                 Ok(set) => Finding { found: covered(&set, task), states: set.met() },
                 Err(it) => unfinished(it),
             },
-            Task::Live | Task::Temporal(_) => Finding::nothing(Reason::Unsuited, 0),
+            Task::Live | Task::Temporal(_) | Task::Fair(..) => Finding::nothing(Reason::Unsuited, 0),
         }
     }
 }

@@ -51,7 +51,7 @@ impl Asked<'_, '_> {
                 let changers = |place| net.pt().changers.of(place).iter();
                 (0..net.pt().places.len() as u32).any(|it| changers(it).all(|it| !fires[it.0 as usize]))
             }),
-            Question::Liveness => known(Verdict::Unknown(Reason::Unsuited), 0),
+            Question::Fair(..) | Question::Liveness => known(Verdict::Unknown(Reason::Unsuited), 0),
         }
     }
 

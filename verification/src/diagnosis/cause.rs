@@ -4,7 +4,7 @@ use super::mirror::mirrored;
 use super::run::enabled;
 use super::story::Teller;
 use super::words::{self, Says, counted, list, name, short_list};
-use crate::property::Formula;
+use crate::property::{Assumptions, Ctl, Formula};
 use cotama_core::net::TransitionId;
 use std::collections::BTreeSet;
 
@@ -147,13 +147,26 @@ impl Teller<'_> {
         let all = || (0..self.pt().transitions.len() as u32).filter(waits);
         let some: Vec<u32> =
             if all().any(|it| ends(&it)) { all().filter(ends).collect() } else { all().collect() };
+        let is_of_ctl = self.case.property.question.formula().is_some_and(|it| Ctl::new(it).is_some());
         let note = |it: &u32| {
-            let times = match often[*it as usize] {
-                all if all == cycle.len() => "before every step of the cycle".to_owned(),
-                some => format!("before {some} of {} steps of the cycle", cycle.len()),
+            let fair = || vec![TransitionId(*it)];
+            let (times, assumed) = match often[*it as usize] {
+                all if all == cycle.len() => (
+                    "before every step of the cycle".to_owned(),
+                    Assumptions { weak: fair(), ..Assumptions::default() },
+                ),
+                some => (
+                    format!("before {some} of {} steps of the cycle", cycle.len()),
+                    Assumptions { strong: fair(), ..Assumptions::default() },
+                ),
             };
             let name = self.transition(TransitionId(*it));
-            format!("{name} could fire {times} and never does: the run is unfair to it.")
+            let left_out = if is_of_ctl {
+                format!(" (left out by `{}`)", assumed.display(self.pt()))
+            } else {
+                String::new()
+            };
+            format!("{name} could fire {times} and never does: the run is unfair to it{left_out}.")
         };
         (cause, some.iter().take(MOST).map(note).collect())
     }

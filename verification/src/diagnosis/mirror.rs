@@ -15,7 +15,9 @@ pub(super) fn asked(question: &Question, of_transition: impl Fn(TransitionId) ->
         }
     };
     match question {
-        Question::Formula(formula) => claim::atoms(formula).iter().flat_map(of_atom).collect(),
+        Question::Formula(formula) | Question::Fair(formula, _) => {
+            claim::atoms(formula).iter().flat_map(of_atom).collect()
+        }
         Question::Bound(places) => places.iter().map(|it| it.0).collect(),
         Question::Response { to, .. } => vec![to.0],
         _ => Vec::new(),

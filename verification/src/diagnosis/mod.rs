@@ -362,7 +362,7 @@ fn step(case: &Case<'_>, firing: usize, transition: u32, before: &[u32], after: 
 
 /// The atoms of the property along the run; steps are told what they turn.
 fn atoms(case: &Case<'_>, trace: &mut [Step]) -> Result<Vec<AtomTrack>, NotARun> {
-    let Question::Formula(formula) = &case.property.question else { return Ok(Vec::new()) };
+    let Some(formula) = case.property.question.formula() else { return Ok(Vec::new()) };
     let mut tracks = Vec::new();
     for atom in claim::atoms(formula).into_iter().take(ATOMS) {
         let is_mark = matches!(

@@ -45,7 +45,7 @@ pub(super) fn told(case: &Case<'_>, along: Along<'_>) -> Story {
         culprits: BTreeSet::new(),
     };
     match &case.property.question {
-        Question::Formula(formula) => teller.formula(formula),
+        Question::Formula(formula) | Question::Fair(formula, _) => teller.formula(formula),
         Question::Bound(places) => teller.bound(&places.iter().map(|it| it.0).collect::<Vec<_>>()),
         Question::Response { from, to } => teller.response(*from, *to),
         Question::OneSafe => teller.one_safe(),

@@ -1,9 +1,9 @@
 //! Formulas and questions as texts of the language.
 
 use super::lexer::written;
-use super::{Atom, Formula, Linear, Question};
+use super::{Assumptions, Atom, Formula, Linear, Question};
 use crate::pt::Pt;
-use cotama_core::net::PlaceId;
+use cotama_core::net::{PlaceId, TransitionId};
 use std::fmt::{self, Display, Formatter};
 
 impl Formula {
@@ -18,6 +18,13 @@ impl Formula {
 
 impl Question {
     /// This question as a text of the language, with the names of a net.
+    pub fn display<'a>(&'a self, net: &'a Pt) -> impl Display + 'a {
+        Written { net, what: self }
+    }
+}
+
+impl Assumptions {
+    /// These assumptions, of which there are some, as they stand behind a formula.
     pub fn display<'a>(&'a self, net: &'a Pt) -> impl Display + 'a {
         Written { net, what: self }
     }
@@ -47,6 +54,9 @@ impl Display for Written<'_, Question> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         match self.what {
             Question::Formula(formula) => formula.display(self.net).fmt(f),
+            Question::Fair(formula, assumed) => {
+                write!(f, "{} {}", formula.display(self.net), assumed.display(self.net))
+            }
             Question::Bound(places) => {
                 write!(f, "bounds({})", Self::names(&self.net.places, places.iter().map(|it| it.0), " + "))
             }
@@ -58,6 +68,19 @@ impl Display for Written<'_, Question> {
             Question::StableMarking => f.write_str("stable"),
             Question::OneSafe => f.write_str("one_safe"),
         }
+    }
+}
+
+impl Display for Written<'_, Assumptions> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        let named = |word, list: &[TransitionId]| {
+            let names = Self::names(&self.net.transitions, list.iter().map(|it| it.0), ", ");
+            (!list.is_empty()).then(|| format!("{word}({names})"))
+        };
+        let often = self.what.often.iter().map(|it| format!("often({})", it.display(self.net)));
+        let fair = [named("weak", &self.what.weak), named("strong", &self.what.strong)];
+        let all: Vec<_> = fair.into_iter().flatten().chain(often).collect();
+        write!(f, "assuming {}", all.join(", "))
     }
 }
 

@@ -25,6 +25,7 @@
 //! | question | asks |
 //! | --- | --- |
 //! | a formula | [`Question::Formula`] |
+//! | a formula of CTL, and then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
 //! | `bounds(p1 + p2)` | [`Question::Bound`] |
 //! | `bound(t -> p)` | [`Question::Response`] |
 //! | `live`, `quasi_live`, `stable`, `one_safe` | [`Question::Liveness`], [`Question::QuasiLiveness`], [`Question::StableMarking`], [`Question::OneSafe`] |
@@ -48,6 +49,11 @@
 //! in front of a formula makes it one of LTL: `A (G F a -> G F b)`. After `F`, `AF` and `EF` may stand a limit of time:
 //! `AF<=200ms p`, in `ms` or `s`. Atoms are `true`, `false`, `deadlock`, `fireable(t1, t2)` (one of them is enabled),
 //! comparisons, and names of places: `p` says that it is marked.
+//!
+//! A loop that nobody would stay in is no reason for "never": what is assumed of runs stands behind a formula,
+//! `AG (asked -> AF done) assuming weak(work), strong(grant), often(idle)`. A weakly fair transition is not enabled for ever without
+//! firing, a strongly fair one fires again and again if it is enabled again and again, and `often` holds again and again;
+//! there may be any number of each.
 //!
 //! A name is written as it is when it is made of letters, digits, `_`, `'`, and dots inside of it, does not start with
 //! a digit, and is no word of the language. Other names stand in quotes, `"a b"` with `\"`, `\\` and `\u{1b}`, or in
@@ -92,6 +98,8 @@ pub struct Property {
 pub enum Question {
     /// Whether a temporal formula holds at the start.
     Formula(Formula),
+    /// Whether a formula of CTL holds at the start when its quantifiers speak of fair runs only.
+    Fair(Formula, Assumptions),
     /// The most tokens that these places ever hold together.
     Bound(Vec<PlaceId>),
     /// The least and the most time from a firing of a transition to the first later instant at which a place is marked.
@@ -109,6 +117,27 @@ pub enum Question {
     StableMarking,
     /// Whether no place ever holds more than one token.
     OneSafe,
+}
+
+impl Question {
+    /// The formula that it asks for.
+    pub fn formula(&self) -> Option<&Formula> {
+        match self {
+            Self::Formula(formula) | Self::Fair(formula, _) => Some(formula),
+            _ => None,
+        }
+    }
+}
+
+/// What is assumed of runs: one that does not meet all of it does not count. One that ends in a deadlock stays there for ever.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Assumptions {
+    /// None of these is enabled for ever from some time on without firing.
+    pub weak: Vec<TransitionId>,
+    /// Each of these fires again and again if it is enabled again and again.
+    pub strong: Vec<TransitionId>,
+    /// Each of these holds again and again; they speak of one marking.
+    pub often: Vec<Formula>,
 }
 
 /// A formula of CTL, of LTL (one `All` in front), or bounded response. `Exists` and `All` quantify over maximal runs: those that

@@ -5,6 +5,7 @@ use super::lexer::{Token, is_reserved};
 use super::linear::{Comparison, Sum};
 use super::parser::{Join, Parser, Value, What};
 use super::{Atom, Formula};
+use cotama_core::net::TransitionId;
 use std::ops::Range;
 
 impl Parser<'_> {
@@ -132,6 +133,11 @@ impl Parser<'_> {
 
     fn fireable(&mut self) -> Result<What, Fault> {
         self.at += 1;
+        Ok(What::Formula(Formula::Atom(Atom::Fireable(self.transitions()?))))
+    }
+
+    /// Names of transitions in parentheses.
+    pub(super) fn transitions(&mut self) -> Result<Vec<TransitionId>, Fault> {
         self.expect("(")?;
         let mut transitions = Vec::new();
         loop {
@@ -144,7 +150,7 @@ impl Parser<'_> {
         if !self.take(&[")"]) {
             return Err(self.unexpected("names are separated by `,`, and `)` ends them"));
         }
-        Ok(What::Formula(Formula::Atom(Atom::Fireable(transitions))))
+        Ok(transitions)
     }
 }
 

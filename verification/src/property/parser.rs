@@ -4,7 +4,7 @@ use super::error::{Fault, quoted};
 use super::lexer::{Lexeme, Token, is_reserved, lexemes};
 use super::linear::Sum;
 use super::names::{Ids, Names};
-use super::{Atom, Formula, Linear, Property, PropertyError, Question};
+use super::{Assumptions, Atom, Ctl, Formula, Linear, Property, PropertyError, Question};
 use crate::pt::Pt;
 use std::ops::Range;
 
@@ -34,6 +34,15 @@ pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
     };
     let question = parser.question().map_err(located)?;
     Ok(Property { name: text.trim().to_owned(), question })
+}
+
+/// The formula, if it is of CTL.
+fn of_ctl(formula: Formula, span: Range<usize>) -> Result<Formula, Fault> {
+    match Ctl::new(&formula) {
+        Some(_) => Ok(formula),
+        None => Err(Fault::new(span, "assumptions are made for formulas of CTL only")
+            .help("put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, and leave out limits of time")),
+    }
 }
 
 pub(super) struct Parser<'t> {
@@ -170,14 +179,50 @@ impl<'t> Parser<'t> {
         } else if self.take(&["one_safe"]) {
             Question::OneSafe
         } else {
-            Question::Formula(self.expression(Join::Equivalence)?.formula()?)
+            let start = self.span().start;
+            let formula = self.expression(Join::Equivalence)?.formula()?;
+            let span = start..self.end();
+            if self.take(&["assuming"]) {
+                Question::Fair(of_ctl(formula, span)?, self.assumptions()?)
+            } else {
+                Question::Formula(formula)
+            }
         };
         match self.token() {
             Token::End => Ok(question),
             _ if matches!(question, Question::Formula(_)) => {
                 Err(self.unexpected("join statements with `&`, `|`, `->` or `<->`"))
             }
+            _ if matches!(question, Question::Fair(..)) => {
+                Err(self.unexpected("assumptions are separated by `,`"))
+            }
             _ => Err(self.unexpected("the question ends before this; ask one question at a time")),
+        }
+    }
+
+    fn assumptions(&mut self) -> Result<Assumptions, Fault> {
+        let mut assumed = Assumptions::default();
+        loop {
+            if self.take(&["weak"]) {
+                assumed.weak.extend(self.transitions()?);
+            } else if self.take(&["strong"]) {
+                assumed.strong.extend(self.transitions()?);
+            } else if self.take(&["often"]) {
+                self.expect("(")?;
+                let start = self.span().start;
+                let formula = self.expression(Join::Equivalence)?.formula()?;
+                if !formula.is_state() {
+                    let fault = Fault::new(start..self.end(), "this speaks of more than one marking");
+                    return Err(fault.help("what holds again and again has no temporal operators"));
+                }
+                self.expect(")")?;
+                assumed.often.push(formula);
+            } else {
+                return Err(self.unexpected("what is assumed is `weak(t)`, `strong(t)` or `often(p)`"));
+            }
+            if !self.take(&[","]) {
+                return Ok(assumed);
+            }
         }
     }
 

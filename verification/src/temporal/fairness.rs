@@ -2,6 +2,7 @@
 
 use super::run::Rest;
 use crate::explicit::{Goal, Graph};
+use crate::property::Assumptions;
 use cotama_core::net::TransitionId;
 use std::collections::VecDeque;
 
@@ -17,7 +18,13 @@ pub struct Fairness<'f> {
     pub strong: Vec<TransitionId>,
 }
 
-impl Fairness<'_> {
+impl<'f> Fairness<'f> {
+    /// That of assumptions; `None` when what is to hold often speaks of more than one marking.
+    pub fn of(assumed: &'f Assumptions) -> Option<Self> {
+        let recurring = assumed.often.iter().map(Goal::new).collect::<Option<_>>()?;
+        Some(Self { recurring, weak: assumed.weak.clone(), strong: assumed.strong.clone() })
+    }
+
     /// Whether all runs are fair.
     pub fn is_none(&self) -> bool {
         self.recurring.is_empty() && self.weak.is_empty() && self.strong.is_empty()

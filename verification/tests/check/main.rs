@@ -7,6 +7,7 @@
 mod contest;
 #[path = "../tpn/discrete.rs"]
 mod discrete;
+mod fair;
 mod laws;
 mod message;
 mod mutations;

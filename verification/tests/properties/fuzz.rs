@@ -3,7 +3,7 @@
 use crate::random::{NAMES, Random, branching, net, path, quantified};
 use cotama_verification::property::{Ids, Question, mcc, parse};
 
-const WORDS: [&str; 48] = [
+const WORDS: [&str; 51] = [
     "A",
     "E",
     "X",
@@ -22,6 +22,9 @@ const WORDS: [&str; 48] = [
     "fireable(",
     "bounds(",
     "bound(",
+    " assuming ",
+    "weak(",
+    "often(",
     "live",
     "(",
     ")",

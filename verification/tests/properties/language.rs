@@ -3,12 +3,16 @@
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};
-use cotama_verification::property::{Atom, Formula, Kind, Linear, MAX_DEPTH, MAX_TEXT, Question, parse};
+use cotama_verification::property::{
+    Assumptions, Atom, Formula, Kind, Linear, MAX_DEPTH, MAX_TEXT, Question, parse,
+};
 use cotama_verification::pt::Pt;
 use std::fmt::Write as _;
 
 const P: PlaceId = PlaceId(0);
 const Q: PlaceId = PlaceId(1);
+const START: TransitionId = TransitionId(0);
+const STOP: TransitionId = TransitionId(1);
 
 /// Places `p`, `q`, `waiting`, `a b` and `E`; transitions `start` and `stop`.
 fn net() -> Pt {
@@ -48,6 +52,10 @@ fn at_most(constant: i64, weights: &[(PlaceId, i64)]) -> Formula {
 fn every_question_can_be_asked() {
     assert_eq!(question("bounds(p + q)"), Question::Bound(vec![P, Q]));
     assert_eq!(question("bound(stop -> p)"), Question::Response { from: TransitionId(1), to: P });
+    let assumed =
+        Assumptions { weak: vec![START], strong: vec![STOP, START], often: vec![marked(P), marked(Q)] };
+    let text = "AF q assuming weak(start), often(p), strong(stop), strong(start), often(q)";
+    assert_eq!(question(text), Question::Fair(formula("AF q"), assumed));
     assert_eq!(question("live"), Question::Liveness);
     assert_eq!(question(" quasi_live "), Question::QuasiLiveness);
     assert_eq!(question("stable"), Question::StableMarking);
@@ -142,6 +150,8 @@ fn formulas_are_written_as_people_write_them() {
         "bounds(p + \"a b\")",
         "bound(start -> q)",
         "quasi_live",
+        "AG (p | AF !p) assuming weak(start, stop), often(p | q)",
+        "AG EF p assuming strong(stop)",
     ] {
         let written = question(text).display(&net()).to_string();
         assert_eq!(written, text);
@@ -247,6 +257,16 @@ fn broken_texts_are_refused_with_their_place_and_what_to_do() {
         "EF {}",
         "p <= deadlock",
         "true <= 3",
+        "AF p assuming",
+        "AF p assuming fair(start)",
+        "AF p assuming weak(p)",
+        "AF p assuming weak(start) strong(stop)",
+        "AF p assuming weak(start),",
+        "AF p assuming often(AF q)",
+        "AF p assuming often(p",
+        "p & A (G F p) assuming weak(start)",
+        "AF<=5ms p assuming weak(start)",
+        "live assuming weak(start)",
     ];
     let mut said = String::new();
     for text in broken {

@@ -34,7 +34,7 @@ pub(crate) fn verdict(net: &Pt, question: &Question) -> Option<bool> {
         Question::QuasiLiveness => Some(transitions.clone().all(|it| fires_from(0, it))),
         Question::StableMarking => Some((0..net.places.len()).any(always)),
         Question::OneSafe => Some(space.markings.iter().flatten().all(|&tokens| tokens <= 1)),
-        Question::Bound(_) | Question::Response { .. } => None,
+        Question::Bound(_) | Question::Response { .. } | Question::Fair(..) => None,
     }
 }
 

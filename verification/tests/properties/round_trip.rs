@@ -1,7 +1,8 @@
 //! A formula that is written and read is the same formula.
 
-use crate::random::{NAMES, Random, net, path, quantified};
-use cotama_verification::property::{Formula, Question, parse};
+use crate::random::{NAMES, Random, branching, net, path, quantified, state};
+use cotama_core::net::TransitionId;
+use cotama_verification::property::{Assumptions, Formula, Question, parse};
 use cotama_verification::pt::Pt;
 
 fn assert_read_back(question: &Question, net: &Pt) {
@@ -29,6 +30,21 @@ fn random_formulas_are_read_back() {
         let formula = quantified(&mut random, path);
         assert_read_back(&Question::Formula(formula.clone()), &net);
         assert_read_back(&Question::Formula(formula.simplified()), &net);
+    }
+}
+
+#[test]
+fn random_assumptions_are_read_back() {
+    let mut random = Random(13);
+    for _ in 0..2_000 {
+        let net = net(&mut random);
+        let some = |random: &mut Random| -> Vec<_> {
+            (0..net.transitions.len() as u32).map(TransitionId).filter(|_| random.below(3) == 0).collect()
+        };
+        let (weak, strong) = (some(&mut random), some(&mut random));
+        let often = (0..=random.below(2)).map(|_| state(&mut random, &net, 2)).collect();
+        let formula = branching(&mut random, &net, 3);
+        assert_read_back(&Question::Fair(formula, Assumptions { weak, strong, often }), &net);
     }
 }
 
