@@ -4,8 +4,7 @@ use std::hint::spin_loop;
 use std::sync::mpsc::{Receiver, RecvError, SyncSender, TryRecvError, sync_channel};
 use std::thread::{Builder, Scope};
 
-/// How often a thread looks for something new before it sleeps: some tens of microseconds, what a level ends apart on threads
-/// that all have work, and less than what it costs to wake one.
+/// How often a thread looks for something new before it sleeps. Chosen, not tuned.
 const LOOKS: usize = 2_000;
 
 /// A thread to which work is sent, and which sends it back when it is done.
