@@ -1,6 +1,7 @@
 //! Markings that a thread sorts by their tables before it adds them.
 
 use super::table::{TABLES, hash, table_of};
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 /// The boxes of a thread, one for each table; apart from those of another thread in the caches of processors.
@@ -12,10 +13,8 @@ pub(super) struct Boxes<const S: usize> {
     via: Vec<u32>,
     /// For each box where its next marking goes.
     ends: [usize; TABLES],
-    /// The box that is emptied first.
-    first: usize,
-    /// How many were given to be emptied.
-    given: AtomicUsize,
+    /// For each thread's share of the tables the box that is given next to be emptied.
+    given: Vec<AtomicUsize>,
 }
 
 impl<const S: usize> Boxes<S> {
@@ -23,13 +22,12 @@ impl<const S: usize> Boxes<S> {
     const ROOM: usize = 1 << (4096 / S).ilog2();
 
     /// Empty ones.
-    pub(super) fn new(first: usize) -> Self {
+    pub(super) fn new(threads: usize) -> Self {
         Self {
             markings: vec![[0; S]; TABLES * Self::ROOM],
             via: vec![0; TABLES * Self::ROOM],
             ends: Self::starts(),
-            first,
-            given: AtomicUsize::new(0),
+            given: (0..threads).map(|it| AtomicUsize::new(share(it, threads).start)).collect(),
         }
     }
 
@@ -62,17 +60,28 @@ impl<const S: usize> Boxes<S> {
     /// Empties all.
     pub(super) fn clear_all(&mut self) {
         self.ends = Self::starts();
-        *self.given.get_mut() = 0;
+        let threads = self.given.len();
+        for (thread, given) in self.given.iter_mut().enumerate() {
+            *given.get_mut() = share(thread, threads).start;
+        }
     }
 
-    /// The next box with something in it; no two threads are given the same one.
-    pub(super) fn next(&self) -> Option<usize> {
+    /// The next box with something in it, of this thread's share of the tables; no two threads are given the same one.
+    pub(super) fn next(&self, owner: usize) -> Option<usize> {
+        let end = share(owner, self.given.len()).end;
         loop {
-            let at = self.given.fetch_add(1, Relaxed);
-            let table = (at < TABLES).then_some((self.first + at) % TABLES)?;
+            let table = self.given[owner].fetch_add(1, Relaxed);
+            if table >= end {
+                return None;
+            }
             if self.ends[table] > table * Self::ROOM {
                 return Some(table);
             }
         }
     }
+}
+
+/// The tables that a thread adds to before it helps others with theirs.
+fn share(thread: usize, threads: usize) -> Range<usize> {
+    thread * TABLES / threads..(thread + 1) * TABLES / threads
 }

@@ -5,6 +5,7 @@
 //! of tokens and the fields of implied places, is added up in the same way. In nets with very many transitions rows list
 //! instead the transitions that may be enabled, each in a single chunk, and the rest of what they need is looked up.
 
+use super::apart::Apart;
 use super::layout::{Field, Layout};
 use super::view::View;
 use crate::pt::Pt;
@@ -17,8 +18,8 @@ const MOST: usize = 1 << 19;
 /// Which values chunks, and which most tokens wide fields had.
 #[derive(Clone, Debug)]
 pub(super) struct Seen {
-    rows: Vec<bool>,
-    wide: Vec<u64>,
+    rows: Apart<bool>,
+    wide: Apart<u64>,
 }
 
 /// A group of fields whose values are the positions of rows.
@@ -91,7 +92,8 @@ impl Enabling {
             in_stored = (chunks.len(), wide.len());
         }
         let is_listed = row * words > MOST;
-        let mut start = View { enabled: vec![0; words], computed: vec![0; layout.computed], sum: 0 };
+        let mut start =
+            View { enabled: Apart::new(0, words), computed: Apart::new(0, layout.computed), sum: 0 };
         for transition in 0..pt.transitions.len() as u32 {
             if !is_listed || pt.needs.of(transition).is_empty() {
                 start.enabled[transition as usize / 64] |= 1 << (transition % 64);
@@ -163,7 +165,7 @@ impl Enabling {
             wide.steps = needed
                 .into_iter()
                 .map(|tokens| {
-                    let mut allowed = self.start.enabled.clone();
+                    let mut allowed = self.start.enabled.to_vec();
                     forbid(pt, wide.place, tokens.saturating_sub(1), &mut allowed);
                     (tokens, allowed)
                 })
@@ -207,7 +209,7 @@ impl Enabling {
     /// Nothing seen yet.
     pub(super) fn unseen(&self) -> Seen {
         let rows = self.chunks.last().map_or(0, |it| it.row + it.mask as usize + 1);
-        Seen { rows: vec![false; rows], wide: vec![0; self.wide.len()] }
+        Seen { rows: Apart::new(false, rows), wide: Apart::new(0, self.wide.len()) }
     }
 
     /// Looks at a marking.
@@ -215,13 +217,13 @@ impl Enabling {
     pub(super) fn look(&self, marking: &[u64], view: &mut View, seen: &mut Seen) {
         if self.bits == 1 && self.start.computed.is_empty() && self.wide.is_empty() {
             let (rows, _) = self.rows.as_chunks::<2>();
-            let (mut enabled, mut sum) = (u64::MAX, 0);
+            let (mut enabled, mut sum, seen) = (u64::MAX, 0, &mut *seen.rows);
             for chunk in &self.chunks {
                 let row = chunk.row + ((marking[chunk.word] >> chunk.shift) & chunk.mask) as usize;
                 let [allowed, tokens] = rows[row];
                 enabled &= allowed;
                 sum += tokens;
-                seen.rows[row] = true;
+                seen[row] = true;
             }
             view.enabled[0] = enabled & self.start.enabled[0];
             view.sum = sum;
@@ -306,8 +308,8 @@ impl Wide {
 impl Seen {
     /// Adds what another one has seen.
     pub(super) fn merge(&mut self, other: &Self) {
-        self.rows.iter_mut().zip(&other.rows).for_each(|(a, b)| *a |= b);
-        self.wide.iter_mut().zip(&other.wide).for_each(|(a, b)| *a = (*a).max(*b));
+        self.rows.iter_mut().zip(&*other.rows).for_each(|(a, b)| *a |= b);
+        self.wide.iter_mut().zip(&*other.wide).for_each(|(a, b)| *a = (*a).max(*b));
     }
 
     /// For each place the most tokens that it held.
@@ -321,7 +323,7 @@ impl Seen {
                 }
             }
         }
-        for (wide, tokens) in enabling.wide.iter().zip(&self.wide) {
+        for (wide, tokens) in enabling.wide.iter().zip(&*self.wide) {
             most[wide.place as usize] = *tokens;
         }
         most

@@ -76,8 +76,9 @@ fn levels<'s, const S: usize>(
         let limit = shared.space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
         let goals: Vec<[u64; S]> =
             workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.goals)).collect();
-        let fresh: Vec<Block<S>> =
-            workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.fresh)).collect();
+        let fresh = workers.iter_mut().map(|it| it.as_mut().map(|it| std::mem::take(&mut it.fresh)));
+        let fresh: Vec<Vec<Block<S>>> = fresh.map(Option::unwrap_or_default).collect();
+        let blocks: usize = fresh.iter().map(Vec::len).sum();
         if let Some(before) = levels.last_mut() {
             *before = workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.kept)).collect();
         }
@@ -86,9 +87,9 @@ fn levels<'s, const S: usize>(
             Some(limit @ (Limit::States | Limit::Tokens)) => Some(End::Limit(limit)),
             _ if !goals.is_empty() => Some(End::Found),
             Some(limit) => Some(End::Limit(limit)),
-            None => fresh.is_empty().then_some(End::Exhausted),
+            None => (blocks == 0).then_some(End::Exhausted),
         };
-        if limit.is_none() && !fresh.is_empty() {
+        if limit.is_none() && blocks > 0 {
             states = shared.states.load(Relaxed);
         }
         if let Some(end) = end {
@@ -100,10 +101,12 @@ fn levels<'s, const S: usize>(
             let (bytes, peak) = (shared.bytes.load(Relaxed), shared.peak.load(Relaxed));
             return Ok(Explored { end, states, depth, tally, levels, goals, bytes, peak });
         }
-        let waiting = fresh.iter().map(|it| it.via.len()).sum::<usize>() as u64;
+        let waiting = fresh.iter().flatten().map(|it| it.via.len()).sum::<usize>() as u64;
         (plan.progress)(Progress { states, depth, waiting });
-        let threads = (fresh.len() / BLOCKS_OF_A_THREAD).clamp(1, workers.len());
-        *lock(&shared.queue) = fresh;
+        let threads = (blocks / BLOCKS_OF_A_THREAD).clamp(1, workers.len());
+        for (queue, fresh) in shared.queues.iter().zip(fresh) {
+            *lock(queue) = fresh;
+        }
         if plan.goal.is_some() {
             levels.push(Vec::new());
         }

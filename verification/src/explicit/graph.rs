@@ -170,7 +170,7 @@ impl Graph {
         let mut all = vec![0; view.enabled.len()];
         for state in states {
             self.space.enabling.look(self.packed(state), &mut view, &mut seen);
-            all.iter_mut().zip(&view.enabled).for_each(|(all, it)| *all |= it);
+            all.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
         }
         all
     }
@@ -255,7 +255,7 @@ impl<'p, const S: usize> Parts<'p, S> {
             while state < level && following.len() < BATCH {
                 let marking = self.markings[state];
                 space.enabling.look(&marking, &mut view, &mut seen);
-                self.fired.iter_mut().zip(&view.enabled).for_each(|(all, it)| *all |= it);
+                self.fired.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
                 self.bytes += make_room(&mut self.starts, 1, self.limits.bytes - self.bytes)?;
                 self.starts.push(self.successors.len() + following.len());
                 let fire = |it: u32| {

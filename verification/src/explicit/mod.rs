@@ -26,6 +26,7 @@
 //! assert_eq!((space.states, space.arcs, space.dead_markings, space.limit), (2, 2, 0, None));
 //! ```
 
+mod apart;
 mod block;
 mod boxes;
 mod crew;

@@ -74,30 +74,21 @@ impl<const S: usize> Table<S> {
         if self.slots.try_reserve_exact(slots - before).is_err() {
             return false;
         }
-        // First all go to the end, in their order, which is that of their hashes but for neighbours. Those that went around
-        // the end of the table are among those at its start.
-        let (mut end, mut late) = (slots, Vec::new());
-        let around = self.slots.iter().take_while(|it| it[0] != 0).count();
-        for at in 0..around {
-            if self.home(&self.slots[at]) > at {
-                late.push(std::mem::replace(&mut self.slots[at], [0; S]));
-            }
-        }
         self.slots.resize(slots, [0; S]);
-        for at in (0..before).rev() {
-            if self.slots[at][0] != 0 {
-                end -= 1;
-                self.slots.swap(at, end);
-            }
-        }
-        // Then each goes back to where it belongs; a few that do not come so far wait.
-        for from in end..slots {
+        // From the last one down, each moves up to where it belongs, past those that moved before. Some wait: a few at the
+        // start, which belong where others have not moved yet, and those that find no place before the end.
+        let mut late = Vec::new();
+        for from in (0..before).rev() {
             let marking = std::mem::replace(&mut self.slots[from], [0; S]);
-            let mut at = self.home(&marking);
-            while at < from && self.slots[at][0] != 0 {
-                at += 1;
+            if marking[0] == 0 {
+                continue;
             }
-            if at <= from { self.slots[at] = marking } else { late.push(marking) }
+            let home = self.home(&marking);
+            let free = (home.max(from)..slots).find(|at| self.slots[*at][0] == 0);
+            match free.filter(|_| home >= from) {
+                Some(at) => self.slots[at] = marking,
+                None => late.push(marking),
+            }
         }
         for marking in late {
             let mut at = self.home(&marking);

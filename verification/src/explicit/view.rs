@@ -1,12 +1,14 @@
 //! What a packed marking says of the net.
 
+use super::apart::Apart;
+
 /// What a marking says, and room to compute it in.
 #[derive(Clone, Debug, Default)]
 pub(super) struct View {
     /// A bit for each transition: those that are enabled.
-    pub(super) enabled: Vec<u64>,
+    pub(super) enabled: Apart<u64>,
     /// Words of implied places.
-    pub(super) computed: Vec<u64>,
+    pub(super) computed: Apart<u64>,
     /// Tokens of all places.
     pub(super) sum: u64,
 }

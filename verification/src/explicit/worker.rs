@@ -1,5 +1,6 @@
 //! What one thread does of a level.
 
+use super::apart::Apart;
 use super::block::Block;
 use super::boxes::Boxes;
 use super::crew::Mate;
@@ -24,7 +25,7 @@ pub(super) struct Tally {
     pub(super) sum: u64,
     pub(super) seen: Seen,
     /// A bit for each transition that was enabled.
-    pub(super) enabled: Vec<u64>,
+    pub(super) enabled: Apart<u64>,
 }
 
 /// What threads share.
@@ -37,7 +38,8 @@ pub(super) struct Shared<'s, const S: usize> {
     tables: Vec<Mutex<Table<S>>>,
     /// Those of each thread; it holds the lock while it fills them.
     boxes: Vec<RwLock<Boxes<S>>>,
-    pub(super) queue: Mutex<Vec<Block<S>>>,
+    /// The level: for each thread the blocks that it found.
+    pub(super) queues: Vec<Mutex<Vec<Block<S>>>>,
     spare: Mutex<Vec<Block<S>>>,
     pub(super) states: AtomicU64,
     pub(super) bytes: AtomicU64,
@@ -80,9 +82,8 @@ impl<'s, const S: usize> Shared<'s, S> {
             limits: plan.limits,
             goal: plan.goal,
             tables: (0..TABLES).map(|_| Mutex::new(Table::new())).collect(),
-            // Threads seldom wait for each other when each starts with another box.
-            boxes: (0..jobs).map(|it| RwLock::new(Boxes::new(it * TABLES / jobs))).collect(),
-            queue: Mutex::default(),
+            boxes: (0..jobs).map(|_| RwLock::new(Boxes::new(jobs))).collect(),
+            queues: (0..jobs).map(|_| Mutex::default()).collect(),
             spare: Mutex::default(),
             states: AtomicU64::new(0),
             bytes: AtomicU64::new(0),
@@ -134,7 +135,7 @@ impl<'s, const S: usize> Shared<'s, S> {
 
 impl Tally {
     pub(super) fn new(space: &Space) -> Self {
-        let enabled = vec![0; space.enabling.view().enabled.len()];
+        let enabled = Apart::new(0, space.enabling.view().enabled.len());
         Self { arcs: 0, dead: 0, sum: 0, seen: space.enabling.unseen(), enabled }
     }
 
@@ -144,7 +145,7 @@ impl Tally {
         self.dead += other.dead;
         self.sum = self.sum.max(other.sum);
         self.seen.merge(&other.seen);
-        self.enabled.iter_mut().zip(&other.enabled).for_each(|(a, b)| *a |= b);
+        self.enabled.iter_mut().zip(&*other.enabled).for_each(|(a, b)| *a |= b);
     }
 }
 
@@ -184,19 +185,32 @@ impl<const S: usize> Worker<S> {
     pub(super) fn start(&mut self, shared: &Shared<'_, S>) {
         let mut boxes = write(&shared.boxes[self.number]);
         boxes.put(&shared.space.initial(), Diamonds::NONE);
-        boxes.next().into_iter().for_each(|it| self.empty(shared, &boxes, it));
+        self.first(shared).for_each(|owner| self.empty_all(shared, &boxes, owner));
     }
 
     /// Takes blocks of the level as long as there are any, and then boxes.
     pub(super) fn level(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
         self.fill(shared, tick);
-        // Its own ones first: the others may not be filled yet.
-        let (before, after) = shared.boxes.split_at(self.number);
-        for boxes in after.iter().chain(before) {
-            let boxes = boxes.read().unwrap_or_else(PoisonError::into_inner);
-            while let Some(table) = boxes.next() {
-                self.empty(shared, &boxes, table);
+        // Of its own share of the tables first, so that a thread mostly meets what it wrote itself, and expands what it found
+        // itself; its own boxes first, because the others may not be filled yet.
+        for owner in self.first(shared) {
+            for it in self.first(shared) {
+                // One lock at a time: who holds one and waits for another may wait for ever.
+                let boxes = shared.boxes[it].read().unwrap_or_else(PoisonError::into_inner);
+                self.empty_all(shared, &boxes, owner);
             }
+        }
+    }
+
+    /// The numbers of all threads, its own first.
+    fn first(&self, shared: &Shared<'_, S>) -> impl Iterator<Item = usize> + use<S> {
+        (self.number..shared.boxes.len()).chain(0..self.number)
+    }
+
+    /// Empties boxes of a thread's share of the tables as long as there are any.
+    fn empty_all(&mut self, shared: &Shared<'_, S>, boxes: &Boxes<S>, owner: usize) {
+        while let Some(table) = boxes.next(owner) {
+            self.empty(shared, boxes, table);
         }
     }
 
@@ -206,7 +220,9 @@ impl<const S: usize> Worker<S> {
         let mut boxes = write(&shared.boxes[self.number]);
         boxes.clear_all();
         loop {
-            let Some(mut block) = lock(&shared.queue).pop() else { break };
+            let Some(mut block) = self.first(shared).find_map(|it| lock(&shared.queues[it]).pop()) else {
+                break;
+            };
             if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
                 shared.stop(Limit::Time);
             }
@@ -241,7 +257,7 @@ impl<const S: usize> Worker<S> {
             let before = arcs;
             let left_out = shared.diamonds.of(via);
             for (at, ((&enabled, ever), left_out)) in
-                view.enabled.iter().zip(&mut ever).zip(left_out).enumerate()
+                view.enabled.iter().zip(&mut *ever).zip(left_out).enumerate()
             {
                 *ever |= enabled;
                 arcs += u64::from(enabled.count_ones());
