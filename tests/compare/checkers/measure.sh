@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Measures our checker beside stateright (reachable markings) and libpetri (state classes of time nets).
 #
-#   tests/compare/checkers/measure.sh [--repeat N] [--small]
+#   tests/compare/checkers/measure.sh [--repeat N] [--pairs N] [--small]
 #
-# Each run is a process of its own; figures are medians of N runs (3), taken in turns. --small leaves out the nets that
+# Each run is a process of its own; figures are medians of N runs (3), taken in turns. Two threads are compared with one in
+# N pairs (25), each beside two processes at once that share nothing: what the machine gives two of anything. --small leaves out the nets that
 # take stateright more than a few seconds. Referendum is read from the folder COTAMA_MCC_DIR, further time nets from
 # COTAMA_TPN_DIR. Prints Markdown. Exit status 1 when counts differ.
 set -euo pipefail
@@ -11,16 +12,19 @@ here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../../target/checkers}")
 export CARGO_TARGET_DIR
 repeat=3
+pairs=25
 markings=(philosophers:12 kanban:5 fms:5)
 large=1
 while [ $# -gt 0 ]; do
     case $1 in
         --repeat) repeat=${2:?--repeat takes a number}; shift 2 ;;
+        --pairs) pairs=${2:?--pairs takes a number}; shift 2 ;;
         --small) markings=(philosophers:11 kanban:4 fms:4); large=0; shift ;;
         *) echo "unknown argument $1" >&2; exit 2 ;;
     esac
 done
 [[ $repeat =~ ^[1-9][0-9]*$ ]] || { echo "--repeat takes a number from 1" >&2; exit 2; }
+[[ $pairs =~ ^[1-9][0-9]*$ ]] || { echo "--pairs takes a number from 1" >&2; exit 2; }
 (cd "$here" && cargo build --quiet --locked --release)
 checkers=$CARGO_TARGET_DIR/release/checkers
 work=$(mktemp -d)
@@ -68,12 +72,10 @@ fi
 echo
 echo "| net | states | states per CPU second: ours | stateright | ratio | bytes per state: ours | stateright | ratio |"
 echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
-: >"$work/threads"
 for net in "${markings[@]}"; do
-    runs markings "$net" cotama cotama-2 array-bfs vec-bfs
-    read -r states edges _ time clock bytes < <(medians "$work/cotama")
-    read -r _ _ _ _ clock_2 _ < <(medians "$work/cotama-2")
-    for other in cotama-2 array-bfs vec-bfs; do
+    runs markings "$net" cotama array-bfs vec-bfs
+    read -r states edges _ time _ bytes < <(medians "$work/cotama")
+    for other in array-bfs vec-bfs; do
         cmp -s <(cut -d' ' -f1-2 "$work/cotama" | sort -u) <(cut -d' ' -f1-2 "$work/$other" | sort -u) ||
             differ "$net, $other with ours"
     done
@@ -86,13 +88,27 @@ for net in "${markings[@]}"; do
     awk -v name="$name" -v n="$states" -v t="$time" -v b="$((bytes - nothing))" -v u="$best_time" \
         -v c="$((best_bytes - nothing))" 'BEGIN {
             printf "| %s | %d | %.0f | %.0f | %.1f | %.1f | %.1f | %.1f |\n", name, n, n / t, n / u, u / t, b / n, c / n, c / b }'
-    awk -v name="$name" -v n="$states" -v one="$clock" -v two="$clock_2" 'BEGIN {
-        printf "| %s | %d | %.3f | %.3f | %.2f |\n", name, n, one, two, one / two }' >>"$work/threads"
 done
 echo
-echo "| net | states | seconds by the clock: 1 thread | 2 threads | speedup |"
-echo "| --- | ---: | ---: | ---: | ---: |"
-cat "$work/threads"
+echo "| net | seconds by the clock: 1 thread | 2 threads | pairs | speedup, median | least | most | two processes |"
+echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+for net in "${markings[@]}"; do
+    for _ in $(seq "$pairs"); do
+        one=$("$checkers" markings cotama "$net")
+        two=$("$checkers" markings cotama-2 "$net")
+        "$checkers" markings cotama "$net" >"$work/first" &
+        "$checkers" markings cotama "$net" >"$work/second"
+        wait $!
+        [ "$(cut -d' ' -f1-2 <<<"$one")" = "$(cut -d' ' -f1-2 <<<"$two")" ] || differ "$net, two threads with one"
+        both=$(cut -d' ' -f5 "$work/first" "$work/second" | sort -g | tail -1)
+        awk -v one="$(cut -d' ' -f5 <<<"$one")" -v two="$(cut -d' ' -f5 <<<"$two")" -v both="$both" \
+            'BEGIN { print one, two, one / two, 2 * one / both }'
+    done >"$work/pairs"
+    middle() { cut -d' ' -f"$1" "$work/pairs" | sort -g | awk '{ it[NR] = $1 } END { print it[int((NR + 1) / 2)] }'; }
+    ends=$(cut -d' ' -f3 "$work/pairs" | sort -g)
+    printf '| %s | %.3f | %.3f | %d | %.2f | %.2f | %.2f | %.2f |\n' "$(basename "$net" .pnml)" "$(middle 1)" "$(middle 2)" \
+        "$pairs" "$(middle 3)" "$(head -1 <<<"$ends")" "$(tail -1 <<<"$ends")" "$(middle 4)"
+done
 echo "load average now $(cut -d' ' -f1-3 /proc/loadavg), $(nproc) processors"
 
 timed=(crossing:2 line:3 crossing:3 line:4 line:5)
