@@ -56,7 +56,8 @@ impl<const A: usize> Instance<A> {
             .expect("an instance is a problem")
     }
 
-    /// Sets each limit at a share, in permille, of the way from the least to the largest total of its axis.
+    /// Sets each limit at a share, in permille, of the way from the least to the largest total of
+    /// its axis.
     fn limited(activities: Vec<Vec<Candidate<A>>>, permille: [u64; A]) -> Self {
         let limits = core::array::from_fn(|axis| {
             let sum = |pick: fn(u64, u64) -> u64| -> u64 {
@@ -72,9 +73,13 @@ impl<const A: usize> Instance<A> {
     }
 }
 
-/// Robot-like travel: 7 moving options times 3 localisations on a stretch of corridor, with the patrol's speeds
-/// and powers.
-fn travel(draw: &mut Draw, zone_speed: u64, allowed: impl Fn(u64, usize) -> bool) -> Vec<Candidate<2>> {
+/// Robot-like travel: 7 moving options times 3 localisations on a stretch of corridor, with the
+/// patrol's speeds and powers.
+fn travel(
+    draw: &mut Draw,
+    zone_speed: u64,
+    allowed: impl Fn(u64, usize) -> bool,
+) -> Vec<Candidate<2>> {
     let length = draw.between(5, 400) * 100;
     // Sonar rings and lasers of M1..M7; Kinect and lasers of L1..L3, and their quality.
     let moving = [(1, 0), (1, 0), (0, 1), (0, 2), (1, 2), (1, 2), (0, 2)];
@@ -86,7 +91,8 @@ fn travel(draw: &mut Draw, zone_speed: u64, allowed: impl Fn(u64, usize) -> bool
                 continue;
             }
             let speed: u64 = if kinect > 0 { zone_speed.min(410) } else { zone_speed };
-            let motion = 4890 + (3930 * speed + 500) / 1000 + (8466 * speed * speed + 500_000) / 1_000_000;
+            let motion =
+                4890 + (3930 * speed + 500) / 1000 + (8466 * speed * speed + 500_000) / 1_000_000;
             let power = motion + 1300 * sonar + 2200 * lasers.max(more_lasers) + 4600 * kinect;
             let duration = (length * 1000 + speed / 2) / speed;
             candidates.push(Candidate {
@@ -104,8 +110,9 @@ fn travel(draw: &mut Draw, zone_speed: u64, allowed: impl Fn(u64, usize) -> bool
 pub enum Zones {
     /// Each its own, from 300 to 600 mm/s.
     Varied,
-    /// The patrol's three, 330, 410 and 560 mm/s: many activities then share the very same ratio of quality to
-    /// energy, which makes a long mission a subset-sum problem and the hardest kind here.
+    /// The patrol's three, 330, 410 and 560 mm/s: many activities then share the very same ratio of
+    /// quality to energy, which makes a long mission a subset-sum problem and the hardest kind
+    /// here.
     Three,
 }
 
@@ -129,8 +136,8 @@ pub fn robot_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64
     Instance::limited((0..activities).map(|_| one()).collect(), permille)
 }
 
-/// Missions like the paper's: stretches with 21, 12 or 4 candidates, and at every fourth place a turn,
-/// a detection and a turn.
+/// Missions like the paper's: stretches with 21, 12 or 4 candidates, and at every fourth place a
+/// turn, a detection and a turn.
 #[must_use]
 pub fn paper_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64) -> Instance<2> {
     let mut draw = Draw::new(seed);
@@ -161,7 +168,8 @@ pub fn paper_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64
     Instance::limited(made, permille)
 }
 
-/// A mission of 17 activities like the paper's, with either kind of zones and limits anywhere between least and most.
+/// A mission of 17 activities like the paper's, with either kind of zones and limits anywhere
+/// between least and most.
 #[must_use]
 pub fn random_mission(seed: u64) -> Instance<2> {
     let mut draw = Draw::new(seed);
@@ -178,9 +186,15 @@ pub enum Correlation {
     Strong,
 }
 
-/// Costs from 1 to 1000 on both axes; the limits half way from least to largest (Pisinger's classes, two limits).
+/// Costs from 1 to 1000 on both axes; the limits half way from least to largest (Pisinger's
+/// classes, two limits).
 #[must_use]
-pub fn correlated(activities: usize, candidates: usize, correlation: Correlation, seed: u64) -> Instance<2> {
+pub fn correlated(
+    activities: usize,
+    candidates: usize,
+    correlation: Correlation,
+    seed: u64,
+) -> Instance<2> {
     let mut draw = Draw::new(seed);
     let mut one = |id: usize| {
         let cost = [draw.between(1, 1000), draw.between(1, 1000)];
@@ -195,8 +209,8 @@ pub fn correlated(activities: usize, candidates: usize, correlation: Correlation
     Instance::limited(made, [500, 500])
 }
 
-/// A small problem for comparison with brute force: costs and qualities from a small range, so that ties, equal
-/// candidates and infeasible limits are frequent.
+/// A small problem for comparison with brute force: costs and qualities from a small range, so that
+/// ties, equal candidates and infeasible limits are frequent.
 #[must_use]
 pub fn small<const A: usize>(seed: u64) -> Instance<A> {
     let mut draw = Draw::new(seed);

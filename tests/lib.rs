@@ -1,5 +1,5 @@
-//! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol as one; the
-//! token game by the book.
+//! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol
+//! as one; the token game by the book.
 
 pub mod instances;
 pub mod textbook;

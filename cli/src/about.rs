@@ -54,7 +54,8 @@ pub(crate) fn man(args: &ManArgs) -> Result<Exit, Failure> {
     let command = match &args.command {
         None => program,
         Some(name) => program.find_subcommand(name).cloned().ok_or_else(|| {
-            Failure::new(format!("there is no command `{name}`")).help("`cotama help` lists the commands")
+            Failure::new(format!("there is no command `{name}`"))
+                .help("`cotama help` lists the commands")
         })?,
     };
     let mut page = Vec::new();

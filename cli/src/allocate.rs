@@ -31,7 +31,8 @@ pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Fai
         AllocatorName::Exact => Method::Exact(&objective),
         AllocatorName::Panorama => Method::Rule,
     };
-    let solution = solve(&problem, method, args.steps).map_err(|error| Failure::new(error.to_string()))?;
+    let solution =
+        solve(&problem, method, args.steps).map_err(|error| Failure::new(error.to_string()))?;
     let planned = solution.planned();
     let reason = match solution.verdict {
         Verdict::Infeasible { axis, least } => {

@@ -55,7 +55,8 @@ pub(crate) struct PlanAnswer {
     pub(crate) mission: String,
     /// The activities, in sequence.
     pub(crate) activities: Vec<ActivityRow>,
-    /// How many plans there are, within the limits or not, as a decimal number; `more than 2^128` beyond that.
+    /// How many plans there are, within the limits or not, as a decimal number; `more than 2^128`
+    /// beyond that.
     pub(crate) combinations: String,
     /// What the plan was chosen for: `paper`, `quality`, `min-energy` or `front`.
     pub(crate) objective: &'static str,
@@ -73,11 +74,13 @@ pub(crate) struct PlanAnswer {
     pub(crate) duration_margin_ms: Option<i64>,
     /// Limit less plan.
     pub(crate) energy_margin_mj: Option<i64>,
-    /// No plan within the limits has more of the objective (less, for `min-energy`); none if nothing is proven.
+    /// No plan within the limits has more of the objective (less, for `min-energy`); none if
+    /// nothing is proven.
     pub(crate) bound: Option<u64>,
     /// The work done, in steps of the allocator; not counted for a front.
     pub(crate) steps: u64,
-    /// For the objective `front`: all plans of which none is better in duration, energy and quality, by duration.
+    /// For the objective `front`: all plans of which none is better in duration, energy and
+    /// quality, by duration.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) front: Option<Vec<FrontRow>>,
     /// Why there is no plan.
@@ -217,7 +220,8 @@ pub(crate) struct AllocateAnswer {
     pub(crate) energy_mj: Option<u64>,
     /// For each activity the index of its candidate, from 0; empty without a plan.
     pub(crate) choice: Vec<u16>,
-    /// No plan within the limits has more quality (less energy, for `min-energy`); none if nothing is proven.
+    /// No plan within the limits has more quality (less energy, for `min-energy`); none if nothing
+    /// is proven.
     pub(crate) bound: Option<u64>,
     /// The work done, in steps of the allocator.
     pub(crate) steps: u64,
@@ -234,7 +238,8 @@ pub(crate) enum Outcome {
     Completed,
     /// The robot stopped, or never left, and asked its operator.
     Safe,
-    /// All activities are done, but a limit is exceeded; or a supervised mission was not done after an hour.
+    /// All activities are done, but a limit is exceeded; or a supervised mission was not done after
+    /// an hour.
     Failed,
 }
 

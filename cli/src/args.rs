@@ -57,9 +57,9 @@ Examples:
     List(ListArgs),
     /// Splits a mission into activities and plans it, without running it
     ///
-    /// Objectives are cut at the borders of zones into activities. Each activity has candidates: one option for each
-    /// of its tasks, as far as the constraints of the zones allow. A plan takes one candidate for each activity, so
-    /// that duration and energy stay within their limits.
+    /// Objectives are cut at the borders of zones into activities. Each activity has candidates:
+    /// one option for each of its tasks, as far as the constraints of the zones allow. A plan takes
+    /// one candidate for each activity, so that duration and energy stay within their limits.
     #[command(after_long_help = "\
 Examples:
   $ cotama plan patrol
@@ -69,10 +69,10 @@ Examples:
     Plan(PlanArgs),
     /// Plans a mission, runs it with its faults, plans again where needed, and writes a report
     ///
-    /// The run is simulated and deterministic: the same mission, faults and seed give the same run. Margins (limit
-    /// less used less planned) are watched; when one falls below zero, or planned hardware fails, the rest of the
-    /// mission is planned anew. A mission with `[supervision]` is driven by its supervisors, who find, judge and answer
-    /// each failure, and ask the operator.
+    /// The run is simulated and deterministic: the same mission, faults and seed give the same run.
+    /// Margins (limit less used less planned) are watched; when one falls below zero, or planned
+    /// hardware fails, the rest of the mission is planned anew. A mission with `[supervision]` is
+    /// driven by its supervisors, who find, judge and answer each failure, and ask the operator.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol
@@ -83,8 +83,9 @@ Examples:
     Run(RunArgs),
     /// Solves a bare allocation problem, without a mission
     ///
-    /// One candidate is chosen for each activity, so that both sums are at most the limits. The instance is a JSON
-    /// object, as below; each candidate is a list of its quality, its duration and its energy.
+    /// One candidate is chosen for each activity, so that both sums are at most the limits. The
+    /// instance is a JSON object, as below; each candidate is a list of its quality, its duration
+    /// and its energy.
     #[command(after_long_help = "\
 Instance:
   {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},
@@ -98,8 +99,8 @@ Examples:
     Allocate(AllocateArgs),
     /// Runs a stored trace or fault scenario again and compares
     ///
-    /// A trace holds everything that its run needs: it is run again and both are compared, record by record. A file of
-    /// faults needs a mission; it is run twice, and both runs are compared.
+    /// A trace holds everything that its run needs: it is run again and both are compared, record
+    /// by record. A file of faults needs a mission; it is run twice, and both runs are compared.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol --trace patrol.jsonl
@@ -108,9 +109,10 @@ Examples:
     Replay(ReplayArgs),
     /// Shows the models: nets and systems, and what is known of one
     ///
-    /// A model is a net, a family of nets (`philosophers:5` is one of it) or a system of nets. Nets of this program
-    /// have laws, which were checked in all reachable markings while it was compiled; what a file claims is only said.
-    /// PNML files are read up to 256 MiB, JSON files up to 64 MiB.
+    /// A model is a net, a family of nets (`philosophers:5` is one of it) or a system of nets. Nets
+    /// of this program have laws, which were checked in all reachable markings while it was
+    /// compiled; what a file claims is only said. PNML files are read up to 256 MiB, JSON files up
+    /// to 64 MiB.
     #[command(after_long_help = model::MODELS_EXAMPLES)]
     Models(ModelsArgs),
     /// Writes a model as a file of another tool, or as a drawing
@@ -118,14 +120,16 @@ Examples:
     Export(ExportArgs),
     /// Checks whether properties of a model hold, and shows why
     ///
-    /// Every verdict is a proof: where a limit is reached before, the answer is that it is not known, and how much was
-    /// looked at. Transitions with intervals of time fire within them; events can come at any time. A system is
-    /// checked as one net, in every interleaving. A property that is false comes with a run that shows it.
+    /// Every verdict is a proof: where a limit is reached before, the answer is that it is not
+    /// known, and how much was looked at. Transitions with intervals of time fire within them;
+    /// events can come at any time. A system is checked as one net, in every interleaving. A
+    /// property that is false comes with a run that shows it.
     #[command(after_long_help = check::CHECK_EXAMPLES)]
     Check(CheckArgs),
     /// Counts what is reachable in a model: markings, firings, deadlocks, tokens
     ///
-    /// Of a time net, state classes are counted: markings with the times at which transitions can fire.
+    /// Of a time net, state classes are counted: markings with the times at which transitions can
+    /// fire.
     #[command(after_long_help = check::STATESPACE_EXAMPLES)]
     Statespace(StatespaceArgs),
     /// Checks a certificate again, without the engine that found it
@@ -133,15 +137,18 @@ Examples:
     Verify(VerifyArgs),
     /// Plays a net, with a list of events or by hand
     ///
-    /// Each event is offered in its turn: a transition that is enabled fires, then those that fire by themselves; or
-    /// the event is ignored, and it is said why. Between events, time passes only as you say. A net with neither events
-    /// nor time does nothing by itself: there, each transition is fired by its name.
+    /// Each event is offered in its turn: a transition that is enabled fires, then those that fire
+    /// by themselves; or the event is ignored, and it is said why. Between events, time passes only
+    /// as you say. A net with neither events nor time does nothing by itself: there, each
+    /// transition is fired by its name.
     #[command(after_long_help = model::SIMULATE_EXAMPLES)]
     Simulate(SimulateArgs),
-    /// Shows what can fail on the delivery robot, how it is seen, what is done, and what looks alike
+    /// Shows what can fail on the delivery robot, how it is seen, what is done, and what looks
+    /// alike
     ///
-    /// The failure modes, effects and criticality analysis (FMECA) of COTAMA's delivery robot, from the same typed data
-    /// that its diagnosis and its decisions run on. The diagrams are of causes and effects (Ishikawa), one a function.
+    /// The failure modes, effects and criticality analysis (FMECA) of COTAMA's delivery robot, from
+    /// the same typed data that its diagnosis and its decisions run on. The diagrams are of causes
+    /// and effects (Ishikawa), one a function.
     #[command(after_long_help = fmeca::FMECA_EXAMPLES)]
     Fmeca(FmecaArgs),
     /// Prints the tables of a mission as Rust source, for firmware
@@ -194,7 +201,8 @@ pub(crate) struct ListArgs {
 /// Who plans, and with what.
 #[derive(Args, Debug)]
 pub(crate) struct Planning {
-    /// Who plans: the rule of PANORAMA, or a complete search [default: panorama for the objective paper, else exact]
+    /// Who plans: the rule of PANORAMA, or a complete search [default: panorama for the objective
+    /// paper, else exact]
     #[arg(long, value_enum, value_name = "WHO", hide_possible_values = false)]
     pub(crate) allocator: Option<AllocatorName>,
     /// The most steps of a complete search
@@ -218,8 +226,9 @@ pub(crate) struct Planning {
 pub(crate) struct PlanArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
-    /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all plans of which none is
-    /// better in duration, energy and quality [default: paper; quality for a supervised mission]
+    /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all
+    /// plans of which none is better in duration, energy and quality [default: paper; quality for a
+    /// supervised mission]
     #[arg(long, value_name = "WHAT", value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
     pub(crate) objective: Option<Objective>,
     #[command(flatten)]
@@ -232,8 +241,8 @@ pub(crate) struct PlanArgs {
 pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
-    /// What a plan is chosen for: the paper's rule, the most quality, or the least energy [default: paper; quality
-    /// for a supervised mission]
+    /// What a plan is chosen for: the paper's rule, the most quality, or the least energy [default:
+    /// paper; quality for a supervised mission]
     #[arg(long, value_name = "WHAT", value_parser = objectives(&["paper", "quality", "min-energy"]))]
     pub(crate) objective: Option<Objective>,
     #[command(flatten)]
@@ -241,7 +250,8 @@ pub(crate) struct RunArgs {
     /// The seed of all random numbers; under supervisors nothing is random yet
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
-    /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of faults
+    /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of
+    /// faults
     #[arg(long, value_name = "none|script|FILE", default_value = "script")]
     pub(crate) faults: String,
     /// How often margins are checked, in ms [default: as the mission file says]

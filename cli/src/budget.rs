@@ -29,7 +29,10 @@ impl Budget {
             let left = deadline.saturating_duration_since(now);
             now + left / u32::try_from(of.max(1)).unwrap_or(u32::MAX)
         };
-        Self { limits: explicit::Limits { deadline: self.limits.deadline.map(part), ..self.limits }, ..self }
+        Self {
+            limits: explicit::Limits { deadline: self.limits.deadline.map(part), ..self.limits },
+            ..self
+        }
     }
 
     /// The same for state classes.

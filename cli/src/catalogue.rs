@@ -3,9 +3,9 @@
 use cotama_core::net::{Known, Net};
 use cotama_core::system::System;
 use cotama_models::cotama::{
-    RECOVERY_REQUIREMENTS, REPLACED, REQUIREMENTS, Requirement, contextual, decision, delivery, environment,
-    faults, global, local, observation, operator, path_following, permit, recovering, recovery,
-    teleoperation,
+    RECOVERY_REQUIREMENTS, REPLACED, REQUIREMENTS, Requirement, contextual, decision, delivery,
+    environment, faults, global, local, observation, operator, path_following, permit, recovering,
+    recovery, teleoperation,
 };
 use cotama_models::nets::families::Family;
 use cotama_models::nets::{self, Model};
@@ -78,8 +78,11 @@ pub(crate) fn entries() -> Vec<Entry> {
         description: net.doc,
         kind: Kind::Net(net, known),
     });
-    let systems =
-        SYSTEMS.iter().map(|it| Entry { name: it.name, description: it.doc, kind: Kind::System(it) });
+    let systems = SYSTEMS.iter().map(|it| Entry {
+        name: it.name,
+        description: it.doc,
+        kind: Kind::System(it),
+    });
     shipped.chain(supervisors).chain(systems).collect()
 }
 

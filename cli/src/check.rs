@@ -31,8 +31,10 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
     let mut files = Files::new(args)?;
     let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
     let asked = questions::asked(args, &subject)?;
-    if let Some(it) =
-        asked.properties.iter().find(|it| args.mcc && matches!(it.question, Question::Response { .. }))
+    if let Some(it) = asked
+        .properties
+        .iter()
+        .find(|it| args.mcc && matches!(it.question, Question::Response { .. }))
     {
         return Err(Failure::new(format!(
             "the contest has no form for the time that `{}` asks for",
@@ -80,7 +82,10 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
                 });
             }
             Some(Err(error)) => {
-                screen.note(&format!("the run for {} cannot be shown: {error}", visible(&property.name)));
+                screen.note(&format!(
+                    "the run for {} cannot be shown: {error}",
+                    visible(&property.name)
+                ));
             }
             None => match explained::unused(checker, property, &answer, &options) {
                 Some(unused) => {
@@ -118,7 +123,8 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
     Ok(ended(&answer.results))
 }
 
-/// What is known of requirements without a checker. That transitions say what they must is looked up in the nets.
+/// What is known of requirements without a checker. That transitions say what they must is looked
+/// up in the nets.
 fn otherwise(asked: &questions::Asked, model: &str) -> Vec<OtherwiseRow> {
     let entry = catalogue::entry(model).filter(|_| !asked.requirements.is_empty());
     let Some(Entry { kind: Kind::System(system), .. }) = entry else { return Vec::new() };

@@ -32,7 +32,9 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
             .help("drawings: dot, svg, mermaid"));
     }
     let text = match catalogue::entry(&args.model.model) {
-        Some(Entry { kind: Kind::System(system), .. }) if format == Format::Svg => overview::write(system),
+        Some(Entry { kind: Kind::System(system), .. }) if format == Format::Svg => {
+            overview::write(system)
+        }
         _ => {
             let loaded = model::load(&args.model.model)?;
             written(&loaded.net.view().net(), format, args.style.unwrap_or(DrawnAs::Auto), screen)?
@@ -48,7 +50,12 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
     Ok(Exit::Success)
 }
 
-fn written(net: &Net<'_>, format: Format, style: DrawnAs, screen: &Screen) -> Result<String, Failure> {
+fn written(
+    net: &Net<'_>,
+    format: Format,
+    style: DrawnAs,
+    screen: &Screen,
+) -> Result<String, Failure> {
     let style = match style {
         DrawnAs::States => Style::States,
         DrawnAs::Net => Style::Net,
@@ -70,9 +77,10 @@ fn matrices(net: &Net<'_>) -> Result<String, Failure> {
     let (places, transitions) = (net.places.len(), net.transitions.len());
     if places.saturating_mul(transitions) > MOST_ENTRIES {
         let size = format!("{places} places by {transitions} transitions");
-        return Err(Failure::new(format!("{}: too large for matrices: {size}", visible(net.name))).help(
-            format!("a matrix has at most {MOST_ENTRIES} entries; `--format json` lists the arcs only"),
-        ));
+        return Err(Failure::new(format!("{}: too large for matrices: {size}", visible(net.name)))
+            .help(format!(
+                "a matrix has at most {MOST_ENTRIES} entries; `--format json` lists the arcs only"
+            )));
     }
     Ok(matrix::write(net))
 }

@@ -42,8 +42,15 @@ pub(crate) struct Mark {
 
 impl FileErrors {
     /// One error at a line and a column in bytes, both from 1.
-    pub(crate) fn at(source: &str, text: String, line: usize, column: usize, message: String) -> Self {
-        let before: usize = text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
+    pub(crate) fn at(
+        source: &str,
+        text: String,
+        line: usize,
+        column: usize,
+        message: String,
+    ) -> Self {
+        let before: usize =
+            text.split_inclusive('\n').take(line.saturating_sub(1)).map(str::len).sum();
         let mut start = (before + column.saturating_sub(1)).min(text.len());
         while !text.is_char_boundary(start) {
             start -= 1;

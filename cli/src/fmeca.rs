@@ -70,7 +70,8 @@ fn only_drawings(what: &str) -> Failure {
 /// The function of this name.
 fn known(name: &str) -> Result<&'static str, Failure> {
     functions().find(|&it| it == name).ok_or_else(|| {
-        let guess = near(name, functions()).map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
+        let guess = near(name, functions())
+            .map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
         Failure::new(format!("there is no function `{name}`{guess}"))
             .help(format!("functions: {}", functions().collect::<Vec<_>>().join(", ")))
     })
@@ -85,7 +86,8 @@ fn by_name(path: &Path) -> Result<FmecaFormat, Failure> {
         Some("html" | "htm") => FmecaFormat::Html,
         Some("svg") => FmecaFormat::Svg,
         _ => {
-            let formats: Vec<_> = FmecaFormat::value_variants().iter().map(|&it| name(it)).collect();
+            let formats: Vec<_> =
+                FmecaFormat::value_variants().iter().map(|&it| name(it)).collect();
             let message = format!("{}: the end of this name says no format", path.display());
             return Err(Failure::new(message).help(format!("--format {}", formats.join("|"))));
         }

@@ -9,8 +9,8 @@ use cotama_models::scenario::Constraint;
 /// The units of the axes.
 pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];
 
-/// Why a mission has no plan within these limits with this hardware; none if it has one, or if the search for the
-/// explanation was cut short.
+/// Why a mission has no plan within these limits with this hardware; none if it has one, or if the
+/// search for the explanation was cut short.
 pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Reason> {
     let found = infeasible::explain(mission, limits, available)?;
     let mut reason = match &found.cause {
@@ -87,9 +87,10 @@ fn relaxation(mission: &Mission, found: &infeasible::Relaxation) -> Relaxation {
         Found::RaiseLimit { to, .. } => {
             Change::RaiseLimit { duration_limit_ms: None, energy_limit_mj: Some(*to) }
         }
-        Found::RaiseLimits { to: [duration, energy], .. } => {
-            Change::RaiseLimit { duration_limit_ms: Some(*duration), energy_limit_mj: Some(*energy) }
-        }
+        Found::RaiseLimits { to: [duration, energy], .. } => Change::RaiseLimit {
+            duration_limit_ms: Some(*duration),
+            energy_limit_mj: Some(*energy),
+        },
         Found::LiftConstraint { zone, constraint } => {
             Change::LiftConstraint { constraints: vec![lifted(&(*zone, *constraint))] }
         }
@@ -103,7 +104,8 @@ fn relaxation(mission: &Mission, found: &infeasible::Relaxation) -> Relaxation {
             Change::KeepHardware { hardware: hardware.iter().map(kept).collect() }
         }
         Found::DropObjective { objective } => {
-            let id = mission.objectives.get(*objective).map_or_else(String::new, |it| it.id.clone());
+            let id =
+                mission.objectives.get(*objective).map_or_else(String::new, |it| it.id.clone());
             Change::DropObjective { objective: id }
         }
     };
@@ -113,7 +115,9 @@ fn relaxation(mission: &Mission, found: &infeasible::Relaxation) -> Relaxation {
 impl Relaxation {
     /// The flags that raise the limits, if that is the change.
     pub(crate) fn raised(&self) -> Option<String> {
-        let Change::RaiseLimit { duration_limit_ms, energy_limit_mj } = &self.change else { return None };
+        let Change::RaiseLimit { duration_limit_ms, energy_limit_mj } = &self.change else {
+            return None;
+        };
         let duration = duration_limit_ms.map(|limit| format!(" --duration-limit {limit}"));
         let energy = energy_limit_mj.map(|limit| format!(" --energy-limit {limit}"));
         Some(format!("{}{}", duration.unwrap_or_default(), energy.unwrap_or_default()))

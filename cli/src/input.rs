@@ -19,7 +19,8 @@ pub(crate) const CERTIFICATE_BYTES: u64 = 64 << 20;
 /// The most bytes of a list of events.
 pub(crate) const SCRIPT_BYTES: u64 = 1 << 20;
 
-/// The text of a file, or of standard input for `-`; `what` says what it should be, as `a mission file`.
+/// The text of a file, or of standard input for `-`; `what` says what it should be, as `a mission
+/// file`.
 pub(crate) fn text(path: &str, what: &str, limit: u64) -> Result<String, Failure> {
     utf8(path, what, bytes(path, what, limit)?)
 }
@@ -66,9 +67,8 @@ pub(crate) fn utf8(path: &str, what: &str, bytes: Vec<u8>) -> Result<String, Fai
 
 fn unreadable(name: &str, what: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
-        ErrorKind::NotFound => {
-            Failure::new(format!("{name}: there is no such file")).help(format!("give the path of {what}"))
-        }
+        ErrorKind::NotFound => Failure::new(format!("{name}: there is no such file"))
+            .help(format!("give the path of {what}")),
         ErrorKind::IsADirectory => Failure::new(format!("{name}: this is a directory, not a file"))
             .help(format!("give the path of {what} in it")),
         _ => Failure::new(format!("{name}: it cannot be read: {}", plain(error))),

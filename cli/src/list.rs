@@ -17,10 +17,12 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
         .map(|it| Listed { name: it.name.to_owned(), description: it.description.to_owned() })
         .collect();
     let models = catalogue::entries();
-    let models =
-        models.iter().map(|it| Listed { name: it.shown_name(), description: it.sentence().to_owned() });
+    let models = models
+        .iter()
+        .map(|it| Listed { name: it.shown_name(), description: it.sentence().to_owned() });
     let models = models.collect();
-    let answer = ListAnswer { schema: "cotama/list/1", missions, models, scenarios: vec![], maps: vec![] };
+    let answer =
+        ListAnswer { schema: "cotama/list/1", missions, models, scenarios: vec![], maps: vec![] };
     if args.json.json {
         Screen::json(&answer)?;
         return Ok(Exit::Success);
@@ -40,8 +42,11 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
         }
     }
     if let Some(first) = answer.missions.first() {
-        let _ =
-            writeln!(text, "\nnext: {NAME}cotama plan {}{NAME:#}, {NAME}cotama models{NAME:#}", first.name);
+        let _ = writeln!(
+            text,
+            "\nnext: {NAME}cotama plan {}{NAME:#}, {NAME}cotama models{NAME:#}",
+            first.name
+        );
     }
     screen.print(&text)?;
     Ok(Exit::Success)

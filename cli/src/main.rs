@@ -1,7 +1,8 @@
-//! The program `cotama`: robot missions and supervisors, checked, simulated and flashed from one definition.
+//! The program `cotama`: robot missions and supervisors, checked, simulated and flashed from one
+//! definition.
 //!
-//! Each command reads its input, calls the libraries, renders the answer and says how it ended; this file only
-//! sends to the commands and turns the end into an exit code.
+//! Each command reads its input, calls the libraries, renders the answer and says how it ended;
+//! this file only sends to the commands and turns the end into an exit code.
 
 mod about;
 mod allocate;

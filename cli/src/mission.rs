@@ -24,7 +24,9 @@ pub(crate) struct Loaded {
 pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
     let text = match embedded::mission(name) {
         Some(known) => known.text.to_owned(),
-        None if name != "-" && is_name(name) && !Path::new(name).exists() => return Err(unknown(name)),
+        None if name != "-" && is_name(name) && !Path::new(name).exists() => {
+            return Err(unknown(name));
+        }
         None => input::text(name, "a mission file", input::MISSION_BYTES)?,
     };
     let source = if name == "-" { "standard input" } else { name };
@@ -39,14 +41,16 @@ pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Loaded, Failur
     if wanted == [None, None] {
         return Ok(loaded);
     }
-    let text = with_limits(&loaded.text, wanted)
-        .ok_or_else(|| Failure::new(format!("{name}: its limits cannot be changed from the command line")))?;
+    let text = with_limits(&loaded.text, wanted).ok_or_else(|| {
+        Failure::new(format!("{name}: its limits cannot be changed from the command line"))
+    })?;
     let mission = Mission::parse(&loaded.source, &text)?;
     Ok(Loaded { text, mission, ..loaded })
 }
 
-/// What a plan is chosen for: what is wanted, else the paper's rule. It fills the limits, which for the configurations of a
-/// supervised mission would choose the most degraded one where there is time for it; so these have the most quality.
+/// What a plan is chosen for: what is wanted, else the paper's rule. It fills the limits, which for
+/// the configurations of a supervised mission would choose the most degraded one where there is
+/// time for it; so these have the most quality.
 pub(crate) fn objective(wanted: Option<Objective>, mission: &Mission) -> Objective {
     let usual = if mission.supervisor().is_some() { Objective::Quality } else { Objective::Paper };
     wanted.unwrap_or(usual)
@@ -66,10 +70,12 @@ fn unknown(name: &str) -> Failure {
         }
         _ => String::new(),
     };
-    Failure::new(format!("there is no mission `{name}`, and no file of this name{guess}")).help(format!(
-        "missions that come with the program: {}; or give the path of a mission file",
-        names.join(", ")
-    ))
+    Failure::new(format!("there is no mission `{name}`, and no file of this name{guess}")).help(
+        format!(
+            "missions that come with the program: {}; or give the path of a mission file",
+            names.join(", ")
+        ),
+    )
 }
 
 /// The text of a mission file with other limits and nothing else changed.
@@ -84,7 +90,8 @@ fn with_limits(text: &str, wanted: [Option<u64>; 2]) -> Option<String> {
         energy_mj: Spanned<i64>,
     }
     let Limits { duration_ms, energy_mj } = toml::from_str::<File>(text).ok()?.limits;
-    let mut edits: Vec<_> = [duration_ms.span(), energy_mj.span()].into_iter().zip(wanted).collect();
+    let mut edits: Vec<_> =
+        [duration_ms.span(), energy_mj.span()].into_iter().zip(wanted).collect();
     // The later one first, so that the place of the other stays right.
     edits.sort_by_key(|(span, _)| std::cmp::Reverse(span.start));
     let mut text = text.to_owned();
@@ -97,7 +104,8 @@ fn with_limits(text: &str, wanted: [Option<u64>; 2]) -> Option<String> {
     Some(text)
 }
 
-/// The mission and what was changed about it, as words of a command line. Limits are left out: advice sets them anew.
+/// The mission and what was changed about it, as words of a command line. Limits are left out:
+/// advice sets them anew.
 pub(crate) fn words(name: &str, planning: &Planning) -> String {
     let mut words = vec![name.to_owned()];
     for Lost { kind, units } in &planning.lost {
@@ -124,7 +132,12 @@ pub(crate) fn lost(mission: &Definition, lost: &[Lost]) -> Result<Vec<(usize, u8
 
 fn find_lost(mission: &Definition, lost: &Lost) -> Result<(usize, u8), Failure> {
     let names = || {
-        mission.hardware.iter().map(|it| format!("{} ({})", it.name, it.units)).collect::<Vec<_>>().join(", ")
+        mission
+            .hardware
+            .iter()
+            .map(|it| format!("{} ({})", it.name, it.units))
+            .collect::<Vec<_>>()
+            .join(", ")
     };
     let found = mission.hardware.iter().enumerate().find(|(_, it)| it.name == lost.kind);
     let Some((kind, hardware)) = found else {
@@ -133,7 +146,8 @@ fn find_lost(mission: &Definition, lost: &Lost) -> Result<(usize, u8), Failure> 
     };
     let units = lost.units.unwrap_or(hardware.units);
     if units > hardware.units {
-        let message = format!("--lost {}:{units}: the robot has only {}", lost.kind, hardware.units);
+        let message =
+            format!("--lost {}:{units}: the robot has only {}", lost.kind, hardware.units);
         return Err(Failure::new(message).help(format!("it has: {}", names())));
     }
     Ok((kind, units))
@@ -152,8 +166,11 @@ mod tests {
     fn limits_are_changed_in_their_place_and_nothing_else() {
         let patrol = embedded::mission("patrol").unwrap().text;
         let changed = with_limits(patrol, [Some(1), Some(2)]).unwrap();
-        let expected =
-            patrol.replacen("duration_ms = 600000", "duration_ms = 1", 1).replacen("= 8640000", "= 2", 1);
+        let expected = patrol.replacen("duration_ms = 600000", "duration_ms = 1", 1).replacen(
+            "= 8640000",
+            "= 2",
+            1,
+        );
         assert_eq!(changed, expected);
         let inline = "limits = { energy_mj = 0x10, duration_ms = 1_0 } # 1_0";
         let changed = with_limits(inline, [Some(77), None]).unwrap();

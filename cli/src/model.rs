@@ -27,13 +27,20 @@ pub(crate) struct Loaded {
 
 impl Loaded {
     fn new(name: &str, net: OwnedNet, known: Option<Known>) -> Self {
-        Self { name: name.to_owned(), net, known, place_ids: Vec::new(), transition_ids: Vec::new() }
+        Self {
+            name: name.to_owned(),
+            net,
+            known,
+            place_ids: Vec::new(),
+            transition_ids: Vec::new(),
+        }
     }
 }
 
 /// The net of this name, or of the file at this path.
 pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
-    let (family, number) = name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
+    let (family, number) =
+        name.split_once(':').map_or((name, None), |(family, it)| (family, Some(it)));
     match catalogue::entry(family) {
         Some(Entry { kind: Kind::Net(net, known), .. }) if number.is_none() => {
             Ok(Loaded::new(name, OwnedNet::from(net), Some(known)))
@@ -47,9 +54,13 @@ pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
             Err(Failure::new(format!("`{name}` is a system of nets, and a net is needed here"))
                 .help(format!("its nets: {}", nets.join(", "))))
         }
-        Some(_) => Err(Failure::new(format!("`{family}` is no family of nets and takes no number"))
-            .help(format!("say `{family}`"))),
-        None if name != "-" && is_name(name) && !Path::new(name).exists() => Err(unknown(name, family)),
+        Some(_) => {
+            Err(Failure::new(format!("`{family}` is no family of nets and takes no number"))
+                .help(format!("say `{family}`")))
+        }
+        None if name != "-" && is_name(name) && !Path::new(name).exists() => {
+            Err(unknown(name, family))
+        }
         None => file(name),
     }
 }
@@ -68,7 +79,8 @@ fn unknown(name: &str, family: &str) -> Failure {
 pub(crate) fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     // The distance takes time that grows with both lengths.
     let names = names.filter(|name| name.len() <= 64 && word.len() <= 64);
-    let (distance, name) = names.map(|name| (strsim::damerau_levenshtein(word, name), name)).min()?;
+    let (distance, name) =
+        names.map(|name| (strsim::damerau_levenshtein(word, name), name)).min()?;
     (distance <= 3 && distance < name.chars().count()).then_some(name)
 }
 

@@ -21,19 +21,25 @@ pub(crate) fn models(args: &ModelsArgs, screen: &Screen) -> Result<Exit, Failure
     let Some(name) = &args.name else {
         let entries = catalogue::entries();
         let answer = answer(entries.iter().map(entry_row).collect());
-        return said(args, screen, &answer, || render::models::table(&answer, &entries, screen.width()));
+        return said(args, screen, &answer, || {
+            render::models::table(&answer, &entries, screen.width())
+        });
     };
     match catalogue::entry(name) {
         Some(entry) if !matches!(entry.kind, Kind::Net(..)) => {
             let answer = answer(vec![entry_row(&entry)]);
-            said(args, screen, &answer, || render::models::one(&answer.models[0], None, screen.width()))
+            said(args, screen, &answer, || {
+                render::models::one(&answer.models[0], None, screen.width())
+            })
         }
         _ => {
             let loaded = model::load(name)?;
             let view = loaded.net.view();
             let answer = answer(vec![net_row(&loaded.name, &view.net(), loaded.known)]);
             let own = Some(&loaded.net);
-            said(args, screen, &answer, || render::models::one(&answer.models[0], own, screen.width()))
+            said(args, screen, &answer, || {
+                render::models::one(&answer.models[0], own, screen.width())
+            })
         }
     }
 }
@@ -113,7 +119,9 @@ fn system_row(system: &System<'_>) -> ModelRow {
         // The complement of a shared place is as shared as the place.
         let shared = |role: Role| match role {
             Role::Shared => true,
-            Role::Complement(of) => net.places.get(of.0 as usize).is_some_and(|of| of.role == Role::Shared),
+            Role::Complement(of) => {
+                net.places.get(of.0 as usize).is_some_and(|of| of.role == Role::Shared)
+            }
             _ => false,
         };
         net.places.iter().filter(|place| !shared(place.role)).count() as u64

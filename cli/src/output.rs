@@ -32,7 +32,8 @@ impl Screen {
         let named = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
         let measured =
             || terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
-        let width = named.or_else(measured).filter(|&width| width > 0).unwrap_or(WIDTH).max(LEAST_WIDTH);
+        let width =
+            named.or_else(measured).filter(|&width| width > 0).unwrap_or(WIDTH).max(LEAST_WIDTH);
         Self { choice, width }
     }
 
@@ -41,16 +42,17 @@ impl Screen {
         self.width
     }
 
-    /// Writes to standard output; styles are left out where they are not wanted. A reader who has gone away is
-    /// no error.
+    /// Writes to standard output; styles are left out where they are not wanted. A reader who has
+    /// gone away is no error.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
         written(write_to(&mut AutoStream::new(io::stdout(), self.choice), text.as_bytes()))
     }
 
     /// Writes one JSON object to standard output.
     pub(crate) fn json(answer: &impl Serialize) -> Result<(), Failure> {
-        let text = serde_json::to_string_pretty(answer)
-            .map_err(|error| Failure::new(format!("the answer cannot be written as JSON: {error}")))?;
+        let text = serde_json::to_string_pretty(answer).map_err(|error| {
+            Failure::new(format!("the answer cannot be written as JSON: {error}"))
+        })?;
         Self::raw(format!("{text}\n").as_bytes())
     }
 
@@ -84,14 +86,17 @@ fn written(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file as a whole: under another name in the same folder, which then takes the place of the old file.
-/// Missing folders are made. When it fails, whatever stood there before still does.
+/// Writes a file as a whole: under another name in the same folder, which then takes the place of
+/// the old file. Missing folders are made. When it fails, whatever stood there before still does.
 pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let shown = path.display();
-    let refused =
-        |error: &io::Error| Failure::new(format!("{shown}: it cannot be written: {}", plain(error)));
+    let refused = |error: &io::Error| {
+        Failure::new(format!("{shown}: it cannot be written: {}", plain(error)))
+    };
     if path.is_dir() {
-        return Err(Failure::new(format!("{shown}: this is a directory, a file was to be written there")));
+        return Err(Failure::new(format!(
+            "{shown}: this is a directory, a file was to be written there"
+        )));
     }
     let Some(name) = path.file_name() else {
         return Err(Failure::new(format!("{shown}: this is not the name of a file")));

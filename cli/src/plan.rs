@@ -41,7 +41,8 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
         .map(|activity| {
             let whole = activity.table();
             let candidate = |(id, it): (u16, &_)| whole_candidate(&whole, it, id);
-            let left = (0..).zip(&activity.alternatives).filter(|(_, it)| available.covers(it.needs));
+            let left =
+                (0..).zip(&activity.alternatives).filter(|(_, it)| available.covers(it.needs));
             left.filter_map(candidate).collect()
         })
         .collect();
@@ -79,7 +80,8 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
         if objective == Wanted::Front {
             front(&mut answer, mission, &problem);
         } else {
-            let failed = |error: cotama_core::allocation::MemoryError| Failure::new(error.to_string());
+            let failed =
+                |error: cotama_core::allocation::MemoryError| Failure::new(error.to_string());
             let solution = solve_for(objective, args, &problem).map_err(failed)?;
             fill(&mut answer, mission, &problem, &solution, args.planning.steps);
         }
@@ -101,7 +103,10 @@ fn whole_candidate(
 fn activity_row(mission: &Mission, activity: &PlannedActivity, left: usize) -> ActivityRow {
     ActivityRow {
         id: activity.id.clone(),
-        objective: mission.objectives.get(activity.objective).map_or_else(String::new, |it| it.id.clone()),
+        objective: mission
+            .objectives
+            .get(activity.objective)
+            .map_or_else(String::new, |it| it.id.clone()),
         x_start_mm: activity.x_start.0,
         x_end_mm: activity.x_end.0,
         candidates: left as u64,
@@ -148,7 +153,8 @@ fn fill(
             };
             answer.duration_margin_ms = margin(DURATION);
             answer.energy_margin_mj = margin(ENERGY);
-            let rows = mission.scenario().activities.iter().zip(problem.activities()).zip(&solution.plan);
+            let rows =
+                mission.scenario().activities.iter().zip(problem.activities()).zip(&solution.plan);
             answer.plan = rows
                 .filter_map(|((activity, candidates), &place)| {
                     plan_row(activity, candidates.get(usize::from(place))?)
@@ -197,8 +203,9 @@ fn front(answer: &mut PlanAnswer, mission: &Mission, problem: &Problem<'_, 2>) {
                 continue;
             }
             Err(_) => {
-                let text =
-                    format!("the front needs more than {MOST_NODES} partial plans: too many to search");
+                let text = format!(
+                    "the front needs more than {MOST_NODES} partial plans: too many to search"
+                );
                 answer.status = Status::Unknown;
                 answer.reason = Some(Reason { text, ..Reason::default() });
                 return;

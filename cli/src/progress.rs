@@ -85,7 +85,10 @@ mod tests {
     fn the_line_says_how_much_how_fast_and_what_waits() {
         let progress = explicit::Progress { states: 1_500_000, depth: 12, waiting: 40_000 };
         let said = line(progress, Duration::from_millis(500), Some(2048));
-        assert_eq!(said, "1 500 000 states, 3 000 000 a second, 40 000 waiting, 12 firings deep, 2 048 MiB");
+        assert_eq!(
+            said,
+            "1 500 000 states, 3 000 000 a second, 40 000 waiting, 12 firings deep, 2 048 MiB"
+        );
         assert!(!line(progress, Duration::ZERO, None).contains("MiB"));
     }
 }

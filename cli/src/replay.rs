@@ -17,15 +17,19 @@ use cotama_sim::trace::{self, Trace};
 /// Runs a trace or faults again and compares.
 pub(crate) fn replay(args: &ReplayArgs, screen: &Screen) -> Result<Exit, Failure> {
     let text = input::text(&args.file, "a trace", input::TRACE_BYTES)?;
-    let (loaded, trace, run, identical) =
-        if text.trim_start().starts_with('{') { again(&args.file, &text)? } else { twice(args, &text)? };
+    let (loaded, trace, run, identical) = if text.trim_start().starts_with('{') {
+        again(&args.file, &text)?
+    } else {
+        twice(args, &text)?
+    };
     let mut run_body = body(&trace, &run, &loaded.mission.name);
     write_files(args.report.as_deref(), args.trace.as_deref(), &trace, &mut run_body)?;
     let answer = ReplayAnswer { schema: "cotama/replay/1", identical, run: run_body };
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let screen_text = render::run::screen(&answer.run, Some(&trace), &loaded.source, screen.width());
+        let screen_text =
+            render::run::screen(&answer.run, Some(&trace), &loaded.source, screen.width());
         screen.print(&(screen_text + &render::run::identical(identical)))?;
     }
     Ok(if identical { ended(&run) } else { Exit::Violated })
@@ -35,19 +39,26 @@ type Again = (Loaded, Trace, Run, bool);
 
 fn again(name: &str, text: &str) -> Result<Again, Failure> {
     let stored = Trace::parse(name, text).map_err(|error| {
-        Failure::new(error.to_string()).help("a trace is written by `cotama run MISSION --trace FILE.jsonl`")
+        Failure::new(error.to_string())
+            .help("a trace is written by `cotama run MISSION --trace FILE.jsonl`")
     })?;
     let mission = stored.mission()?;
     let replayed = trace::replay(&stored).map_err(refused)?;
-    let loaded =
-        Loaded { source: stored.header.mission_source.clone(), text: stored.header.mission.clone(), mission };
+    let loaded = Loaded {
+        source: stored.header.mission_source.clone(),
+        text: stored.header.mission.clone(),
+        mission,
+    };
     Ok((loaded, replayed.trace, replayed.run, replayed.identical))
 }
 
 fn twice(args: &ReplayArgs, text: &str) -> Result<Again, Failure> {
     let Some(name) = &args.mission else {
-        let message = format!("{}: this is not a trace; a file of faults needs a mission", args.file);
-        return Err(Failure::new(message).help(format!("cotama replay {} --mission patrol", args.file)));
+        let message =
+            format!("{}: this is not a trace; a file of faults needs a mission", args.file);
+        return Err(
+            Failure::new(message).help(format!("cotama replay {} --mission patrol", args.file))
+        );
     };
     let loaded = mission::load(name)?;
     let faults = Faults::parse(&args.file, text, &loaded.mission)?;

@@ -44,7 +44,10 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
         Err(error) => return Err(refused(error)),
     };
     let mut body = body(&trace, &run, &loaded.mission.name);
-    if run.outcome == cotama_sim::trace::Outcome::Safe && run.x_mm == 0 && !args.planning.lost.is_empty() {
+    if run.outcome == cotama_sim::trace::Outcome::Safe
+        && run.x_mm == 0
+        && !args.planning.lost.is_empty()
+    {
         let lost = mission::lost(&loaded.mission, &args.planning.lost)?;
         let available = mission::available(&loaded.mission, &lost);
         body.infeasible = infeasible::explain(&loaded.mission, loaded.mission.limits, available);
@@ -126,7 +129,9 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
     let steps = args.planning.steps;
     if mission.supervisor().is_some() && (args.upward || !args.planning.lost.is_empty()) {
         let message = "--upward and --lost are for missions without supervisors";
-        return Err(Failure::new(message).help("name a failure in a file of faults: kind = \"failure\""));
+        return Err(
+            Failure::new(message).help("name a failure in a file of faults: kind = \"failure\"")
+        );
     }
     let planner = match (mission::objective(args.objective, mission), args.planning.allocator) {
         (Objective::Paper, Some(AllocatorName::Exact)) => Planner::PanoramaThenExact { steps },
@@ -134,7 +139,8 @@ fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
         (Objective::MinEnergy, _) => Planner::Exact { aim: Aim::MinEnergy, steps },
         _ => Planner::Exact { aim: Aim::Quality, steps },
     };
-    // A better plan is looked for when a margin has grown by a hundredth of its limit, and leaves half of that.
+    // A better plan is looked for when a margin has grown by a hundredth of its limit, and leaves
+    // half of that.
     let upward = Upward {
         growth: mission.limits.map(|limit| (limit / 100).max(1)),
         reserve: mission.limits.map(|limit| limit / 200),
@@ -167,13 +173,14 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
         FaultChoice::Given { source, faults } => (source, faults),
     };
     let kinds = mission::lost(mission, lost)?;
-    let event = |(hardware, units)| Event { x: Millimetres(0), kind: EventKind::Fault { hardware, units } };
+    let event =
+        |(hardware, units)| Event { x: Millimetres(0), kind: EventKind::Fault { hardware, units } };
     faults.events.splice(0..0, kinds.into_iter().map(event));
     Ok(FaultChoice::Given { source: format!("{source}, hardware lost at the start"), faults })
 }
 
-/// How many of the faults are passed over: those that only supervisors can deal with, in a run by plans alone, and the
-/// others in one under supervisors.
+/// How many of the faults are passed over: those that only supervisors can deal with, in a run by
+/// plans alone, and the others in one under supervisors.
 fn passed_over(faults: &FaultChoice, mission: &Mission) -> usize {
     let faults = match faults {
         FaultChoice::None => return 0,
@@ -205,7 +212,8 @@ pub(crate) fn write_files(
     Ok(())
 }
 
-/// The folder of a report: `report/` and the name of the mission's source, without its folders and its ending.
+/// The folder of a report: `report/` and the name of the mission's source, without its folders and
+/// its ending.
 fn default_folder(source: &str) -> PathBuf {
     let stem = Path::new(source).file_stem().and_then(|stem| stem.to_str()).unwrap_or("mission");
     let safe = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '_' | '.') { c } else { '-' };

@@ -26,8 +26,10 @@ pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Fai
     let here = || std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let by_hand = args.interactive || args.events.is_empty() && !taken && !args.json.json && here();
     if by_hand && taken {
-        return Err(Failure::new("standard input cannot hold both the model and what to do with it")
-            .help("give the path of the model"));
+        return Err(Failure::new(
+            "standard input cannot hold both the model and what to do with it",
+        )
+        .help("give the path of the model"));
     }
     let script = if args.events.is_empty() && !by_hand && !taken {
         step::lines(&input::text("-", "a list of events", input::SCRIPT_BYTES)?)

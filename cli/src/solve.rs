@@ -97,8 +97,12 @@ pub(crate) fn solve(
                 plan,
                 steps: planned.steps,
             },
-            Answer::Infeasible { axis, least, steps } => without(Verdict::Infeasible { axis, least }, steps),
-            Answer::Unknown { bound, steps } => without(Verdict::Unknown { bound: Some(bound) }, steps),
+            Answer::Infeasible { axis, least, steps } => {
+                without(Verdict::Infeasible { axis, least }, steps)
+            }
+            Answer::Unknown { bound, steps } => {
+                without(Verdict::Unknown { bound: Some(bound) }, steps)
+            }
         });
     }
     let (answer, plan) = panorama(problem)?;
@@ -124,7 +128,9 @@ pub(crate) fn solve(
         Answer::Infeasible { axis, least, steps } => {
             without(Verdict::Infeasible { axis, least }, rule_steps + steps)
         }
-        Answer::Unknown { steps, .. } => without(Verdict::Unknown { bound: None }, rule_steps + steps),
+        Answer::Unknown { steps, .. } => {
+            without(Verdict::Unknown { bound: None }, rule_steps + steps)
+        }
     })
 }
 
@@ -146,7 +152,8 @@ fn exact(
 ) -> Result<(Answer<2>, Vec<u16>), MemoryError> {
     let activities = problem.activities();
     let candidates = activities.iter().map(|candidates| candidates.len()).sum();
-    let (mut items, mut stages) = (vec![Item::EMPTY; candidates], vec![Stage::EMPTY; activities.len()]);
+    let (mut items, mut stages) =
+        (vec![Item::EMPTY; candidates], vec![Stage::EMPTY; activities.len()]);
     let mut plan = vec![0; activities.len()];
     let mut seen = vec![Seen::EMPTY; SEEN];
     let mut exact = Exact::new(objectives, steps, &mut items, &mut stages).with_memory(&mut seen);

@@ -26,11 +26,13 @@ pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit,
         Model::Timed { net, untimed } => classes(net, untimed, &budget),
     };
     let graph = |pt| explicit::Graph::new(pt, &budget.limits, &|it| progress.show(it)).ok();
-    let rounds = subject.rounds.as_ref().and_then(|rounds| Some(rounds.size(&graph(subject.model.pt())?)));
+    let rounds =
+        subject.rounds.as_ref().and_then(|rounds| Some(rounds.size(&graph(subject.model.pt())?)));
     progress.clear();
     let answer = StatespaceAnswer {
         semantics: subject.semantics,
-        rounds: rounds.map(|it| RoundsRow { states: it.states.to_string(), edges: it.edges.to_string() }),
+        rounds: rounds
+            .map(|it| RoundsRow { states: it.states.to_string(), edges: it.edges.to_string() }),
         model: subject.name,
         notes: subject.notes,
         seconds: begun.elapsed().as_secs_f64(),
@@ -69,7 +71,8 @@ fn markings(pt: &Pt, budget: &Budget, progress: &Progress) -> StatespaceAnswer {
             Bounded::Yes => bounded = Some(true),
             Bounded::No(found) => {
                 bounded = Some(false);
-                let firings = |it: &coverability::Sequence| it.firings.as_deref().map(|it| names(pt, it));
+                let firings =
+                    |it: &coverability::Sequence| it.firings.as_deref().map(|it| names(pt, it));
                 growth = firings(&found.stem)
                     .zip(firings(&found.pump))
                     .map(|(first, repeated)| GrowthRow { first, repeated });
@@ -145,7 +148,10 @@ fn classes(net: &TimeNet, untimed: &Pt, budget: &Budget) -> StatespaceAnswer {
         edges: count(graph.edges()),
         rounds: None,
         growth: None,
-        explored: ExploredRow { states: graph.classes().to_string(), arcs: graph.edges().to_string() },
+        explored: ExploredRow {
+            states: graph.classes().to_string(),
+            arcs: graph.edges().to_string(),
+        },
         limit: graph.stopped().map(|it| it.to_string()),
         engine: "classes",
         seconds: 0.0,

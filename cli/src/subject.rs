@@ -34,8 +34,13 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    /// The model of this name, or of the file at this path; without its intervals where that is wanted.
-    pub(crate) fn load(name: &str, untimed: bool, semantics: Option<Semantics>) -> Result<Self, Failure> {
+    /// The model of this name, or of the file at this path; without its intervals where that is
+    /// wanted.
+    pub(crate) fn load(
+        name: &str,
+        untimed: bool,
+        semantics: Option<Semantics>,
+    ) -> Result<Self, Failure> {
         let usual = if catalogue::requirements(name).is_empty() {
             Semantics::Interleaving
         } else {
@@ -53,14 +58,14 @@ impl Subject {
 
     fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
         if let Some(Entry { kind: Kind::System(system), .. }) = catalogue::entry(name) {
-            let refused = |error| Failure::new(format!("`{name}` cannot be checked as one net: {error}"));
+            let refused =
+                |error| Failure::new(format!("`{name}` cannot be checked as one net: {error}"));
             let (net, rounds, note) = if semantics == Semantics::Rounds {
                 let rounds = flat::rounds(system).map_err(refused)?;
                 let note = "nets of a system act in rounds, as they are executed";
                 (rounds.net().map_err(refused)?, Some(rounds), note)
             } else {
-                let note =
-                    "nets of a system are checked in every interleaving, rounds among them, at any time";
+                let note = "nets of a system are checked in every interleaving, rounds among them, at any time";
                 (flat(system).map_err(refused)?, None, note)
             };
             let subject = Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note);

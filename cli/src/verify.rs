@@ -35,10 +35,13 @@ pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure
         // What is no certificate at all is not refused, it is bad input.
         Err(VerifyError { at, message }) if at == "certificate" || at == "schema" => {
             let name = input::name(&args.certificate);
-            return Err(Failure::new(format!("{name}: {at}: {message}"))
-                .help("`cotama check MODEL --property TEXT --certificate FILE` writes certificates"));
+            return Err(Failure::new(format!("{name}: {at}: {message}")).help(
+                "`cotama check MODEL --property TEXT --certificate FILE` writes certificates",
+            ));
         }
-        Err(VerifyError { at, message }) => VerifyAnswer { at: Some(at), message: Some(message), ..nothing },
+        Err(VerifyError { at, message }) => {
+            VerifyAnswer { at: Some(at), message: Some(message), ..nothing }
+        }
     };
     if args.json.json {
         Screen::json(&answer)?;

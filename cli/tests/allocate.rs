@@ -14,8 +14,7 @@ fn allocate(name: &str, instance: &str, arguments: &[&str], code: i32) -> Value 
 
 #[test]
 fn the_most_quality_is_found_and_proven() {
-    let instance =
-        r#"{"limits":{"duration_ms":10,"energy_mj":10},"activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
+    let instance = r#"{"limits":{"duration_ms":10,"energy_mj":10},"activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
     let answer = allocate("quality", instance, &["--objective", "quality"], 0);
     let expected = json!({ "schema": "cotama/allocate/1", "status": "optimal", "quality": 9, "duration_ms": 10,
         "energy_mj": 10, "choice": [0, 1], "bound": 9, "steps": answer["steps"] });
@@ -33,12 +32,16 @@ fn a_plan_that_the_rule_misses_is_found_by_the_exact_allocator() {
     assert_eq!((&exact["status"], &exact["choice"]), (&json!("optimal"), &json!([1, 0])));
     let rule = allocate("rule", MISSED, &["--allocator", "panorama"], 1);
     assert_eq!((&rule["status"], &rule["choice"]), (&json!("infeasible"), &json!([])));
-    assert!(rule["reason"]["text"].as_str().unwrap().contains("but a complete search does"), "{rule}");
+    assert!(
+        rule["reason"]["text"].as_str().unwrap().contains("but a complete search does"),
+        "{rule}"
+    );
 }
 
 #[test]
 fn the_rule_proves_nothing() {
-    let instance = r#"{"limits":{"duration_ms":99,"energy_mj":99},"activities":[[[1,2,3],[9,1,1]]]}"#;
+    let instance =
+        r#"{"limits":{"duration_ms":99,"energy_mj":99},"activities":[[[1,2,3],[9,1,1]]]}"#;
     let answer = allocate("feasible", instance, &["--allocator", "panorama"], 0);
     assert_eq!(
         (&answer["status"], &answer["choice"], &answer["bound"]),
@@ -48,13 +51,16 @@ fn the_rule_proves_nothing() {
 
 #[test]
 fn infeasible_says_which_limit_and_by_how_much() {
-    let instance =
-        r#"{"limits":{"duration_ms":6,"energy_mj":2},"activities":[[[0,5,1],[2,1,2]],[[3,5,1],[0,1,10]]]}"#;
+    let instance = r#"{"limits":{"duration_ms":6,"energy_mj":2},"activities":[[[0,5,1],[2,1,2]],[[3,5,1],[0,1,10]]]}"#;
     for allocator in ["exact", "panorama"] {
-        let answer = allocate(&format!("infeasible_{allocator}"), instance, &["--allocator", allocator], 1);
+        let answer =
+            allocate(&format!("infeasible_{allocator}"), instance, &["--allocator", allocator], 1);
         let reason = &answer["reason"];
         assert_eq!((&answer["status"], &reason["axis"]), (&json!("infeasible"), &json!("energy")));
-        assert_eq!((&reason["limit"], &reason["least"], &reason["gap"]), (&json!(2), &json!(3), &json!(1)));
+        assert_eq!(
+            (&reason["limit"], &reason["least"], &reason["gap"]),
+            (&json!(2), &json!(3), &json!(1))
+        );
     }
 }
 

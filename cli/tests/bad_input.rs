@@ -54,7 +54,11 @@ fn flags_that_make_no_sense() {
     refused(&folder, "lost_unknown", &["plan", "patrol", "--lost", "radar"]);
     refused(&folder, "lost_many", &["run", "patrol", "--lost", "laser:3"]);
     refused(&folder, "lost_supervised", &["run", "delivery", "--lost", "SMZ"]);
-    refused(&folder, "limit_large", &["plan", "patrol", "--duration-limit", "18446744073709551615"]);
+    refused(
+        &folder,
+        "limit_large",
+        &["plan", "patrol", "--duration-limit", "18446744073709551615"],
+    );
     for arguments in [
         &["plan"][..],
         &["plan", "patrol", "--objective", "speed"],
@@ -111,7 +115,10 @@ fn instances_that_are_none() {
 #[test]
 fn traces_that_are_none() {
     let folder = Folder::new("bad_traces");
-    assert_eq!(folder.cotama(&["run", "patrol", "--no-report", "--trace", "t.jsonl"]).code, Some(0));
+    assert_eq!(
+        folder.cotama(&["run", "patrol", "--no-report", "--trace", "t.jsonl"]).code,
+        Some(0)
+    );
     let trace = folder.read("t.jsonl");
     let lines: Vec<_> = trace.lines().collect();
     folder.write("cut.jsonl", lines[..9].join("\n") + "\n");

@@ -1,5 +1,5 @@
-//! Broken PNML files of many kinds: exit code 2 and the place in the file, whatever the command and however little
-//! memory there is. What is said about each kind is tested where PNML is read.
+//! Broken PNML files of many kinds: exit code 2 and the place in the file, whatever the command and
+//! however little memory there is. What is said about each kind is tested where PNML is read.
 
 use crate::common::Folder;
 
@@ -88,7 +88,12 @@ fn every_command_refuses_every_broken_file_at_its_place() {
             assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{command}: {ended:?}");
             let first = ended.stderr.split(&format!("{file}:")).nth(1).unwrap_or_default();
             let there = first.split(|c: char| !c.is_ascii_digit() && c != ':').next();
-            assert_eq!(there.map(|it| it.trim_end_matches(':')), Some(place), "{command}: {}", ended.stderr);
+            assert_eq!(
+                there.map(|it| it.trim_end_matches(':')),
+                Some(place),
+                "{command}: {}",
+                ended.stderr
+            );
         }
         std::fs::remove_file(folder.path().join(file)).unwrap();
     }

@@ -5,7 +5,8 @@ use serde_json::json;
 
 fn check(folder: &Folder, model: &str, properties: &[&str], more: &[&str]) -> Ended {
     let asked = properties.iter().flat_map(|it| ["--property", it]);
-    let arguments: Vec<_> = ["check", model].into_iter().chain(asked).chain(more.iter().copied()).collect();
+    let arguments: Vec<_> =
+        ["check", model].into_iter().chain(asked).chain(more.iter().copied()).collect();
     folder.cotama(&arguments)
 }
 
@@ -61,13 +62,17 @@ fn an_answer_names_the_run_and_the_bound() {
     assert_eq!((&answer["model"], &answer["timed"]), (&json!("philosophers:2"), &json!(false)));
     let row = &answer["results"][0];
     assert_eq!((&row["verdict"], &row["property"]), (&json!("true"), &json!("EF deadlock")));
-    let fired: Vec<_> = row["trace"].as_array().unwrap().iter().map(|it| it["transition"].clone()).collect();
+    let fired: Vec<_> =
+        row["trace"].as_array().unwrap().iter().map(|it| it["transition"].clone()).collect();
     assert_eq!(fired.len(), 2, "{row}");
-    let played =
-        folder.shell(&format!("cotama simulate philosophers:2 {} {} --json", fired[0], fired[1])).json(0);
+    let played = folder
+        .shell(&format!("cotama simulate philosophers:2 {} {} --json", fired[0], fired[1]))
+        .json(0);
     assert_eq!((&played["fired"], &played["enabled"]), (&json!(fired), &json!([])));
-    let answer = check(&folder, "kanban:3", &["bounds(P1 + P2)", "bounds(P1)"], &["--json"]).json(0);
-    let bounds: Vec<_> = answer["results"].as_array().unwrap().iter().map(|it| &it["bound"]).collect();
+    let answer =
+        check(&folder, "kanban:3", &["bounds(P1 + P2)", "bounds(P1)"], &["--json"]).json(0);
+    let bounds: Vec<_> =
+        answer["results"].as_array().unwrap().iter().map(|it| &it["bound"]).collect();
     assert_eq!(bounds, [6, 3]);
 }
 
@@ -85,7 +90,8 @@ fn time_is_measured_where_there_are_intervals() {
     let folder = Folder::new("check_time");
     folder.write("race.net", "tr fast [1,2] idle -> won  tr late [5,7] won -> done  pl idle (1)");
     let answer =
-        check(&folder, "race.net", &["bound(fast -> done)", "bound(late -> idle)"], &["--json"]).json(0);
+        check(&folder, "race.net", &["bound(fast -> done)", "bound(late -> idle)"], &["--json"])
+            .json(0);
     let [first, second] = [0, 1].map(|it| &answer["results"][it]);
     assert_eq!((&first["min"], &first["max"]), (&json!(5), &json!(7)));
     assert_eq!(first["states"], 3);
@@ -99,7 +105,8 @@ fn time_is_measured_where_there_are_intervals() {
 fn the_laws_of_a_model_are_checked_when_nothing_is_asked() {
     let folder = Folder::new("check_laws");
     let answer = folder.cotama(&["check", "door", "--json"]).json(0);
-    let names: Vec<_> = answer["results"].as_array().unwrap().iter().map(|it| it["name"].clone()).collect();
+    let names: Vec<_> =
+        answer["results"].as_array().unwrap().iter().map(|it| it["name"].clone()).collect();
     assert_eq!(names.len(), 6);
     assert_eq!(names[1], "never_both(Closing, obstacle)");
     assert_eq!(answer["left_out"], json!(["handles(all)", "deterministic"]));
@@ -112,11 +119,25 @@ fn a_file_without_laws_is_asked_the_usual_questions() {
     folder.write("pump.net", "tr in -> tank  tr out tank*2 ->");
     let usual = |model: &str, code| {
         let answer = folder.cotama(&["check", model, "--untimed", "--json"]).json(code);
-        let row = |it: &serde_json::Value| format!("{} {} {}", it["name"], it["verdict"], it["bound"]);
-        answer["results"].as_array().unwrap().iter().map(row).collect::<Vec<_>>().join("; ").replace('"', "")
+        let row =
+            |it: &serde_json::Value| format!("{} {} {}", it["name"], it["verdict"], it["bound"]);
+        answer["results"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(row)
+            .collect::<Vec<_>>()
+            .join("; ")
+            .replace('"', "")
     };
-    assert_eq!(usual("lamp.net", 0), "deadlock_free true null; one_safe true null; quasi_live true null");
-    assert_eq!(usual("pump.net", 0), "deadlock_free true null; bounds true inf; quasi_live true null");
+    assert_eq!(
+        usual("lamp.net", 0),
+        "deadlock_free true null; one_safe true null; quasi_live true null"
+    );
+    assert_eq!(
+        usual("pump.net", 0),
+        "deadlock_free true null; bounds true inf; quasi_live true null"
+    );
 }
 
 #[test]
@@ -127,9 +148,11 @@ fn a_run_leads_to_where_what_should_stay_possible_is_lost() {
         "net fuse\ntr on off -> lit\ntr out lit -> off\ntr burn lit -> dark\npl off (1)\n",
     );
     let answer =
-        check(&folder, "fuse.net", &["AG EF lit"], &["--untimed", "--json", "--trace", "it.svg"]).json(1);
+        check(&folder, "fuse.net", &["AG EF lit"], &["--untimed", "--json", "--trace", "it.svg"])
+            .json(1);
     let row = &answer["results"][0];
-    let fired: Vec<_> = row["trace"].as_array().unwrap().iter().map(|it| &it["transition"]).collect();
+    let fired: Vec<_> =
+        row["trace"].as_array().unwrap().iter().map(|it| &it["transition"]).collect();
     assert_eq!(fired, ["on", "burn"]);
     assert!(folder.read("it.svg").starts_with("<svg xmlns="));
 }
@@ -147,7 +170,9 @@ fn what_never_fires_and_is_never_marked_is_named() {
     assert_eq!(unused["places"][0], json!({"name": "smoke", "why": "no transition marks it"}));
     let page = folder.read("it.html");
     assert!(
-        page.starts_with("<!DOCTYPE html>") && page.contains("<code>ring</code>") && page.contains("<svg")
+        page.starts_with("<!DOCTYPE html>")
+            && page.contains("<code>ring</code>")
+            && page.contains("<svg")
     );
     let more = ["--untimed", "--trace", "it.json"];
     assert_eq!(check(&folder, "alarm.net", &["live"], &more).code, Some(1));
@@ -191,8 +216,12 @@ fn the_requirements_of_a_system_are_asked_by_their_numbers() {
     let first = &rows[0];
     assert_eq!((&first["id"], &first["name"]), (&json!("GS1"), &json!("GS1")));
     assert_eq!(first["sentence"], "The mission is in exactly one place.");
-    assert_eq!((&first["engine"], &first["evidence"]), (&json!("structural"), &json!("refutation")));
-    let true_ones = rows.iter().filter(|it| it["verdict"] == "true").map(|it| it["id"].as_str().unwrap());
+    assert_eq!(
+        (&first["engine"], &first["evidence"]),
+        (&json!("structural"), &json!("refutation"))
+    );
+    let true_ones =
+        rows.iter().filter(|it| it["verdict"] == "true").map(|it| it["id"].as_str().unwrap());
     assert_eq!(true_ones.collect::<Vec<_>>(), ["GS1", "LS1", "LS7", "AS1", "DP1"]);
     assert!(rows.iter().all(|it| it["verdict"] != "false"));
     assert_eq!(folder.cotama(&["verify", "kept-1.json"]).code, Some(0));
@@ -205,19 +234,29 @@ fn the_requirements_of_a_system_are_asked_by_their_numbers() {
 #[test]
 fn files_hold_one_property_a_line_or_those_of_the_contest() {
     let folder = Folder::new("check_files");
-    folder
-        .write("wanted.txt", "# of the door\n\nnever: AG !(Closing & obstacle)\n  EF Open\nlive\ndeadlock\n");
-    let answer =
-        folder.cotama(&["check", "door", "--untimed", "--properties", "wanted.txt", "--json"]).json(1);
+    folder.write(
+        "wanted.txt",
+        "# of the door\n\nnever: AG !(Closing & obstacle)\n  EF Open\nlive\ndeadlock\n",
+    );
+    let answer = folder
+        .cotama(&["check", "door", "--untimed", "--properties", "wanted.txt", "--json"])
+        .json(1);
     let rows = answer["results"].as_array().unwrap();
-    let named: Vec<_> =
-        rows.iter().map(|it| (it["name"].as_str().unwrap(), it["verdict"].as_str().unwrap())).collect();
-    assert_eq!(named, [("never", "true"), ("EF Open", "true"), ("live", "true"), ("deadlock", "false")]);
+    let named: Vec<_> = rows
+        .iter()
+        .map(|it| (it["name"].as_str().unwrap(), it["verdict"].as_str().unwrap()))
+        .collect();
+    assert_eq!(
+        named,
+        [("never", "true"), ("EF Open", "true"), ("live", "true"), ("deadlock", "false")]
+    );
     assert_eq!(folder.cotama(&["export", "door", "--output", "door.pnml"]).code, Some(0));
     folder.write("wanted.xml", CONTEST);
-    let mcc = folder.cotama(&["check", "door.pnml", "--untimed", "--properties", "wanted.xml", "--mcc"]);
+    let mcc =
+        folder.cotama(&["check", "door.pnml", "--untimed", "--properties", "wanted.xml", "--mcc"]);
     assert_eq!(mcc.code, Some(0), "{mcc:?}");
-    let lines: Vec<_> = mcc.stdout.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
+    let lines: Vec<_> =
+        mcc.stdout.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
     assert_eq!(lines, ["FORMULA never-two TRUE", "FORMULA most 1"]);
 }
 
@@ -226,7 +265,8 @@ fn the_contest_is_told_when_nothing_is_known() {
     let folder = Folder::new("check_contest");
     let asked = ["ReachabilityDeadlock", "OneSafe"];
     let ended = check(&folder, "philosophers:3", &asked, &["--mcc"]);
-    let lines: Vec<_> = ended.stdout.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
+    let lines: Vec<_> =
+        ended.stdout.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
     assert_eq!(lines, ["FORMULA ReachabilityDeadlock TRUE", "FORMULA OneSafe TRUE"]);
     let more = ["--mcc", "--engine", "explicit", "--max-states", "5"];
     let ended = check(&folder, "philosophers:3", &["ReachabilityDeadlock"], &more);
@@ -249,7 +289,10 @@ fn what_a_property_gets_wrong_is_shown_at_its_place() {
     golden("bad_property_place.txt", &said(&["AG !(Closng & obstacle)"]));
     golden("bad_property_syntax.txt", &said(&["AG (Closing &"]));
     folder.write("wanted.txt", "# two are wrong\nfirst: EF Opn\nEF Open\nthird: AG bounds(\n");
-    golden("bad_property_file.txt", &folder.cotama(&["check", "door", "--properties", "wanted.txt"]).stderr);
+    golden(
+        "bad_property_file.txt",
+        &folder.cotama(&["check", "door", "--properties", "wanted.txt"]).stderr,
+    );
     folder.write("wanted.xml", CONTEST.replace("p0", "nowhere"));
     golden(
         "bad_property_contest.txt",
@@ -268,9 +311,12 @@ fn what_a_property_gets_wrong_is_shown_at_its_place() {
 #[test]
 fn an_engine_of_another_version_and_a_trace_of_no_form_are_refused() {
     let folder = Folder::new("check_refused");
-    for more in
-        [["--engine", "symbolic"], ["--engine", "sat"], ["--trace", "run.txt"], ["--max-seconds", "-1"]]
-    {
+    for more in [
+        ["--engine", "symbolic"],
+        ["--engine", "sat"],
+        ["--trace", "run.txt"],
+        ["--max-seconds", "-1"],
+    ] {
         let ended = check(&folder, "door", &["EF Open"], &more);
         assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{more:?}");
     }
@@ -315,7 +361,11 @@ fn evidence_of_every_kind_is_accepted() {
         let more = ["--untimed", "--certificate", "it.json", "--json"];
         let answer = check(&folder, model, &[property], &more).json(code);
         let row = &answer["results"][0];
-        assert_eq!((&row["evidence"], &row["certificate"]), (&json!(kind), &json!("it.json")), "{property}");
+        assert_eq!(
+            (&row["evidence"], &row["certificate"]),
+            (&json!(kind), &json!("it.json")),
+            "{property}"
+        );
         let answer = folder.cotama(&["verify", "it.json", "--json"]).json(0);
         assert_eq!(answer["verdict"], json!(code == 0), "{property}");
         std::fs::remove_file(folder.path().join("it.json")).unwrap();
@@ -327,7 +377,10 @@ fn without_evidence_no_certificate_is_written() {
     let folder = Folder::new("check_no_evidence");
     let ended = check(&folder, "watchdog", &["EF Fault"], &["--certificate", "it.json"]);
     assert_eq!(ended.code, Some(0));
-    assert!(ended.stderr.contains("no certificate for EF Fault: properties of time nets"), "{ended:?}");
+    assert!(
+        ended.stderr.contains("no certificate for EF Fault: properties of time nets"),
+        "{ended:?}"
+    );
     assert_eq!(folder.files(""), [""; 0]);
 }
 

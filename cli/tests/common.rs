@@ -54,7 +54,8 @@ impl Folder {
         let mut command = Command::new(program);
         let own = Path::new(env!("CARGO_BIN_EXE_cotama")).parent().unwrap().to_owned();
         let path = std::env::var_os("PATH").unwrap_or_default();
-        let path = std::env::join_paths([own].into_iter().chain(std::env::split_paths(&path))).unwrap();
+        let path =
+            std::env::join_paths([own].into_iter().chain(std::env::split_paths(&path))).unwrap();
         command.current_dir(&self.0).env("PATH", path).env("COLUMNS", "100").stdin(Stdio::null());
         for name in ["NO_COLOR", "CLICOLOR", "CLICOLOR_FORCE"] {
             command.env_remove(name);
@@ -81,7 +82,8 @@ pub(crate) struct Ended {
 }
 
 impl Ended {
-    /// The JSON object on standard output, which is as the stored schema of its command says; `code` is the exit code.
+    /// The JSON object on standard output, which is as the stored schema of its command says;
+    /// `code` is the exit code.
     pub(crate) fn json(&self, code: i32) -> Value {
         assert_eq!(self.code, Some(code), "{self:?}");
         assert!(self.stdout.starts_with("{\n  \"schema\": \"cotama/"), "{}", self.stdout);

@@ -19,7 +19,10 @@ fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
     let folder = Folder::new("export_formats");
     for (format, end, begin) in FORMATS {
         let printed = folder.cotama(&["export", "door", "--format", format]);
-        assert!(printed.code == Some(0) && printed.stdout.starts_with(begin), "{format}: {printed:?}");
+        assert!(
+            printed.code == Some(0) && printed.stdout.starts_with(begin),
+            "{format}: {printed:?}"
+        );
         let file = format!("out/door.{end}");
         let written = folder.cotama(&["export", "door", "--output", &file]);
         assert_eq!((written.code, written.stdout.as_str()), (Some(0), ""));
@@ -47,7 +50,8 @@ fn the_drawings_of_the_delivery_are_those_of_the_program() {
     for model in models {
         let drawn = folder.cotama(&["export", model, "--format", "svg"]);
         assert_eq!(drawn.code, Some(0), "{drawn:?}");
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../docs/delivery/{model}.svg"));
+        let path =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../docs/delivery/{model}.svg"));
         compare(&path, &drawn.stdout);
         assert!(page.contains(&format!("(delivery/{model}.svg)")), "{model} is not shown");
     }
@@ -59,7 +63,8 @@ fn pnml_and_json_lose_nothing() {
     for model in ["door", "charger", "environment", "kanban:3"] {
         let json = folder.cotama(&["export", model, "--format", "json"]).stdout;
         for format in ["json", "pnml"] {
-            let line = format!("cotama export {model} --format {format} | cotama export - --format json");
+            let line =
+                format!("cotama export {model} --format {format} | cotama export - --format json");
             assert_eq!(folder.shell(&line).stdout, json, "{model} as {format}");
         }
     }
@@ -68,8 +73,9 @@ fn pnml_and_json_lose_nothing() {
 #[test]
 fn a_drawing_is_of_states_or_of_places_and_transitions() {
     let folder = Folder::new("export_styles");
-    let drawn =
-        |style: &str| folder.cotama(&["export", "door", "--format", "mermaid", "--style", style]).stdout;
+    let drawn = |style: &str| {
+        folder.cotama(&["export", "door", "--format", "mermaid", "--style", style]).stdout
+    };
     assert!(drawn("states").starts_with("stateDiagram-v2"));
     assert!(drawn("auto").starts_with("stateDiagram-v2"));
     assert!(drawn("net").starts_with("flowchart"));
@@ -89,9 +95,13 @@ fn a_file_is_written_as_a_whole_or_left_as_it_was() {
     folder.write("door.svg", "kept");
     for name in ["door.svg", "new.svg"] {
         // The system refuses to write more than a few KiB.
-        let ended = folder.shell(&format!("trap '' XFSZ; ulimit -f 4; cotama export door --output {name}"));
+        let ended =
+            folder.shell(&format!("trap '' XFSZ; ulimit -f 4; cotama export door --output {name}"));
         assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{ended:?}");
         assert_eq!(ended.stderr, format!("error: {name}: it cannot be written: file too large\n"));
     }
-    assert_eq!((folder.files(""), folder.read("door.svg")), (vec!["door.svg".to_owned()], "kept".to_owned()));
+    assert_eq!(
+        (folder.files(""), folder.read("door.svg")),
+        (vec!["door.svg".to_owned()], "kept".to_owned())
+    );
 }

@@ -17,8 +17,10 @@ fn no_line_is_wider_than_the_window() {
     for width in [50, 60, 80, 89, 90, 100, 133, 200] {
         for command in ["cotama fmeca", "cotama fmeca --diagnosability"] {
             let screen = folder.shell(&format!("COLUMNS={width} {command}")).stdout;
-            let widest =
-                screen.lines().filter(|it| !it.starts_with("next: ")).map(|line| line.chars().count());
+            let widest = screen
+                .lines()
+                .filter(|it| !it.starts_with("next: "))
+                .map(|line| line.chars().count());
             assert!(widest.max().unwrap() <= width, "{width}:\n{screen}");
         }
     }
@@ -85,7 +87,10 @@ fn the_answer_in_json_has_every_row_and_what_cannot_be_told_apart() {
     assert_eq!(answer["counts"], counts);
     let rows = answer["rows"].as_array().unwrap();
     assert_eq!(rows.len(), 40);
-    assert!(rows.iter().all(|it| it["flags_always"] != json!([]) || it["undetectable_reason"].is_string()));
+    assert!(
+        rows.iter()
+            .all(|it| it["flags_always"] != json!([]) || it["undetectable_reason"].is_string())
+    );
     let groups = |status: usize| -> Vec<&Value> {
         let groups = answer["diagnosability"]["statuses"][status]["groups"].as_array().unwrap();
         groups.iter().map(|it| &it["modes"]).collect()
@@ -99,13 +104,21 @@ fn the_answer_in_json_has_every_row_and_what_cannot_be_told_apart() {
         json!({ "modes": ["BMP1", "MOT3"], "flags": ["stall"], "flags_optional": [], "probes": [] })
     );
     for status in answer["diagnosability"]["statuses"].as_array().unwrap() {
-        let listed =
-            status["undetectable"].as_array().unwrap().len() + status["impossible"].as_array().unwrap().len();
-        assert_eq!(status["detectable"].as_u64().unwrap() + listed as u64, 40, "{}", status["status"]);
+        let listed = status["undetectable"].as_array().unwrap().len()
+            + status["impossible"].as_array().unwrap().len();
+        assert_eq!(
+            status["detectable"].as_u64().unwrap() + listed as u64,
+            40,
+            "{}",
+            status["status"]
+        );
     }
     let case = &answer["diagnosability"]["ambiguous_case"];
     assert_eq!(case["candidates"], sound[0]);
-    assert_eq!((&case["decision"], &case["decision_without_operator"]), (&json!("local"), &json!("global")));
+    assert_eq!(
+        (&case["decision"], &case["decision_without_operator"]),
+        (&json!("local"), &json!("global"))
+    );
 }
 
 /// In each status, each pair that can be separated is separated by one of the least probes.

@@ -30,11 +30,16 @@ fn every_example_runs_and_ends_as_it_says() {
     let mut ran = 0;
     for command in [""].into_iter().chain(COMMANDS) {
         let folder = Folder::new(&format!("help_{command}"));
-        let arguments: Vec<_> = [command, "--help"].into_iter().filter(|it| !it.is_empty()).collect();
+        let arguments: Vec<_> =
+            [command, "--help"].into_iter().filter(|it| !it.is_empty()).collect();
         let help = folder.cotama(&arguments);
         assert_eq!(help.code, Some(0));
         let examples = examples(&help.stdout);
-        assert!(examples.len() >= 2, "`cotama {command} --help` has too few examples:\n{}", help.stdout);
+        assert!(
+            examples.len() >= 2,
+            "`cotama {command} --help` has too few examples:\n{}",
+            help.stdout
+        );
         for example in examples {
             let expected = i32::from(example.contains("exit code 1"));
             let ended = folder.shell(example);

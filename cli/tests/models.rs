@@ -22,7 +22,10 @@ fn the_screens_of_models() {
 fn it_is_said_of_each_law_how_it_was_shown() {
     let answer = Folder::new("models_laws").cotama(&["models", "--json"]).json(0);
     let door = named(&answer, "door");
-    assert_eq!((&door["places"], &door["states"], &door["firings"]), (&json!(7), &json!(8), &json!(17)));
+    assert_eq!(
+        (&door["places"], &door["states"], &door["firings"]),
+        (&json!(7), &json!(8), &json!(17))
+    );
     let law = json!({ "law": "never_both(Closing, obstacle)", "shown": "while_compiling" });
     assert_eq!(door["laws"][1], law);
     assert_eq!(named(&answer, "contextual")["states"], Value::Null);
@@ -61,9 +64,11 @@ fn names_that_a_terminal_would_obey_are_shown_as_codes() {
     let folder = Folder::new("models_obeyed");
     let text = folder.cotama(&["export", "door", "--format", "json"]).stdout;
     folder.write("door.json", text.replace("Closing", "\\u001b[31mClosing"));
-    for arguments in
-        [&["models", "door.json"][..], &["simulate", "door.json", "Cal"], &["simulate", "door.json"]]
-    {
+    for arguments in [
+        &["models", "door.json"][..],
+        &["simulate", "door.json", "Cal"],
+        &["simulate", "door.json"],
+    ] {
         let ended = folder.cotama(arguments);
         assert!(!ended.stdout.contains('\u{1b}') && !ended.stderr.contains('\u{1b}'), "{ended:?}");
     }

@@ -32,8 +32,7 @@ fn the_activities_are_those_of_table_5() {
 #[test]
 fn the_plan_is_that_of_table_6() {
     let answer = plan(&[], 0);
-    let choices =
-        "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M3 L1";
+    let choices = "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M3 L1";
     assert_eq!(column(&answer["plan"], "choice"), choices.split(',').collect::<Vec<_>>());
     let speeds = [410, 330, 330, 0, 0, 0, 330, 410, 410, 410, 0, 0, 0, 410, 410, 330, 410];
     assert_eq!(column(&answer["plan"], "speed_mm_s"), speeds);
@@ -113,8 +112,14 @@ fn lost_hardware_is_left_out_and_its_need_explained() {
     assert!(choices.iter().all(|choice| !choice.as_str().unwrap().contains("M5")), "{choices:?}");
     assert_eq!(one["activities"][0]["candidates"], 6);
     let blind = plan(&["--lost", "kinect"], 1);
-    assert_eq!((&blind["status"], &blind["reason"]["activity"]), (&json!("infeasible"), &json!("A3")));
-    assert_eq!((&blind["activities"][2]["candidates"], &blind["combinations"]), (&json!(0), &json!("0")));
+    assert_eq!(
+        (&blind["status"], &blind["reason"]["activity"]),
+        (&json!("infeasible"), &json!("A3"))
+    );
+    assert_eq!(
+        (&blind["activities"][2]["candidates"], &blind["combinations"]),
+        (&json!(0), &json!("0"))
+    );
     let kept = blind["reason"]["relaxations"].as_array().unwrap();
     let kept = kept.iter().find(|it| it["kind"] == "keep_hardware").unwrap();
     assert_eq!(kept["hardware"], json!([{ "hardware": "kinect", "units": 1 }]));
@@ -136,7 +141,10 @@ fn a_mission_is_read_from_a_file_and_from_standard_input() {
     let answer = folder.shell("cotama plan - --json < 'short walk.toml'").json(0);
     assert_eq!(answer["mission"], "walk");
     let screen = folder.cotama(&["plan", "short walk.toml"]).stdout;
-    assert!(screen.ends_with("next: cotama plan 'short walk.toml' --objective quality\n"), "{screen}");
+    assert!(
+        screen.ends_with("next: cotama plan 'short walk.toml' --objective quality\n"),
+        "{screen}"
+    );
 }
 
 #[test]

@@ -5,7 +5,8 @@ use serde_json::json;
 
 fn with_trace(name: &str) -> Folder {
     let folder = Folder::new(name);
-    let arguments = ["run", "patrol", "--seed", "3", "--json", "--no-report", "--trace", "patrol.jsonl"];
+    let arguments =
+        ["run", "patrol", "--seed", "3", "--json", "--no-report", "--trace", "patrol.jsonl"];
     assert_eq!(folder.cotama(&arguments).json(0)["trace"], "patrol.jsonl");
     folder
 }
@@ -13,7 +14,8 @@ fn with_trace(name: &str) -> Folder {
 #[test]
 fn a_trace_comes_out_the_same() {
     let folder = with_trace("replay_same");
-    let arguments = ["replay", "patrol.jsonl", "--json", "--trace", "again.jsonl", "--report", "again"];
+    let arguments =
+        ["replay", "patrol.jsonl", "--json", "--trace", "again.jsonl", "--report", "again"];
     let answer = folder.cotama(&arguments).json(0);
     assert_eq!((&answer["identical"], &answer["seed"]), (&json!(true), &json!(3)));
     assert_eq!((&answer["replans"], &answer["report"]), (&json!(3), &json!("again/index.html")));
@@ -28,7 +30,8 @@ fn a_trace_comes_out_the_same() {
 #[test]
 fn a_changed_trace_does_not() {
     let folder = with_trace("replay_changed");
-    let changed = folder.read("patrol.jsonl").replacen("\"real_power_mw\":1", "\"real_power_mw\":2", 1);
+    let changed =
+        folder.read("patrol.jsonl").replacen("\"real_power_mw\":1", "\"real_power_mw\":2", 1);
     folder.write("changed.jsonl", changed);
     let ended = folder.cotama(&["replay", "changed.jsonl", "--json"]);
     assert_eq!(ended.json(1)["identical"], false);

@@ -33,7 +33,8 @@ fn the_patrol_is_driven_as_in_table_7() {
     near(&plans[1]["energy_margin_after_mj"], 115_400, 5_000);
     near(&answer["energy_margin_mj"], 31_348, 5_000);
     near(&answer["duration_margin_ms"], 54_119, 500);
-    let kinds: Vec<_> = answer["events"].as_array().unwrap().iter().map(|it| it["kind"].clone()).collect();
+    let kinds: Vec<_> =
+        answer["events"].as_array().unwrap().iter().map(|it| it["kind"].clone()).collect();
     assert_eq!(kinds[4..], ["fault", "obstacle", "obstacle", "odometry"]);
 }
 
@@ -43,13 +44,19 @@ fn the_delivery_is_driven_in_seven_points() {
     let run = folder.cotama(&["run", "delivery", "--json", "--trace", "t.jsonl"]);
     assert_eq!(run.stderr, "");
     let answer = run.json(0);
-    assert_eq!((&answer["outcome"], &answer["operator_requests"]), (&json!("completed"), &json!(2)));
+    assert_eq!(
+        (&answer["outcome"], &answer["operator_requests"]),
+        (&json!("completed"), &json!(2))
+    );
     assert_eq!((&answer["duration_ms"], &answer["x_mm"]), (&json!(546_300), &json!(80_000)));
     assert_eq!(
         (&answer["duration_margin_ms"], &answer["energy_margin_mj"]),
         (&json!(353_700), &json!(3_794_552))
     );
-    assert_eq!((&answer["replans"], &answer["plans"][1]["plan"][0]["choice"]), (&json!(1), &json!("PF.DEG")));
+    assert_eq!(
+        (&answer["replans"], &answer["plans"][1]["plan"][0]["choice"]),
+        (&json!(1), &json!("PF.DEG"))
+    );
     let supervised = &answer["supervised"];
     let points = supervised["points"].as_array().unwrap();
     let ladder: Vec<_> = points.iter().map(|it| it["ladder"].clone()).collect();
@@ -73,11 +80,14 @@ fn the_delivery_is_driven_in_seven_points() {
     });
     assert_eq!(supervised["failures"][2], sonar);
     assert_eq!(supervised["told"][0], json!({ "round": 1, "event": "gs.mission_received" }));
-    let fired =
-        json!({ "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3 });
+    let fired = json!({ "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3 });
     assert!(supervised["fired"].as_array().unwrap().contains(&fired));
-    let runs: Vec<_> =
-        supervised["configurations"].as_array().unwrap().iter().map(|it| &it["configuration"]).collect();
+    let runs: Vec<_> = supervised["configurations"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|it| &it["configuration"])
+        .collect();
     assert_eq!(runs[..4], [&json!("PP"), &json!("PF.OPT"), &json!("PF.OPTR"), &Value::Null]);
 
     let again = folder.cotama(&["replay", "t.jsonl", "--json"]).json(0);
@@ -92,8 +102,7 @@ fn the_delivery_is_driven_in_seven_points() {
 #[test]
 fn supervisors_deal_with_the_failures_of_a_file() {
     let folder = Folder::new("run_delivery_faults");
-    let faults =
-        "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"BAT2\"\n";
+    let faults = "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"BAT2\"\n";
     folder.write("flat.toml", faults);
     let answer = folder.cotama(&["run", "delivery", "--faults", "flat.toml", "--json"]).json(1);
     assert_eq!(
@@ -105,7 +114,10 @@ fn supervisors_deal_with_the_failures_of_a_file() {
     assert_eq!((&twice["identical"], &twice["supervised"]), (&json!(true), &answer["supervised"]));
 
     let quiet = folder.cotama(&["run", "delivery", "--faults", "none", "--json"]).json(0);
-    assert_eq!((&quiet["operator_requests"], &quiet["supervised"]["failures"]), (&json!(0), &json!([])));
+    assert_eq!(
+        (&quiet["operator_requests"], &quiet["supervised"]["failures"]),
+        (&json!(0), &json!([]))
+    );
     folder.write(
         "crowd.toml",
         "format = \"panorama-faults/1\"\nevent = [{ x_mm = 9, kind = \"obstacle\", delay_ms = 9 }]\n",
@@ -120,8 +132,12 @@ fn supervisors_deal_with_the_failures_of_a_file() {
 #[test]
 fn a_limit_that_the_delivery_exceeds_is_a_failure() {
     let folder = Folder::new("run_delivery_limit");
-    let answer = folder.cotama(&["run", "delivery", "--duration-limit", "400000", "--json"]).json(1);
-    assert_eq!((&answer["outcome"], &answer["duration_margin_ms"]), (&json!("failed"), &json!(-153_700)));
+    let answer =
+        folder.cotama(&["run", "delivery", "--duration-limit", "400000", "--json"]).json(1);
+    assert_eq!(
+        (&answer["outcome"], &answer["duration_margin_ms"]),
+        (&json!("failed"), &json!(-153_700))
+    );
     assert_eq!(answer["reason"], "duration limit exceeded by 153700 ms");
     // Without a plan for the rest, the adapter goes on and the operator is asked.
     let sonar = &answer["supervised"]["points"][5];
@@ -132,10 +148,15 @@ fn a_limit_that_the_delivery_exceeds_is_a_failure() {
 fn the_report_is_written_where_it_is_said_and_nothing_else() {
     let folder = Folder::new("run_report");
     let answer = folder.cotama(&["run", "patrol", "--json"]).json(0);
-    assert_eq!((&answer["report"], &answer["trace"]), (&json!("report/patrol/index.html"), &Value::Null));
+    assert_eq!(
+        (&answer["report"], &answer["trace"]),
+        (&json!("report/patrol/index.html"), &Value::Null)
+    );
     assert_eq!(folder.files("report/patrol"), ["index.html"]);
     let html = folder.read("report/patrol/index.html");
-    assert!(html.to_lowercase().starts_with("<!doctype html>") && html.trim_end().ends_with("</html>"));
+    assert!(
+        html.to_lowercase().starts_with("<!doctype html>") && html.trim_end().ends_with("</html>")
+    );
     // Again, over the old one, and elsewhere.
     folder.cotama(&["run", "patrol", "--json", "--report", "a/b"]).json(0);
     folder.cotama(&["run", "patrol", "--json", "--report", "a/b"]).json(0);
@@ -157,10 +178,14 @@ fn the_same_run_is_the_same_answer() {
 
 #[test]
 fn without_faults_there_is_one_plan_and_it_holds() {
-    let answer = Folder::new("run_quiet").cotama(&["run", "patrol", "--faults", "none", "--json"]).json(0);
+    let answer =
+        Folder::new("run_quiet").cotama(&["run", "patrol", "--faults", "none", "--json"]).json(0);
     assert_eq!((&answer["replans"], &answer["events"]), (&json!(0), &json!([])));
     // The plan rounds each activity, the run only its sums.
-    assert_eq!((&answer["energy_mj"], &answer["duration_ms"]), (&json!(8_563_598), &json!(527_923)));
+    assert_eq!(
+        (&answer["energy_mj"], &answer["duration_ms"]),
+        (&json!(8_563_598), &json!(527_923))
+    );
 }
 
 #[test]
@@ -170,14 +195,19 @@ fn faults_come_from_a_file() {
     folder.write("blind.toml", faults);
     let answer = folder.cotama(&["run", "patrol", "--faults", "blind.toml", "--json"]).json(1);
     assert_eq!((&answer["outcome"], &answer["operator_requests"]), (&json!("safe"), &json!(1)));
-    assert_eq!((&answer["x_mm"], &answer["events"][0]["hardware"]), (&json!(90_000), &json!("kinect")));
+    assert_eq!(
+        (&answer["x_mm"], &answer["events"][0]["hardware"]),
+        (&json!(90_000), &json!("kinect"))
+    );
     assert!(answer["reason"].as_str().unwrap().contains("A10"), "{}", answer["reason"]);
 }
 
 #[test]
 fn hardware_lost_at_the_start_is_a_fault_at_the_start() {
     let folder = Folder::new("run_lost");
-    let one = folder.cotama(&["run", "patrol", "--lost", "laser:1", "--faults", "none", "--json"]).json(0);
+    let one = folder
+        .cotama(&["run", "patrol", "--lost", "laser:1", "--faults", "none", "--json"])
+        .json(0);
     let fault = json!({ "time_ms": 0, "x_mm": 0, "kind": "fault", "text": "laser failed: 1 lost, 1 left",
         "lost_ms": 0, "hardware": "laser", "units": 1, "units_left": 1 });
     assert_eq!(one["events"], json!([fault]));
@@ -200,8 +230,16 @@ fn without_a_plan_at_the_start_the_robot_does_not_leave() {
 fn objectives_are_pursued_in_a_run() {
     let folder = Folder::new("run_objectives");
     let run = |objective| {
-        let arguments =
-            ["run", "patrol", "--json", "--no-report", "--faults", "none", "--objective", objective];
+        let arguments = [
+            "run",
+            "patrol",
+            "--json",
+            "--no-report",
+            "--faults",
+            "none",
+            "--objective",
+            objective,
+        ];
         folder.cotama(&arguments).json(0)
     };
     assert_eq!(run("min-energy")["plans"][0]["energy_margin_after_mj"], 8_640_000 - 4_675_896);
@@ -211,8 +249,17 @@ fn objectives_are_pursued_in_a_run() {
 #[test]
 fn limits_of_the_command_line_are_those_of_the_run() {
     let folder = Folder::new("run_limits");
-    let arguments =
-        ["run", "patrol", "--json", "--faults", "none", "--energy-limit", "9000000", "--trace", "t.jsonl"];
+    let arguments = [
+        "run",
+        "patrol",
+        "--json",
+        "--faults",
+        "none",
+        "--energy-limit",
+        "9000000",
+        "--trace",
+        "t.jsonl",
+    ];
     let answer = folder.cotama(&arguments).json(0);
     let used = answer["energy_mj"].as_i64().unwrap();
     assert_eq!(answer["energy_margin_mj"], 9_000_000 - used);

@@ -12,7 +12,10 @@ fn the_screens_of_the_patrol() {
     golden("plan_delivery.txt", &folder.cotama(&["plan", "delivery"]).stdout);
     golden("plan_patrol_narrow.txt", &folder.shell("COLUMNS=60 cotama plan patrol").stdout);
     golden("plan_infeasible.txt", &folder.cotama(&["plan", "patrol", "--lost", "kinect"]).stdout);
-    golden("run_infeasible.txt", &folder.cotama(&["run", "patrol", "--duration-limit", "400000"]).stdout);
+    golden(
+        "run_infeasible.txt",
+        &folder.cotama(&["run", "patrol", "--duration-limit", "400000"]).stdout,
+    );
     golden("list.txt", &folder.cotama(&["list"]).stdout);
 }
 

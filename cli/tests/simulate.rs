@@ -57,7 +57,8 @@ fn an_ignored_event_is_no_error_unless_it_is_said_to_be() {
     }
 }
 
-/// A lamp that can be switched off from 100 ms to 200 ms after it was switched on, and three times at most.
+/// A lamp that can be switched off from 100 ms to 200 ms after it was switched on, and three times
+/// at most.
 fn lamp() -> Value {
     let arc = |place: &str| json!([{ "place": place, "weight": 1 }]);
     let transition = |name: &str, take: &str, give: Value, within: Value| {
@@ -80,13 +81,17 @@ fn it_is_said_why_an_event_is_ignored() {
     let folder = Folder::new("simulate_why");
     folder.write("lamp.json", lamp().to_string());
     let words = ["off", "on", "off@99", "off@100", "on"];
-    let answer = folder.cotama(&[&["simulate", "lamp.json", "--json"], &words[..]].concat()).json(0);
+    let answer =
+        folder.cotama(&[&["simulate", "lamp.json", "--json"], &words[..]].concat()).json(0);
     let why = |step: usize| {
         let ignored = &answer["steps"][step]["ignored"][0];
         (ignored["reason"].as_str().unwrap(), ignored["text"].as_str().unwrap())
     };
     assert_eq!(why(0), ("not_enabled", "`off` needs lit"));
-    assert_eq!(why(2), ("too_early", "too early: `off` fires on it 100 to 200 ms after it is enabled"));
+    assert_eq!(
+        why(2),
+        ("too_early", "too early: `off` fires on it 100 to 200 ms after it is enabled")
+    );
     assert_eq!(why(4), ("full", "`on` would put more than 3 tokens into count"));
     let late = folder.cotama(&["simulate", "lamp.json", "--json", "on", "off@201"]).json(0);
     assert_eq!(late["steps"][1]["ignored"][0]["reason"], "too_late");
@@ -133,8 +138,8 @@ fn events_come_one_a_line_from_standard_input() {
 fn a_door_is_played_by_hand() {
     let folder = Folder::new("simulate_hand");
     let lines = [
-        "2", "Call", "E", "EndO", "+5000", "marking", "foo", "back", "back", "back", "back", "back", "help",
-        "quit", "Call",
+        "2", "Call", "E", "EndO", "+5000", "marking", "foo", "back", "back", "back", "back",
+        "back", "help", "quit", "Call",
     ];
     folder.write("lines", lines.join("\n"));
     let ended = folder.shell("cotama simulate door --interactive < lines 2>&1");
@@ -156,9 +161,17 @@ fn a_net_that_does_not_come_to_rest_is_stopped() {
     let answer = folder.cotama(&["simulate", "spin.json", "--json", "on", "+1"]).json(3);
     assert_eq!((&answer["complete"], &answer["time_ms"]), (&json!(false), &json!(0)));
     let ended = folder.cotama(&["simulate", "spin.json", "on"]);
-    assert!(ended.code == Some(3) && ended.stdout.contains("\nstopped: "), "{}", ended.code.unwrap());
+    assert!(
+        ended.code == Some(3) && ended.stdout.contains("\nstopped: "),
+        "{}",
+        ended.code.unwrap()
+    );
     let ended = folder.shell("printf 'on\nquit' | cotama simulate spin.json -i");
-    assert!(ended.code == Some(0) && ended.stdout.contains("would fire: not done"), "{}", ended.stdout);
+    assert!(
+        ended.code == Some(0) && ended.stdout.contains("would fire: not done"),
+        "{}",
+        ended.stdout
+    );
 }
 
 #[test]

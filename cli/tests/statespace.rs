@@ -12,14 +12,17 @@ fn the_screens_of_state_spaces() {
     assert_eq!(cut.code, Some(3));
     golden("statespace_cut.txt", &cut.stdout);
     folder.write("pump.net", "net pump  tr in -> tank  tr out tank*2 ->  tr never spare ->");
-    golden("statespace_unbounded.txt", &folder.cotama(&["statespace", "pump.net", "--untimed"]).stdout);
+    golden(
+        "statespace_unbounded.txt",
+        &folder.cotama(&["statespace", "pump.net", "--untimed"]).stdout,
+    );
 }
 
 #[test]
 fn all_is_counted_and_the_same_on_two_threads() {
     let folder = Folder::new("statespace_counts");
-    let mut answers =
-        ["1", "2"].map(|jobs| folder.cotama(&["statespace", "kanban:2", "--jobs", jobs, "--json"]).json(0));
+    let mut answers = ["1", "2"]
+        .map(|jobs| folder.cotama(&["statespace", "kanban:2", "--jobs", jobs, "--json"]).json(0));
     for (field, value) in [
         ("states", json!("4600")),
         ("arcs", json!("28120")),
@@ -44,7 +47,8 @@ fn all_is_counted_and_the_same_on_two_threads() {
 #[test]
 fn the_same_input_gives_the_same_answer_but_for_the_seconds() {
     let folder = Folder::new("statespace_twice");
-    let mut answers = [(); 2].map(|()| folder.cotama(&["statespace", "philosophers:4", "--json"]).json(0));
+    let mut answers =
+        [(); 2].map(|()| folder.cotama(&["statespace", "philosophers:4", "--json"]).json(0));
     for answer in &mut answers {
         answer["seconds"] = json!(0);
     }
@@ -87,7 +91,8 @@ fn an_unbounded_net_is_an_answer_and_shows_how_it_grows() {
 fn the_contest_gets_four_lines_or_one() {
     let folder = Folder::new("statespace_mcc");
     let lines = folder.cotama(&["statespace", "kanban:2", "--mcc"]).stdout;
-    let numbers: Vec<_> = lines.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
+    let numbers: Vec<_> =
+        lines.lines().map(|it| it.split(" TECHNIQUES ").next().unwrap()).collect();
     let wanted = [
         "STATE_SPACE STATES 4600",
         "STATE_SPACE TRANSITIONS 28120",
@@ -102,7 +107,8 @@ fn the_contest_gets_four_lines_or_one() {
 #[test]
 fn memory_has_a_limit_that_is_an_answer() {
     let folder = Folder::new("statespace_memory");
-    // Kanban(10) has 10^9 markings. What the program may take in all is more than what the search may.
+    // Kanban(10) has 10^9 markings. What the program may take in all is more than what the search
+    // may.
     let line = "ulimit -v 200000; cotama statespace kanban:10 --max-memory 64 --json";
     let answer = folder.shell(line).json(3);
     assert_eq!(
@@ -110,6 +116,7 @@ fn memory_has_a_limit_that_is_an_answer() {
         (&json!(null), &json!("the limit of memory was reached"))
     );
     assert!(answer["explored"]["states"].as_str().unwrap().len() > 6, "{answer}");
-    let answer = folder.cotama(&["statespace", "kanban:10", "--max-seconds", "0.2", "--json"]).json(3);
+    let answer =
+        folder.cotama(&["statespace", "kanban:10", "--max-seconds", "0.2", "--json"]).json(3);
     assert_eq!(answer["limit"], "the limit of time was reached");
 }

@@ -10,7 +10,11 @@ pub trait Allocator<const A: usize> {
     ///
     /// # Errors
     /// [`MemoryError`] when `plan` or the allocator's memory is too small for the problem.
-    fn allocate(&mut self, problem: &Problem<'_, A>, plan: &mut [u16]) -> Result<Answer<A>, MemoryError>;
+    fn allocate(
+        &mut self,
+        problem: &Problem<'_, A>,
+        plan: &mut [u16],
+    ) -> Result<Answer<A>, MemoryError>;
 }
 
 /// The answer of an allocator.
@@ -21,9 +25,11 @@ pub enum Answer<const A: usize> {
     /// No plan: proven by [`Exact`](crate::exact::Exact), and all that the paper's rule can say in
     /// [`Panorama`](crate::panorama::Panorama), which can miss a plan.
     Infeasible {
-        /// The axis whose limit is not met: the first, in the order of treatment, at which the search failed.
+        /// The axis whose limit is not met: the first, in the order of treatment, at which the
+        /// search failed.
         axis: usize,
-        /// The least total that was found reachable on that axis with the limits treated before it kept.
+        /// The least total that was found reachable on that axis with the limits treated before it
+        /// kept.
         least: u64,
         /// The work done, in the allocator's steps.
         steps: u64,
@@ -44,8 +50,8 @@ pub struct Planned<const A: usize> {
     pub cost: [u64; A],
     /// The total quality.
     pub quality: u64,
-    /// A proven bound on the objective: no plan within the limits has more (less, for a minimised axis).
-    /// `None` where the allocator proves nothing, or was given no objective.
+    /// A proven bound on the objective: no plan within the limits has more (less, for a minimised
+    /// axis). `None` where the allocator proves nothing, or was given no objective.
     pub bound: Option<u64>,
     /// Whether the bound is met, so that no plan is better.
     pub optimal: bool,
@@ -73,6 +79,10 @@ impl core::fmt::Display for MemoryError {
 impl core::error::Error for MemoryError {}
 
 /// `Ok` when `given` elements of memory suffice.
-pub(crate) const fn enough(what: &'static str, needed: usize, given: usize) -> Result<(), MemoryError> {
+pub(crate) const fn enough(
+    what: &'static str,
+    needed: usize,
+    given: usize,
+) -> Result<(), MemoryError> {
     if given < needed { Err(MemoryError { what, needed, given }) } else { Ok(()) }
 }

@@ -1,10 +1,11 @@
 //! The front: every plan within the limits that no other plan beats on all axes and in quality.
 //!
-//! A dynamic programme over the activities: partial plans that cannot be completed within a limit are dropped,
-//! and so is one that another partial plan over the same activities dominates (no dearer on any axis, no
-//! worse in quality). What is left after the last activity is the front, each vector of totals once; of plans
-//! with equal totals the one first in the order of choices is kept. The memory it needs is not known before;
-//! when the caller's does not suffice, that is the answer.
+//! A dynamic programme over the activities: partial plans that cannot be completed within a limit
+//! are dropped, and so is one that another partial plan over the same activities dominates (no
+//! dearer on any axis, no worse in quality). What is left after the last activity is the front,
+//! each vector of totals once; of plans with equal totals the one first in the order of choices is
+//! kept. The memory it needs is not known before; when the caller's does not suffice, that is the
+//! answer.
 //!
 //! ```
 //! use cotama_core::front::{Front, Node};
@@ -64,8 +65,8 @@ pub struct FrontPlans<'f, const A: usize> {
 }
 
 impl<'m, const A: usize> Front<'m, A> {
-    /// A finder in this memory. It must hold the undominated partial plans after every activity, and the
-    /// extensions of the last ones; at most 2^32 elements are used.
+    /// A finder in this memory. It must hold the undominated partial plans after every activity,
+    /// and the extensions of the last ones; at most 2^32 elements are used.
     pub const fn new(nodes: &'m mut [Node<A>]) -> Self {
         Self { nodes }
     }
@@ -73,7 +74,8 @@ impl<'m, const A: usize> Front<'m, A> {
     /// The front of a problem; without plans when nothing is within the limits.
     ///
     /// # Errors
-    /// [`MemoryError`] when the memory is too small. `needed` is then what the activity at hand needed at least.
+    /// [`MemoryError`] when the memory is too small. `needed` is then what the activity at hand
+    /// needed at least.
     pub fn find(&mut self, problem: &Problem<'_, A>) -> Result<FrontPlans<'_, A>, MemoryError> {
         let activities = problem.activities();
         let given = self.nodes.len().min(u32::MAX as usize);
@@ -93,13 +95,16 @@ impl<'m, const A: usize> Front<'m, A> {
             for parent in first..end {
                 let from = nodes[parent];
                 for (choice, candidate) in candidates.iter().enumerate() {
-                    let cost = core::array::from_fn(|axis| from.cost[axis] + u64::from(candidate.cost[axis]));
+                    let cost = core::array::from_fn(|axis| {
+                        from.cost[axis] + u64::from(candidate.cost[axis])
+                    });
                     if (0..A).any(|axis| cost[axis] > room[axis]) {
                         continue;
                     }
                     let quality = from.quality + u64::from(candidate.quality);
-                    let place =
-                        nodes.get_mut(end + count).ok_or(short(end + (end - first) * candidates.len()))?;
+                    let place = nodes
+                        .get_mut(end + count)
+                        .ok_or(short(end + (end - first) * candidates.len()))?;
                     *place = Node { cost, quality, parent: parent as u32, choice: choice as u16 };
                     count += 1;
                 }
@@ -147,7 +152,8 @@ impl<const A: usize> FrontPlans<'_, A> {
         self.nodes.get(self.first + index).map(|node| (node.cost, node.quality))
     }
 
-    /// Writes the choices of a plan; `false`, and nothing written, if there is no such plan or no room for it.
+    /// Writes the choices of a plan; `false`, and nothing written, if there is no such plan or no
+    /// room for it.
     pub fn plan(&self, index: usize, plan: &mut [u16]) -> bool {
         let Some(mut node) = self.nodes.get(self.first + index) else { return false };
         let Some(plan) = plan.get_mut(..self.activities) else { return false };

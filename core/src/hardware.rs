@@ -10,7 +10,8 @@ const GUARDS: u64 = 0x8888_8888_8888_8888;
 
 /// A number of units of each kind of hardware, 0 to 7 of each of 16 kinds, packed in eight bytes.
 ///
-/// *Invariant:* the top bit of each four-bit field is clear, so that one subtraction compares all kinds.
+/// *Invariant:* the top bit of each four-bit field is clear, so that one subtraction compares all
+/// kinds.
 ///
 /// ```
 /// use cotama_core::hardware::Units;

@@ -1,8 +1,9 @@
-//! The deterministic core of a robot that must keep its goals: supervisors that are checked before they run, and which
-//! sensors and algorithms to use in every part of a mission, so that time, energy and any other additive limit hold.
+//! The deterministic core of a robot that must keep its goals: supervisors that are checked before
+//! they run, and which sensors and algorithms to use in every part of a mission, so that time,
+//! energy and any other additive limit hold.
 //!
-//! `no_std`, no heap, no floating point, no unsafe code, no dependency: the same code plans on a workstation, in a
-//! simulator and on a microcontroller, and gives the same plan everywhere.
+//! `no_std`, no heap, no floating point, no unsafe code, no dependency: the same code plans on a
+//! workstation, in a simulator and on a microcontroller, and gives the same plan everywhere.
 //!
 //! | module | what it is |
 //! | --- | --- |
@@ -19,8 +20,8 @@
 //! | [`executive`] | periodic modules on one processor: their scheduler, its watchdog, and proofs that they are in time |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
-//! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs are 32 bits and
-//! sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.
+//! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs
+//! are 32 bits and sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.
 #![no_std]
 #![cfg_attr(test, allow(clippy::pedantic))]
 

@@ -1,13 +1,14 @@
 //! Watches consumption against the plan and asks for a new one.
 //!
-//! Lambert et al., J. Intell. Robot. Syst. 110, 2024, eqs. 7 and 8: on every axis
-//! *margin = limit - used - planned rest*. A new plan is asked for **downwards** when a margin is below zero
-//! or the plan needs lost hardware (rule 5 of the algorithm), and, going beyond the paper and off by default,
-//! **upwards** when margins leave room for a better plan.
+//! Lambert et al., J. Intell. Robot. Syst. 110, 2024, eqs. 7 and 8: on every axis *margin = limit -
+//! used - planned rest*. A new plan is asked for **downwards** when a margin is below zero or the
+//! plan needs lost hardware (rule 5 of the algorithm), and, going beyond the paper and off by
+//! default, **upwards** when margins leave room for a better plan.
 //!
-//! *No flapping.* After every plan the margins become the baseline. An upward request needs some margin to
-//! have grown by [`Upward::growth`] since then, and an upward plan keeps [`Upward::reserve`]; so between two
-//! upward requests the robot has really saved that much, or hardware has come back.
+//! *No flapping.* After every plan the margins become the baseline. An upward request needs some
+//! margin to have grown by [`Upward::growth`] since then, and an upward plan keeps
+//! [`Upward::reserve`]; so between two upward requests the robot has really saved that much, or
+//! hardware has come back.
 //!
 //! ```
 //! use cotama_core::hardware::Units;
@@ -45,7 +46,8 @@ impl core::error::Error for AmountOverflow {}
 /// When to ask for a better plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upward<const A: usize> {
-    /// How much some margin must have grown since the last plan; zero on an axis means: not on this axis.
+    /// How much some margin must have grown since the last plan; zero on an axis means: not on this
+    /// axis.
     pub growth: [u64; A],
     /// What an upward plan leaves unspent on each axis.
     pub reserve: [u64; A],
@@ -95,7 +97,14 @@ impl<const A: usize> Monitor<A> {
         for (axis, &limit) in limits.iter().enumerate() {
             checked(axis, limit)?;
         }
-        Ok(Self { limits, order, used: [0; A], upward: None, baseline: [0; A], hardware_returned: false })
+        Ok(Self {
+            limits,
+            order,
+            used: [0; A],
+            upward: None,
+            baseline: [0; A],
+            hardware_returned: false,
+        })
     }
 
     /// The same, asking upwards too.
@@ -124,7 +133,8 @@ impl<const A: usize> Monitor<A> {
         Ok(())
     }
 
-    /// What is left of each limit, for a plan downwards (rule 4 of the algorithm); zero where it is passed.
+    /// What is left of each limit, for a plan downwards (rule 4 of the algorithm); zero where it is
+    /// passed.
     #[must_use]
     pub fn left(&self) -> [u64; A] {
         core::array::from_fn(|axis| self.limits[axis].saturating_sub(self.used[axis]))
@@ -146,13 +156,15 @@ impl<const A: usize> Monitor<A> {
         for axis in 0..A {
             let rest = checked(axis, rest[axis])?;
             // Exact: none of the three is beyond `MAX_AMOUNT`.
-            let left = self.limits[axis].cast_signed().saturating_sub(self.used[axis].cast_signed());
+            let left =
+                self.limits[axis].cast_signed().saturating_sub(self.used[axis].cast_signed());
             margins[axis] = left.saturating_sub(rest.cast_signed());
         }
         Ok(margins)
     }
 
-    /// Notes that a plan with this rest is in force from now on, whether new or kept after a request.
+    /// Notes that a plan with this rest is in force from now on, whether new or kept after a
+    /// request.
     ///
     /// # Errors
     /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
@@ -167,16 +179,24 @@ impl<const A: usize> Monitor<A> {
         self.hardware_returned = true;
     }
 
-    /// Decides whether the plan still holds, from its planned rest, the hardware it needs and what there is.
+    /// Decides whether the plan still holds, from its planned rest, the hardware it needs and what
+    /// there is.
     ///
     /// # Errors
     /// [`AmountOverflow`] for a rest beyond [`MAX_AMOUNT`].
-    pub fn assess(&self, rest: &[u64; A], needs: Units, available: Units) -> Result<Request, AmountOverflow> {
+    pub fn assess(
+        &self,
+        rest: &[u64; A],
+        needs: Units,
+        available: Units,
+    ) -> Result<Request, AmountOverflow> {
         if !available.covers(needs) {
             return Ok(Request::Down(Cause::Hardware));
         }
         let margins = self.margins(rest)?;
-        if let Some(axis) = self.order.into_iter().find(|&axis| margins.get(axis).is_some_and(|&it| it < 0)) {
+        if let Some(axis) =
+            self.order.into_iter().find(|&axis| margins.get(axis).is_some_and(|&it| it < 0))
+        {
             return Ok(Request::Down(Cause::Margin { axis }));
         }
         let Some(upward) = self.upward else { return Ok(Request::Keep) };
@@ -186,11 +206,15 @@ impl<const A: usize> Monitor<A> {
             upward.growth[axis] > 0
                 && margins[axis] >= self.baseline[axis].saturating_add_unsigned(upward.growth[axis])
         });
-        Ok(if reserve_kept && (grown || self.hardware_returned) { Request::Up } else { Request::Keep })
+        Ok(if reserve_kept && (grown || self.hardware_returned) {
+            Request::Up
+        } else {
+            Request::Keep
+        })
     }
 
-    /// The return margin: what would be left if the robot went to a safe end from here by the way whose
-    /// worst cost is `way` (see [`worst`]). Below zero, reaching that end is not guaranteed.
+    /// The return margin: what would be left if the robot went to a safe end from here by the way
+    /// whose worst cost is `way` (see [`worst`]). Below zero, reaching that end is not guaranteed.
     ///
     /// # Errors
     /// [`AmountOverflow`] for a way beyond [`MAX_AMOUNT`].
@@ -227,7 +251,10 @@ mod tests {
         monitor.spend(&[20, 20]).unwrap();
         let laser = Units::NONE.with(0, 1).unwrap();
         assert_eq!(monitor.assess(&[0, 0], laser, Units::NONE), Ok(Request::Down(Cause::Hardware)));
-        assert_eq!(monitor.assess(&[0, 0], laser, laser), Ok(Request::Down(Cause::Margin { axis: 0 })));
+        assert_eq!(
+            monitor.assess(&[0, 0], laser, laser),
+            Ok(Request::Down(Cause::Margin { axis: 0 }))
+        );
     }
 
     #[test]

@@ -1,10 +1,11 @@
-//! The allocator of the paper: limits one after the other, candidates lowered from the last activity back.
+//! The allocator of the paper: limits one after the other, candidates lowered from the last
+//! activity back.
 //!
 //! Lambert et al., J. Intell. Robot. Syst. 110, 2024, section on the resource allocation algorithm:
 //!
-//! 1. Limits are treated in their order. For each, every activity starts at its highest candidate; while the
-//!    sum is above the limit, the last activity is lowered to its highest candidate that meets the limit, or
-//!    to its lowest if none does, and the one before follows.
+//! 1. Limits are treated in their order. For each, every activity starts at its highest candidate;
+//!    while the sum is above the limit, the last activity is lowered to its highest candidate that
+//!    meets the limit, or to its lowest if none does, and the one before follows.
 //! 2. After each limit, every candidate above the chosen value of its activity is dropped.
 //! 3. The plan is the highest on the last axis of what is left; of equal ones the first.
 //!
@@ -58,15 +59,17 @@ fn highest<'c, const A: usize>(
     caps: &[u32; A],
     axis: usize,
 ) -> Option<(usize, &'c Candidate<A>)> {
-    candidates
-        .iter()
-        .enumerate()
-        .filter(|(_, c)| left(c, caps))
-        .reduce(|best, next| if next.1.cost.get(axis) > best.1.cost.get(axis) { next } else { best })
+    candidates.iter().enumerate().filter(|(_, c)| left(c, caps)).reduce(|best, next| {
+        if next.1.cost.get(axis) > best.1.cost.get(axis) { next } else { best }
+    })
 }
 
 impl<const A: usize> Allocator<A> for Panorama<'_, A> {
-    fn allocate(&mut self, problem: &Problem<'_, A>, plan: &mut [u16]) -> Result<Answer<A>, MemoryError> {
+    fn allocate(
+        &mut self,
+        problem: &Problem<'_, A>,
+        plan: &mut [u16],
+    ) -> Result<Answer<A>, MemoryError> {
         let activities = problem.activities();
         enough("plan", activities.len(), plan.len())?;
         enough("caps of the paper's rule", activities.len(), self.caps.len())?;
@@ -75,7 +78,8 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
         caps.fill([u32::MAX; A]);
         let mut steps = 0;
         for axis in problem.order() {
-            // An order names axes only; said again, it spares every look-up below a check that could panic.
+            // An order names axes only; said again, it spares every look-up below a check that
+            // could panic.
             let Some(&limit) = problem.limits().get(axis) else { continue };
             let mut sum = 0;
             for (candidates, cap) in activities.iter().zip(caps.iter_mut()) {
@@ -87,7 +91,8 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
                 if sum <= limit {
                     break;
                 }
-                // Rule 1. The paper sorts what is left and searches by dichotomy; one pass finds the same.
+                // Rule 1. The paper sorts what is left and searches by dichotomy; one pass finds
+                // the same.
                 let others = sum - u64::from(cap[axis]);
                 let room = limit.saturating_sub(others);
                 let (mut fitting, mut lowest) = (None, cap[axis]);
@@ -110,8 +115,8 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
         let mut quality = 0;
         let last_axis = problem.order().last().copied();
         for ((candidates, cap), choice) in activities.iter().zip(caps.iter()).zip(plan.iter_mut()) {
-            let chosen =
-                last_axis.map_or(candidates.first().map(|c| (0, c)), |axis| highest(candidates, cap, axis));
+            let chosen = last_axis
+                .map_or(candidates.first().map(|c| (0, c)), |axis| highest(candidates, cap, axis));
             let Some((index, candidate)) = chosen else { continue };
             *choice = index as u16;
             for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {

@@ -6,8 +6,8 @@
 
 /// One implementation alternative of an activity, as the allocators see it.
 ///
-/// Costs are in the unit of their axis (the missions use ms and mJ). They are 32 bits wide and sums are
-/// 64 bits wide, so with at most [`Problem::MAX_ACTIVITIES`] activities no sum can overflow.
+/// Costs are in the unit of their axis (the missions use ms and mJ). They are 32 bits wide and sums
+/// are 64 bits wide, so with at most [`Problem::MAX_ACTIVITIES`] activities no sum can overflow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Candidate<const A: usize> {
     /// The cost on each axis.
@@ -18,7 +18,8 @@ pub struct Candidate<const A: usize> {
     pub id: u16,
 }
 
-/// An allocation problem over `A` additive axes. It borrows its tables, so that firmware keeps them in flash.
+/// An allocation problem over `A` additive axes. It borrows its tables, so that firmware keeps them
+/// in flash.
 ///
 /// ```
 /// use cotama_core::problem::{Candidate, Problem};
@@ -60,9 +61,15 @@ impl core::fmt::Display for ProblemError {
         match self {
             Self::NoCandidates { activity } => write!(f, "activity {activity} has no candidate"),
             Self::TooManyCandidates { activity } => {
-                write!(f, "activity {activity} has more than {} candidates", Problem::<0>::MAX_CANDIDATES)
+                write!(
+                    f,
+                    "activity {activity} has more than {} candidates",
+                    Problem::<0>::MAX_CANDIDATES
+                )
             }
-            Self::TooManyActivities => write!(f, "more than {} activities", Problem::<0>::MAX_ACTIVITIES),
+            Self::TooManyActivities => {
+                write!(f, "more than {} activities", Problem::<0>::MAX_ACTIVITIES)
+            }
             Self::BadOrder => f.write_str("the order of treatment must name every axis once"),
         }
     }
@@ -76,10 +83,12 @@ impl<'a, const A: usize> Problem<'a, A> {
     /// The most candidates of an activity.
     pub const MAX_CANDIDATES: usize = u16::MAX as usize;
 
-    /// A problem from its activities, the inclusive limit of each axis, and the order in which the axes are treated.
+    /// A problem from its activities, the inclusive limit of each axis, and the order in which the
+    /// axes are treated.
     ///
     /// # Errors
-    /// A [`ProblemError`] for an activity without candidates, for too many of them, or for a bad order.
+    /// A [`ProblemError`] for an activity without candidates, for too many of them, or for a bad
+    /// order.
     pub const fn new(
         activities: &'a [&'a [Candidate<A>]],
         limits: [u64; A],
@@ -146,7 +155,8 @@ impl<'a, const A: usize> Problem<'a, A> {
             .try_fold(1u128, |product, candidates| product.checked_mul(candidates.len() as u128))
     }
 
-    /// The cost on each axis and the quality of a plan; `None` when it is not a plan of this problem.
+    /// The cost on each axis and the quality of a plan; `None` when it is not a plan of this
+    /// problem.
     #[must_use]
     pub fn totals(&self, plan: &[u16]) -> Option<([u64; A], u64)> {
         if plan.len() != self.activities.len() {

@@ -104,7 +104,8 @@ pub const fn mul_div_half_up(a: u64, b: u64, c: u64) -> Option<u64> {
 }
 
 impl Millis {
-    /// The time to travel `length` at `speed`, rounded half up; `None` at speed zero or when it does not fit.
+    /// The time to travel `length` at `speed`, rounded half up; `None` at speed zero or when it
+    /// does not fit.
     #[must_use]
     pub const fn to_travel(length: Millimetres, speed: MillimetresPerSecond) -> Option<Self> {
         match mul_div_half_up(length.0, 1000, speed.0) {

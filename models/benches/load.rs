@@ -1,5 +1,5 @@
-//! How long a supervised mission takes from its text to the value that can be run: read, cut into activities, its
-//! supervisor made, and every marking of it looked at.
+//! How long a supervised mission takes from its text to the value that can be run: read, cut into
+//! activities, its supervisor made, and every marking of it looked at.
 //!
 //! `cargo bench -p cotama-models --bench load`; with any argument of its own it runs briefly.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
@@ -25,7 +25,10 @@ fn text(objectives: usize) -> String {
             _ => ("drive", "MOV", 80_000 / objectives * 2),
         };
         let end = x + length;
-        let _ = writeln!(text, "[[objective]]\nid = \"o{number}\"\ndoes = \"{does}\"\ntasks = [\"{task}\"]");
+        let _ = writeln!(
+            text,
+            "[[objective]]\nid = \"o{number}\"\ndoes = \"{does}\"\ntasks = [\"{task}\"]"
+        );
         let _ = writeln!(text, "x_start_mm = {x}\nx_end_mm = {end}");
         x = end;
     }
@@ -54,7 +57,9 @@ fn main() {
         let text = text(objectives);
         let mission = Mission::parse("mission", &text).unwrap();
         let net = mission.supervisor().unwrap();
-        let load = microseconds(rounds, times, || drop(black_box(Mission::parse("mission", &text).unwrap())));
+        let load = microseconds(rounds, times, || {
+            drop(black_box(Mission::parse("mission", &text).unwrap()))
+        });
         let checked = microseconds(rounds, times, || {
             black_box(check(&net.view().net(), &mission.objectives).unwrap());
         });

@@ -26,7 +26,11 @@ pub struct Diagnostic {
 }
 
 impl Diagnostic {
-    pub(crate) fn new(span: Range<usize>, message: impl Into<String>, label: impl Into<String>) -> Self {
+    pub(crate) fn new(
+        span: Range<usize>,
+        message: impl Into<String>,
+        label: impl Into<String>,
+    ) -> Self {
         Self { message: message.into(), span, label: label.into(), help: None }
     }
 
@@ -70,8 +74,8 @@ pub const MAX_DIAGNOSTICS: usize = 100;
 
 /// All errors of one file: at least one, sorted by place.
 ///
-/// Its `Display` is plain text, one line `file:line:column: message` for each error and a line of help where
-/// there is some.
+/// Its `Display` is plain text, one line `file:line:column: message` for each error and a line of
+/// help where there is some.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissionErrors {
     source_name: String,

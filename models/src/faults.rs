@@ -1,4 +1,5 @@
-//! What may go wrong during a run: the script of a mission file's `[run]`, or of a `panorama-faults/1` file.
+//! What may go wrong during a run: the script of a mission file's `[run]`, or of a
+//! `panorama-faults/1` file.
 
 use crate::diagnostic::{Diagnostic, MissionErrors};
 use crate::mission::{Definition, Hardware, Zone};
@@ -40,12 +41,14 @@ pub struct Faults {
     pub events: Vec<Event>,
     /// What happens anywhere.
     pub random: Vec<RandomEvent>,
-    /// What the supervisors of a supervised mission have to deal with, sorted by place; in files these are events of
-    /// the kinds `failure`, `repair` and `operator`. A plan, and a run without supervisors, knows nothing of them.
+    /// What the supervisors of a supervised mission have to deal with, sorted by place; in files
+    /// these are events of the kinds `failure`, `repair` and `operator`. A plan, and a run without
+    /// supervisors, knows nothing of them.
     pub incidents: Vec<Incident>,
 }
 
-/// By how much the real power differs from the modelled one inside a zone, whatever the robot does there.
+/// By how much the real power differs from the modelled one inside a zone, whatever the robot does
+/// there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PowerError {
     /// The index of the zone.
@@ -118,13 +121,18 @@ impl Faults {
     /// let first = "faults.toml:2:29: unknown event `obstacl`; did you mean `obstacle`?";
     /// assert_eq!(errors.to_string().lines().next(), Some(first));
     /// ```
-    pub fn parse(source_name: &str, text: &str, mission: &Definition) -> Result<Self, MissionErrors> {
+    pub fn parse(
+        source_name: &str,
+        text: &str,
+        mission: &Definition,
+    ) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
         let zone = |it: &Zone| Entry { id: it.id.clone(), item: Some(it.clone()) };
         let zones: Vec<_> = mission.zones.iter().map(zone).collect();
         let kind = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
         let hardware: Vec<_> = mission.hardware.iter().map(kind).collect();
-        let (path_length, supervised) = (Some(mission.path_length), Some(mission.supervision.is_some()));
+        let (path_length, supervised) =
+            (Some(mission.path_length), Some(mission.supervision.is_some()));
         let names = Names { path_length, zones: &zones, hardware: &hardware, supervised };
         let faults = reader::document(text, &sink, FORMAT, |mut root| {
             let faults = read(&mut root, &names);
@@ -165,7 +173,8 @@ fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
     });
     let random = fields.tables("random", false).map(|tables| {
         let mut seen = Vec::new();
-        let random: Vec<_> = tables.into_iter().map(|table| random_event(table, &mut seen)).collect();
+        let random: Vec<_> =
+            tables.into_iter().map(|table| random_event(table, &mut seen)).collect();
         random.into_iter().collect::<Option<Vec<_>>>()
     });
     let (mut events, mut incidents) = (Vec::new(), Vec::new());
@@ -181,7 +190,9 @@ fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
 }
 
 fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerError>> {
-    let Some(table) = fields.optional_table("power_error_permille").ok()? else { return Some(Vec::new()) };
+    let Some(table) = fields.optional_table("power_error_permille").ok()? else {
+        return Some(Vec::new());
+    };
     let errors = table.named_integers::<i32>(&(-999..=10_000))?;
     let errors = errors.into_iter().map(|(zone, permille)| {
         let zone = fields.index_of(&zone, "zone", ids(names.zones))?;
@@ -207,9 +218,12 @@ fn units(fields: &mut Fields<'_>, key: &'static str, names: &Names<'_>) -> Optio
     let units: u8 = units?;
     let kind = names.hardware.get(hardware)?.item.as_ref()?;
     if units > kind.units {
-        let message = format!("`{key}` is {units}, but the robot has only {} of `{}`", kind.units, kind.name);
+        let message =
+            format!("`{key}` is {units}, but the robot has only {} of `{}`", kind.units, kind.name);
         let help = format!("write {} or less", kind.units);
-        fields.report(Diagnostic::new(fields.span_of(key), message, "more than there are").help(help));
+        fields.report(
+            Diagnostic::new(fields.span_of(key), message, "more than there are").help(help),
+        );
         return None;
     }
     Some((hardware, units))
@@ -257,7 +271,8 @@ fn on_the_path(fields: &Fields<'_>, x: Option<Millimetres>, names: &Names<'_>) {
     {
         let message = format!("the event at {x} lies behind the end of the path, {end}");
         let help = format!("place it between 0 and {}", end.0);
-        fields.report(Diagnostic::new(fields.span_of("x_mm"), message, "not on the path").help(help));
+        fields
+            .report(Diagnostic::new(fields.span_of("x_mm"), message, "not on the path").help(help));
     }
 }
 
@@ -272,7 +287,9 @@ fn random_event(mut fields: Fields<'_>, seen: &mut Vec<String>) -> Option<Random
     if let Some(name) = &name {
         if seen.contains(&name.value) {
             let message = format!("the random event `{}` is defined twice", name.value);
-            fields.report(Diagnostic::new(name.span.clone(), message, "again").help("rename one of them"));
+            fields.report(
+                Diagnostic::new(name.span.clone(), message, "again").help("rename one of them"),
+            );
         }
         seen.push(name.value.clone());
     }

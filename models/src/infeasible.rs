@@ -1,18 +1,21 @@
 //! Why a mission has no plan, and what would give it one.
 //!
-//! That a mission cannot be done is an answer, and this is the whole of it: which limit cannot be met and by how
-//! much, or which activity the hardware leaves without an alternative; the activities that weigh most; and the
-//! *relaxations* that suffice, each alone, the smallest first. Every statement comes from a complete search, so
-//! that a limit raised as said has a plan, and raised by one unit less has none.
+//! That a mission cannot be done is an answer, and this is the whole of it: which limit cannot be
+//! met and by how much, or which activity the hardware leaves without an alternative; the
+//! activities that weigh most; and the *relaxations* that suffice, each alone, the smallest first.
+//! Every statement comes from a complete search, so that a limit raised as said has a plan, and
+//! raised by one unit less has none.
 //!
-//! *Order of relaxations.* First limits raised, by how much of the limit they add (of two limits raised together
-//! the larger part counts); then constraints lifted, hardware kept and objectives dropped, each in the order of
-//! the mission file, the end of the mission cut off last. The mission stays whole as long as possible, and what
-//! is only a matter of a budget comes before what changes how the robot works.
+//! *Order of relaxations.* First limits raised, by how much of the limit they add (of two limits
+//! raised together the larger part counts); then constraints lifted, hardware kept and objectives
+//! dropped, each in the order of the mission file, the end of the mission cut off last. The mission
+//! stays whole as long as possible, and what is only a matter of a budget comes before what changes
+//! how the robot works.
 //!
-//! Several changes of one kind are offered only where no single one of them suffices, and then none of them can
-//! be left out; changes of different kinds are not combined. An empty list therefore says that no kind of change
-//! suffices alone. A relaxation says what suffices, not what is safe: a constraint has its reason.
+//! Several changes of one kind are offered only where no single one of them suffices, and then none
+//! of them can be left out; changes of different kinds are not combined. An empty list therefore
+//! says that no kind of change suffices alone. A relaxation says what suffices, not what is safe: a
+//! constraint has its reason.
 //!
 //! ```
 //! use cotama_models::infeasible::{Cause, explain};
@@ -40,8 +43,9 @@ use trials::{Found, Plan, Trial, Trials};
 
 /// The most steps of one search in [`explain`].
 pub const STEPS: u64 = 5_000_000;
-/// All searches of an explanation together take at most so many times the steps of one, or of [`STEPS`] if that
-/// is more. Beside its own steps every search takes one for eight combinations of options.
+/// All searches of an explanation together take at most so many times the steps of one, or of
+/// [`STEPS`] if that is more. Beside its own steps every search takes one for eight combinations of
+/// options.
 pub const SHARED: u64 = 4;
 /// The most activities named as the heaviest.
 pub const HEAVIEST: usize = 5;
@@ -51,20 +55,21 @@ pub const HEAVIEST: usize = 5;
 pub struct Explanation {
     /// What cannot be met.
     pub cause: Cause,
-    /// The activities that cost most on the axis of the cause, in the plan of the least total there; at most
-    /// [`HEAVIEST`], the heaviest first. Empty when the cause is not a limit.
+    /// The activities that cost most on the axis of the cause, in the plan of the least total
+    /// there; at most [`HEAVIEST`], the heaviest first. Empty when the cause is not a limit.
     pub heaviest: Vec<Heavy>,
     /// What suffices, each alone, in the order told in the [module's documentation](self).
     pub relaxations: Vec<Relaxation>,
-    /// Whether every search came to its end. Otherwise each relaxation suffices still, but there may be more of
-    /// them, and smaller ones.
+    /// Whether every search came to its end. Otherwise each relaxation suffices still, but there
+    /// may be more of them, and smaller ones.
     pub complete: bool,
 }
 
 /// What cannot be met.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Cause {
-    /// One limit, while the other is kept. Where either could be raised, the one that needs less of its limit.
+    /// One limit, while the other is kept. Where either could be raised, the one that needs less of
+    /// its limit.
     Limit {
         /// The axis.
         axis: usize,
@@ -84,10 +89,11 @@ pub enum Cause {
     NoAlternative {
         /// The index of the first such activity.
         activity: usize,
-        /// What its alternatives need of the kinds of which too few work: each alternative needs at least one
-        /// of these. Never empty, and none covers another.
+        /// What its alternatives need of the kinds of which too few work: each alternative needs at
+        /// least one of these. Never empty, and none covers another.
         lacks: Vec<Units>,
-        /// The constraints, with the index of their zone, that exclude some combination of its options.
+        /// The constraints, with the index of their zone, that exclude some combination of its
+        /// options.
         constraints: Vec<(usize, Constraint)>,
         /// The indices of further activities without alternatives.
         others: Vec<usize>,
@@ -124,7 +130,8 @@ pub enum Relaxation {
         /// The least limit that suffices.
         to: u64,
     },
-    /// Raise both limits. Of the pairs none of which can be lowered, the two with the least on one axis are given.
+    /// Raise both limits. Of the pairs none of which can be lowered, the two with the least on one
+    /// axis are given.
     RaiseLimits {
         /// The limits.
         from: [u64; 2],
@@ -155,15 +162,16 @@ pub enum Relaxation {
         /// For each kind its index and a number of working units, none of which can be lower.
         hardware: Vec<(usize, u8)>,
     },
-    /// Drop an objective. One that travels takes all that follow with it, and only the last is offered.
+    /// Drop an objective. One that travels takes all that follow with it, and only the last is
+    /// offered.
     DropObjective {
         /// The index of the objective.
         objective: usize,
     },
 }
 
-/// Explains why a mission has no plan within `limits` (ms and mJ, inclusive) with the `available` hardware;
-/// `None` when it has one.
+/// Explains why a mission has no plan within `limits` (ms and mJ, inclusive) with the `available`
+/// hardware; `None` when it has one.
 pub fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Explanation> {
     explain_within(mission, limits, available, STEPS)
 }
@@ -182,7 +190,12 @@ pub fn explain_within(
         Found::Nothing => {}
         Found::Unknown => {
             let cause = Cause::Undecided { steps };
-            return Some(Explanation { cause, heaviest: vec![], relaxations: vec![], complete: false });
+            return Some(Explanation {
+                cause,
+                heaviest: vec![],
+                relaxations: vec![],
+                complete: false,
+            });
         }
     }
     let (cause, heaviest, mut relaxations) = match no_alternative(mission, available) {
@@ -213,8 +226,11 @@ fn no_alternative(mission: &Mission, available: Units) -> Option<Cause> {
     let mut lacks: Vec<_> = all.iter().copied().filter(least).collect();
     lacks.sort_unstable_by_key(|units| units.to_bits());
     lacks.dedup();
-    let mut constraints: Vec<_> =
-        activities[activity].dropped.iter().flat_map(|dropped| dropped.by.iter().copied()).collect();
+    let mut constraints: Vec<_> = activities[activity]
+        .dropped
+        .iter()
+        .flat_map(|dropped| dropped.by.iter().copied())
+        .collect();
     constraints.sort_unstable();
     constraints.dedup();
     Some(Cause::NoAlternative { activity, lacks, constraints, others })
@@ -236,8 +252,8 @@ fn limit(
             raised.push((raise(as_is.limits, plan.cost), plan));
         }
     }
-    // The cheapest plan on one axis is at hand without a search. It is what is left when neither limit can be
-    // met, and a plan to name when a search was stopped.
+    // The cheapest plan on one axis is at hand without a search. It is what is left when neither
+    // limit can be met, and a plan to name when a search was stopped.
     if raised.is_empty() {
         for axis in mission.order {
             let plan = trials.cheapest(as_is, axis);
@@ -247,14 +263,15 @@ fn limit(
     raised.sort_by(|(a, _), (b, _)| by_size(a, b));
     raised.dedup_by(|(a, _), (b, _)| a == b);
 
-    let (cause, heaviest) = if let Some((Relaxation::RaiseLimit { axis, from, to }, plan)) = raised.first() {
-        (Cause::Limit { axis: *axis, limit: *from, least: *to }, heaviest(plan, *axis))
-    } else {
-        let cheapest = [0, 1].map(|axis| trials.cheapest(as_is, axis));
-        let [first, _] = mission.order;
-        let least = [0, 1].map(|axis| cheapest[axis].cost[axis]);
-        (Cause::Limits { limits: as_is.limits, least }, heaviest(&cheapest[first], first))
-    };
+    let (cause, heaviest) =
+        if let Some((Relaxation::RaiseLimit { axis, from, to }, plan)) = raised.first() {
+            (Cause::Limit { axis: *axis, limit: *from, least: *to }, heaviest(plan, *axis))
+        } else {
+            let cheapest = [0, 1].map(|axis| trials.cheapest(as_is, axis));
+            let [first, _] = mission.order;
+            let least = [0, 1].map(|axis| cheapest[axis].cost[axis]);
+            (Cause::Limits { limits: as_is.limits, least }, heaviest(&cheapest[first], first))
+        };
     (cause, heaviest, raised.into_iter().map(|(relaxation, _)| relaxation).collect())
 }
 
@@ -271,8 +288,8 @@ fn raise(from: [u64; 2], cost: [u64; 2]) -> Relaxation {
 
 /// Orders raised limits by the larger part of a limit that they add, and then by axis and amount.
 fn by_size(a: &Relaxation, b: &Relaxation) -> Ordering {
-    // The part is a fraction of two whole numbers; fractions are compared by multiplying across. Of a limit of
-    // nothing every part is larger than any.
+    // The part is a fraction of two whole numbers; fractions are compared by multiplying across. Of
+    // a limit of nothing every part is larger than any.
     type Part = (u128, u128);
     let compare = |a: Part, b: Part| match (a.1, b.1) {
         (0, 0) => a.0.cmp(&b.0),
@@ -293,7 +310,8 @@ fn by_size(a: &Relaxation, b: &Relaxation) -> Ordering {
 
 fn heaviest(plan: &Plan, axis: usize) -> Vec<Heavy> {
     let total = plan.cost[axis].max(1);
-    let mut all: Vec<_> = plan.activities.iter().map(|&(activity, cost)| (activity, cost[axis])).collect();
+    let mut all: Vec<_> =
+        plan.activities.iter().map(|&(activity, cost)| (activity, cost[axis])).collect();
     all.sort_by_key(|&(activity, cost)| (std::cmp::Reverse(cost), activity));
     all.truncate(HEAVIEST);
     let heavy = |(activity, cost): (usize, u32)| {
@@ -304,8 +322,13 @@ fn heaviest(plan: &Plan, axis: usize) -> Vec<Heavy> {
 }
 
 /// Each constraint that suffices, or a set without one to spare.
-fn lifts(trials: &mut Trials<'_>, as_is: &Trial<'_>, constraints: &[(usize, Constraint)]) -> Vec<Relaxation> {
-    let mut without = |lifted: &[(usize, Constraint)]| trials.feasible(&Trial { lifted, ..as_is.clone() });
+fn lifts(
+    trials: &mut Trials<'_>,
+    as_is: &Trial<'_>,
+    constraints: &[(usize, Constraint)],
+) -> Vec<Relaxation> {
+    let mut without =
+        |lifted: &[(usize, Constraint)]| trials.feasible(&Trial { lifted, ..as_is.clone() });
     let mut found: Vec<_> = constraints.iter().copied().filter(|&one| without(&[one])).collect();
     if !found.is_empty() {
         return found
@@ -326,7 +349,8 @@ fn lifts(trials: &mut Trials<'_>, as_is: &Trial<'_>, constraints: &[(usize, Cons
     vec![Relaxation::LiftConstraints { constraints: found }]
 }
 
-/// Each kind of hardware of which more units suffice, or units of several kinds without one to spare.
+/// Each kind of hardware of which more units suffice, or units of several kinds without one to
+/// spare.
 fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) -> Vec<Relaxation> {
     let now = as_is.available;
     let kinds = mission.hardware.iter().enumerate();
@@ -336,7 +360,8 @@ fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) 
 
     let mut found = Vec::new();
     for &(hardware, it) in &lost {
-        let least = (now.of(hardware) + 1..=it.units).find(|&units| with(keep(now, hardware, units)));
+        let least =
+            (now.of(hardware) + 1..=it.units).find(|&units| with(keep(now, hardware, units)));
         found.extend(least.map(|units| Relaxation::KeepHardware { hardware, units }));
     }
     let mut units = lost.iter().fold(now, |units, &(kind, it)| keep(units, kind, it.units));
@@ -352,16 +377,21 @@ fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) 
     vec![Relaxation::KeepHardwares { hardware }]
 }
 
-/// Each objective that does not travel and suffices, then the last travelling one at which the mission can end; what is
-/// left must be a mission.
-fn dropped_objectives(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) -> Vec<Relaxation> {
+/// Each objective that does not travel and suffices, then the last travelling one at which the
+/// mission can end; what is left must be a mission.
+fn dropped_objectives(
+    trials: &mut Trials<'_>,
+    mission: &Mission,
+    as_is: &Trial<'_>,
+) -> Vec<Relaxation> {
     let all = mission.objectives.len();
     let mut found = Vec::new();
     let (travelling, standing): (Vec<_>, Vec<_>) =
         (0..all).partition(|&objective| mission.objectives[objective].travels());
     // Only supervised missions have rules that an objective left out can break.
-    let whole =
-        |objective: &usize| mission.supervision.is_none() || mission.without_objective(*objective).is_some();
+    let whole = |objective: &usize| {
+        mission.supervision.is_none() || mission.without_objective(*objective).is_some()
+    };
     for objective in standing.into_iter().filter(|_| all > 1).filter(whole) {
         if trials.feasible(&Trial { without: objective..objective + 1, ..as_is.clone() }) {
             found.push(Relaxation::DropObjective { objective });
@@ -369,15 +399,17 @@ fn dropped_objectives(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<
     }
     // The less is left, the more fits; before the first objective nothing would be left.
     let ends: Vec<_> = travelling.into_iter().filter(|&objective| objective > 0).collect();
-    let fits = ends
-        .partition_point(|&objective| trials.feasible(&Trial { without: objective..all, ..as_is.clone() }));
+    let fits = ends.partition_point(|&objective| {
+        trials.feasible(&Trial { without: objective..all, ..as_is.clone() })
+    });
     let last = ends[..fits].iter().rev().find(|objective| whole(objective));
     found.extend(last.map(|&objective| Relaxation::DropObjective { objective }));
     found
 }
 
 impl Relaxation {
-    /// The mission, limits and hardware with this change; `None` when it is not one of this mission.
+    /// The mission, limits and hardware with this change; `None` when it is not one of this
+    /// mission.
     pub fn apply(
         &self,
         mission: &Mission,
@@ -397,13 +429,17 @@ impl Relaxation {
                     changed = Some(before.without_zone_constraint(zone, constraint)?);
                 }
             }
-            Self::KeepHardware { hardware, units } => available = available.with(*hardware, *units)?,
+            Self::KeepHardware { hardware, units } => {
+                available = available.with(*hardware, *units)?
+            }
             Self::KeepHardwares { hardware } => {
                 for &(kind, units) in hardware {
                     available = available.with(kind, units)?;
                 }
             }
-            Self::DropObjective { objective } => changed = Some(mission.without_objective(*objective)?),
+            Self::DropObjective { objective } => {
+                changed = Some(mission.without_objective(*objective)?)
+            }
         }
         Some((changed.unwrap_or_else(|| mission.clone()), limits, available))
     }

@@ -1,16 +1,18 @@
 //! Robot missions as data: from a mission file to the alternatives of each activity.
 //!
-//! A *mission* (Lambert et al., J. Intell. Robot. Syst. 110, 2024, DOI 10.1007/s10846-024-02058-7) is a
-//! sequence of *objectives* along a path. Cut at the borders of the *zones* that constrain it, it becomes a
-//! sequence of *activities*; each can be done by several *implementation alternatives*, products of the
-//! *task implementation options* (TIOs) of its tasks. [`Mission::parse`](mission::Mission::parse) reads all of
-//! this from a `panorama-mission/1` file and reports every error at once; what it returns is complete, so that
-//! nothing after it can fail on the mission's account.
+//! A *mission* (Lambert et al., J. Intell. Robot. Syst. 110, 2024, DOI 10.1007/s10846-024-02058-7)
+//! is a sequence of *objectives* along a path. Cut at the borders of the *zones* that constrain it,
+//! it becomes a sequence of *activities*; each can be done by several *implementation
+//! alternatives*, products of the *task implementation options* (TIOs) of its tasks.
+//! [`Mission::parse`](mission::Mission::parse) reads all of this from a `panorama-mission/1` file
+//! and reports every error at once; what it returns is complete, so that nothing after it can fail
+//! on the mission's account.
 //!
-//! The other half of the crate are [`nets`]: ready supervisors, checked while compiling, and families of nets.
+//! The other half of the crate are [`nets`]: ready supervisors, checked while compiling, and
+//! families of nets.
 //!
-//! Without the feature `std` only [`cotama`], [`tables`], [`patrol_tables`], [`delivery_tables`] and the ready [`nets`] remain,
-//! without heap, for firmware.
+//! Without the feature `std` only [`cotama`], [`tables`], [`patrol_tables`], [`delivery_tables`]
+//! and the ready [`nets`] remain, without heap, for firmware.
 //!
 //! ```
 //! # #[cfg(feature = "std")] {

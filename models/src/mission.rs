@@ -2,8 +2,9 @@
 //!
 //! # Supervised missions
 //!
-//! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. In a *supervised* mission
-//! the supervisors of COTAMA (Durand et al., TAROS 2010) decide as well. It is a mission like any other, and says more:
+//! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. In a
+//! *supervised* mission the supervisors of COTAMA (Durand et al., TAROS 2010) decide as well. It is
+//! a mission like any other, and says more:
 //!
 //! | key | what it says |
 //! | --- | --- |
@@ -15,17 +16,19 @@
 //! | `[[run.event]]` with `kind = "repair"`, `mode` | that such a failure, if it is under way, ends there |
 //! | `[[run.event]]` with `kind = "operator"`, `answers`, `delay_ms` | what the operator [answers](crate::faults::Answer) to the next request, with the time before each answer |
 //!
-//! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say their `duration_ms` and
-//! `power_mw` themselves; plain missions may use these three tasks, too. Modules are `[hardware]` of their names, so that a
-//! lost module removes the options that need it, by the rule of all hardware.
+//! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say
+//! their `duration_ms` and `power_mw` themselves; plain missions may use these three tasks, too.
+//! Modules are `[hardware]` of their names, so that a lost module removes the options that need it,
+//! by the rule of all hardware.
 //!
-//! On load, before the robot moves, its global supervisor is [made](crate::cotama::mission_net::global_supervisor) from the
-//! objectives and [every marking of it looked at](crate::cotama::mission_net::check); and the mission must make sense:
-//! drives lead on, an object is received before it is delivered, one at a time, and delivered in the end; the mission does
-//! not end with waiting; no objective passes a limit alone; the robot has the modules of its configurations and of its
-//! operator's answers; and no objective *could block*, that is: lose with a single module all its options, and
-//! teleoperation too. Modules without which nothing drives are not counted there: without them the robot stops, as it
-//! should.
+//! On load, before the robot moves, its global supervisor is
+//! [made](crate::cotama::mission_net::global_supervisor) from the objectives and [every marking of
+//! it looked at](crate::cotama::mission_net::check); and the mission must make sense: drives lead
+//! on, an object is received before it is delivered, one at a time, and delivered in the end; the
+//! mission does not end with waiting; no objective passes a limit alone; the robot has the modules
+//! of its configurations and of its operator's answers; and no objective *could block*, that is:
+//! lose with a single module all its options, and teleoperation too. Modules without which nothing
+//! drives are not counted there: without them the robot stops, as it should.
 
 use crate::cotama::Configuration;
 use crate::diagnostic::{Diagnostic, MissionErrors, Spanned};
@@ -73,8 +76,15 @@ impl Task {
     /// The names of the tasks in mission files, in the order of the enum.
     pub const NAMES: [&str; 7] = ["MOV", "TUR", "DET", "LOC", "RCV", "DLV", "WAI"];
 
-    const ALL: [Self; 7] =
-        [Self::Move, Self::Turn, Self::Detect, Self::Localise, Self::Receive, Self::Deliver, Self::Wait];
+    const ALL: [Self; 7] = [
+        Self::Move,
+        Self::Turn,
+        Self::Detect,
+        Self::Localise,
+        Self::Receive,
+        Self::Deliver,
+        Self::Wait,
+    ];
 
     /// Its name in mission files.
     pub const fn name(self) -> &'static str {
@@ -104,7 +114,8 @@ pub struct Robot {
     pub speed_harmless: MillimetresPerSecond,
 }
 
-/// The largest whole speed at which the kinetic energy m v² / 2 is strictly below `energy`; zero if there is none.
+/// The largest whole speed at which the kinetic energy m v² / 2 is strictly below `energy`; zero if
+/// there is none.
 ///
 /// ```
 /// use cotama_core::units::{Millijoules, MillimetresPerSecond};
@@ -182,7 +193,8 @@ pub struct Tio {
     pub quality: u32,
     /// What it takes standing; none for tasks that travel or run along.
     pub standing: Option<Standing>,
-    /// The modules that it runs: one for each moving option of a supervised mission, none for other options.
+    /// The modules that it runs: one for each moving option of a supervised mission, none for other
+    /// options.
     pub configuration: Option<Configuration>,
 }
 
@@ -272,21 +284,23 @@ pub struct Definition {
 impl Definition {
     /// All the hardware of the robot.
     pub fn available(&self) -> Units {
-        let with = |units: Units, (kind, hardware): (usize, &Hardware)| units.with(kind, hardware.units);
+        let with =
+            |units: Units, (kind, hardware): (usize, &Hardware)| units.with(kind, hardware.units);
         self.hardware.iter().enumerate().fold(Units::NONE, |all, one| with(all, one).unwrap_or(all))
     }
 
     /// The power of these units.
     pub fn power_of(&self, units: Units) -> Milliwatts {
-        let power = |(kind, hardware): (usize, &Hardware)| u64::from(units.of(kind)) * hardware.power.0;
+        let power =
+            |(kind, hardware): (usize, &Hardware)| u64::from(units.of(kind)) * hardware.power.0;
         Milliwatts(self.hardware.iter().enumerate().map(power).sum())
     }
 }
 
 /// A mission: a [`Definition`] that was checked, and the [`Scenario`] it unfolds to.
 ///
-/// *Invariant:* the scenario is that of the definition, and none of its activities is without alternatives; the
-/// supervisor of a supervised mission is made from its objectives, and checked.
+/// *Invariant:* the scenario is that of the definition, and none of its activities is without
+/// alternatives; the supervisor of a supervised mission is made from its objectives, and checked.
 /// The definition is therefore read only; its fields are those of the mission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mission {
@@ -310,7 +324,8 @@ impl Mission {
     /// All errors of the file, with their places.
     pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
         let sink = Sink::default();
-        let definition = reader::document(text, &sink, FORMAT, read::definition).filter(|_| sink.is_empty());
+        let definition =
+            reader::document(text, &sink, FORMAT, read::definition).filter(|_| sink.is_empty());
         let mut errors = sink.into_diagnostics();
         if let Some(definition) = definition {
             match Self::checked(definition) {
@@ -347,7 +362,8 @@ impl Mission {
         &self.scenario
     }
 
-    /// The mission with one constraint of a zone lifted; `None` when the zone has no such constraint.
+    /// The mission with one constraint of a zone lifted; `None` when the zone has no such
+    /// constraint.
     ///
     /// Speed limits cannot be lifted: they decide what every alternative costs.
     pub fn without_zone_constraint(&self, zone: usize, constraint: Constraint) -> Option<Self> {
@@ -360,12 +376,13 @@ impl Mission {
         Self::again(definition)
     }
 
-    /// The mission without an objective; `None` when there is no such objective, or nothing would be left, or what
-    /// is left breaks a rule of supervised missions (an object delivered that was not received).
+    /// The mission without an objective; `None` when there is no such objective, or nothing would
+    /// be left, or what is left breaks a rule of supervised missions (an object delivered that was
+    /// not received).
     ///
-    /// An objective that does not travel is left out. One that travels cannot be left out alone, since the
-    /// robot would not get to the next: the mission then ends where the objective starts, without all that
-    /// follows.
+    /// An objective that does not travel is left out. One that travels cannot be left out alone,
+    /// since the robot would not get to the next: the mission then ends where the objective starts,
+    /// without all that follows.
     pub fn without_objective(&self, objective: usize) -> Option<Self> {
         let mut definition = self.definition.clone();
         let dropped = definition.objectives.get(objective)?;

@@ -1,7 +1,8 @@
-//! A typed reader over a TOML tree that goes on after an error, so that all errors of a file come at once.
+//! A typed reader over a TOML tree that goes on after an error, so that all errors of a file come
+//! at once.
 //!
-//! A method returns `None` when what it was asked for is absent or wrong, and has then reported it; the
-//! caller reads everything first and only then gives up.
+//! A method returns `None` when what it was asked for is absent or wrong, and has then reported it;
+//! the caller reads everything first and only then gives up.
 
 use crate::diagnostic::{Diagnostic, Spanned};
 use std::cell::RefCell;
@@ -52,7 +53,9 @@ pub(crate) fn document<T>(
 ) -> Option<T> {
     if text.len() > MAX_BYTES {
         let message = format!("the file has more than {MAX_BYTES} bytes");
-        sink.report(Diagnostic::new(0..0, message, "").help("split it, or leave out what is not needed"));
+        sink.report(
+            Diagnostic::new(0..0, message, "").help("split it, or leave out what is not needed"),
+        );
         return None;
     }
     let (root, errors) = DeTable::parse_recoverable(text);
@@ -127,7 +130,9 @@ impl<'t> Fields<'t> {
             DeValue::Float(_) => "all quantities are whole numbers of mm, mm/s, ms, mW, mJ and g",
             _ => "change the value",
         };
-        self.report(Diagnostic::new(node.span(), message, format!("expected {expected}")).help(help));
+        self.report(
+            Diagnostic::new(node.span(), message, format!("expected {expected}")).help(help),
+        );
     }
 
     fn integer_of<T: TryFrom<i64>>(
@@ -141,11 +146,15 @@ impl<'t> Fields<'t> {
             return None;
         };
         let value = i64::from_str_radix(integer.as_str(), integer.radix()).ok();
-        let value = value.filter(|value| range.contains(value)).and_then(|value| T::try_from(value).ok());
+        let value =
+            value.filter(|value| range.contains(value)).and_then(|value| T::try_from(value).ok());
         if value.is_none() {
             let expected = format!("{} to {}", range.start(), range.end());
-            let message = format!("`{key}` must be {expected}, not {}", quoted(&integer.to_string()));
-            self.report(Diagnostic::new(node.span(), message, "out of range").help("change the value"));
+            let message =
+                format!("`{key}` must be {expected}, not {}", quoted(&integer.to_string()));
+            self.report(
+                Diagnostic::new(node.span(), message, "out of range").help("change the value"),
+            );
         }
         value
     }
@@ -187,7 +196,10 @@ impl<'t> Fields<'t> {
     }
 
     /// A text that may be left out.
-    pub(crate) fn optional_text(&mut self, key: &'static str) -> Result<Option<Spanned<String>>, Reported> {
+    pub(crate) fn optional_text(
+        &mut self,
+        key: &'static str,
+    ) -> Result<Option<Spanned<String>>, Reported> {
         match self.optional(key) {
             None => Ok(None),
             Some(node) => self.text_of(key, node).map(Some).ok_or(Reported),
@@ -232,8 +244,8 @@ impl<'t> Fields<'t> {
         known.get(index).copied()
     }
 
-    /// The position of a name among known ones; reports it when it is not there, unless one of them could not
-    /// be read, and may be the one that is meant.
+    /// The position of a name among known ones; reports it when it is not there, unless one of them
+    /// could not be read, and may be the one that is meant.
     pub(crate) fn index_of<'n>(
         &self,
         name: &Spanned<String>,
@@ -264,7 +276,10 @@ impl<'t> Fields<'t> {
     }
 
     /// A table that may be left out.
-    pub(crate) fn optional_table(&mut self, key: &'static str) -> Result<Option<Fields<'t>>, Reported> {
+    pub(crate) fn optional_table(
+        &mut self,
+        key: &'static str,
+    ) -> Result<Option<Fields<'t>>, Reported> {
         match self.optional(key) {
             None => Ok(None),
             Some(node) => self.table_of(key, node, &format!("`{key}`")).map(Some).ok_or(Reported),
@@ -277,7 +292,8 @@ impl<'t> Fields<'t> {
             return None;
         };
         if array.len() > MAX_ENTRIES {
-            let message = format!("`{key}` has {} entries; at most {MAX_ENTRIES} are allowed", array.len());
+            let message =
+                format!("`{key}` has {} entries; at most {MAX_ENTRIES} are allowed", array.len());
             self.report(Diagnostic::new(node.span(), message, "too many").help("leave some out"));
             return None;
         }
@@ -343,7 +359,8 @@ impl<'t> Fields<'t> {
         values.into_iter().collect()
     }
 
-    /// The entries of a table whose keys are ids, as tables, in the order of the file; an unusable id is empty.
+    /// The entries of a table whose keys are ids, as tables, in the order of the file; an unusable
+    /// id is empty.
     pub(crate) fn named_tables(self) -> Option<Vec<(Spanned<String>, Option<Fields<'t>>)>> {
         let entries = self.by_place();
         if entries.len() > MAX_ENTRIES {
@@ -352,7 +369,8 @@ impl<'t> Fields<'t> {
         }
         let read = |(mut key, node): (Spanned<String>, &'t Node<'t>)| {
             let good = self.is_id(&key.value, key.span.clone());
-            let table = self.table_of(&key.value.escape_debug().to_string(), node, &quoted(&key.value));
+            let table =
+                self.table_of(&key.value.escape_debug().to_string(), node, &quoted(&key.value));
             if !good {
                 key.value.clear();
             }
@@ -362,7 +380,8 @@ impl<'t> Fields<'t> {
     }
 
     fn report_too_many(&self, count: usize) {
-        let message = format!("{} has {count} entries; at most {MAX_ENTRIES} are allowed", self.what);
+        let message =
+            format!("{} has {count} entries; at most {MAX_ENTRIES} are allowed", self.what);
         self.report(Diagnostic::new(self.span.clone(), message, "too many").help("leave some out"));
     }
 
@@ -370,7 +389,9 @@ impl<'t> Fields<'t> {
         for key in missing {
             let message = format!("missing key `{key}` in {}", self.what);
             let label = format!("`{key}` is not here");
-            self.report(Diagnostic::new(self.span.clone(), message, label).help(format!("add `{key}`")));
+            self.report(
+                Diagnostic::new(self.span.clone(), message, label).help(format!("add `{key}`")),
+            );
         }
     }
 
@@ -397,7 +418,9 @@ impl<'t> Fields<'t> {
             missing.retain(|key| Some(*key) != near);
             let message = format!("unknown key {} in {}", quoted(name), self.what);
             let (message, help) = match near {
-                Some(near) => (format!("{message}; did you mean `{near}`?"), format!("write `{near}`")),
+                Some(near) => {
+                    (format!("{message}; did you mean `{near}`?"), format!("write `{near}`"))
+                }
                 None => (message, format!("known keys here: {}", self.asked.join(", "))),
             };
             self.report(Diagnostic::new(key.span, message, "not known here").help(help));

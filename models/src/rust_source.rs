@@ -5,11 +5,12 @@ use crate::tables::Alternative;
 use std::fmt;
 
 impl Scenario {
-    /// The scenario as the source of a Rust module of constant tables; `name` is that of the mission.
+    /// The scenario as the source of a Rust module of constant tables; `name` is that of the
+    /// mission.
     ///
-    /// The module needs `cotama-core` and `cotama-models` without features. Activities with the same
-    /// alternatives share them. `LABELS` has the names of the alternatives; when it is not used, the linker
-    /// leaves it out.
+    /// The module needs `cotama-core` and `cotama-models` without features. Activities with the
+    /// same alternatives share them. `LABELS` has the names of the alternatives; when it is not
+    /// used, the linker leaves it out.
     pub fn to_rust(&self, name: &str) -> String {
         Source { scenario: self, name }.to_string()
     }
@@ -27,7 +28,11 @@ impl fmt::Display for Source<'_> {
         // Activities with the same alternatives share one table.
         let mut tables: Vec<&[Alternative]> = Vec::new();
         let mut labels: Vec<&[String]> = Vec::new();
-        writeln!(f, "//! The activities of the mission `{}`, printed from its file.", one_line(self.name))?;
+        writeln!(
+            f,
+            "//! The activities of the mission `{}`, printed from its file.",
+            one_line(self.name)
+        )?;
         f.write_str(HEAD)?;
         let [duration, energy] = self.scenario.limits.map(number);
         let [first, second] = self.scenario.order;

@@ -1,8 +1,8 @@
 //! From a mission to its activities and their implementation alternatives.
 //!
-//! Lambert et al., J. Intell. Robot. Syst. 110, 2024: objectives that travel are cut at the borders of the
-//! zones, so that the constraints are the same all along an activity; its alternatives are the product of the
-//! options of its tasks, without those that a constraint excludes.
+//! Lambert et al., J. Intell. Robot. Syst. 110, 2024: objectives that travel are cut at the borders
+//! of the zones, so that the constraints are the same all along an activity; its alternatives are
+//! the product of the options of its tasks, without those that a constraint excludes.
 
 use crate::diagnostic::Diagnostic;
 use crate::mission::{Definition, Objective, Task, Zone};
@@ -100,8 +100,8 @@ impl Scenario {
         counts.try_fold(1u128, u128::checked_mul)
     }
 
-    /// The scenario of a definition, or what makes it impossible: nothing, for one that was a scenario before
-    /// a constraint or an objective was taken away.
+    /// The scenario of a definition, or what makes it impossible: nothing, for one that was a
+    /// scenario before a constraint or an objective was taken away.
     pub(crate) fn generate(definition: &Definition) -> Result<Self, Vec<Diagnostic>> {
         let parts = cut(definition)?;
         let mut activities = Vec::with_capacity(parts.len());
@@ -117,7 +117,8 @@ impl Scenario {
             }
             total += combinations.len();
             if total > MAX_ALTERNATIVES_TOTAL {
-                let message = format!("the mission has more than {MAX_ALTERNATIVES_TOTAL} alternatives");
+                let message =
+                    format!("the mission has more than {MAX_ALTERNATIVES_TOTAL} alternatives");
                 let help = "use fewer options or fewer zones";
                 let span = part.task_objective.span.clone();
                 return Err(vec![Diagnostic::new(span, message, "up to here").help(help)]);
@@ -157,7 +158,8 @@ fn cut(definition: &Definition) -> Result<Vec<Part<'_>>, Vec<Diagnostic>> {
     borders.dedup();
     let mut parts = Vec::new();
     for (objective, it) in definition.objectives.iter().enumerate() {
-        let inside = borders.iter().copied().filter(|&border| it.x_start < border && border < it.x_end);
+        let inside =
+            borders.iter().copied().filter(|&border| it.x_start < border && border < it.x_end);
         let mut x_start = it.x_start;
         for x_end in inside.chain([it.x_end]) {
             parts.push(Part { objective, task_objective: it, x_start, x_end });
@@ -183,7 +185,10 @@ struct Combination {
 }
 
 /// All combinations of an objective's options, in the order of the file, the first task outermost.
-fn combine(definition: &Definition, objective: &Objective) -> Result<Vec<Combination>, Vec<Diagnostic>> {
+fn combine(
+    definition: &Definition,
+    objective: &Objective,
+) -> Result<Vec<Combination>, Vec<Diagnostic>> {
     let empty = Combination {
         tios: Vec::new(),
         label: String::new(),
@@ -201,7 +206,9 @@ fn combine(definition: &Definition, objective: &Objective) -> Result<Vec<Combina
                 objective.id
             );
             let help = "use fewer options, or fewer tasks at the same time";
-            return Err(vec![Diagnostic::new(objective.span.clone(), message, "too many").help(help)]);
+            return Err(vec![
+                Diagnostic::new(objective.span.clone(), message, "too many").help(help),
+            ]);
         }
         let with = |before: &Combination, index: usize| {
             let tio = &definition.tios[index];
@@ -235,10 +242,12 @@ fn plan(
 ) -> Result<PlannedActivity, Impossible> {
     let travels = part.task_objective.travels();
     let covers = |zone: &Zone| travels && zone.x_start <= part.x_start && part.x_end <= zone.x_end;
-    let zones: Vec<_> = definition.zones.iter().enumerate().filter(|(_, zone)| covers(zone)).collect();
+    let zones: Vec<_> =
+        definition.zones.iter().enumerate().filter(|(_, zone)| covers(zone)).collect();
     let robot = &definition.robot;
     let slowest = zones.iter().filter_map(|(_, zone)| zone.speed_max);
-    let slowest = slowest.fold(robot.speed_max.min(robot.speed_harmless), MillimetresPerSecond::min);
+    let slowest =
+        slowest.fold(robot.speed_max.min(robot.speed_harmless), MillimetresPerSecond::min);
     let mut activity = PlannedActivity {
         id: format!("A{}", place + 1),
         objective: part.objective,
@@ -251,11 +260,15 @@ fn plan(
     };
     for combination in combinations {
         let alternative = alternative(definition, &activity, combination);
-        let whole =
-            Activity { x_start: part.x_start, x_end: part.x_end, alternatives: &[] }.whole(&alternative);
+        let whole = Activity { x_start: part.x_start, x_end: part.x_end, alternatives: &[] }
+            .whole(&alternative);
         // Excluded combinations are held to this too, so that lifting a constraint cannot fail.
         if alternative.candidate(whole, 0).is_none() {
-            return Err(Impossible::TooExpensive(too_expensive(&activity, part, &combination.label)));
+            return Err(Impossible::TooExpensive(too_expensive(
+                &activity,
+                part,
+                &combination.label,
+            )));
         }
         let by = excluding(definition, &zones, combination);
         if by.is_empty() {
@@ -274,8 +287,8 @@ fn plan(
     Ok(activity)
 }
 
-/// The options of a combination taken together: they move with the power of the speed, or take what the
-/// leading one takes standing, and everything they need is on.
+/// The options of a combination taken together: they move with the power of the speed, or take what
+/// the leading one takes standing, and everything they need is on.
 fn alternative(
     definition: &Definition,
     activity: &PlannedActivity,
@@ -294,9 +307,15 @@ fn alternative(
             quality,
         );
     }
-    let speed = combination.speed_max.into_iter().fold(activity.speed_max, MillimetresPerSecond::min);
+    let speed =
+        combination.speed_max.into_iter().fold(activity.speed_max, MillimetresPerSecond::min);
     let quality = tios().map(|tio| tio.quality_per_dm).sum();
-    Alternative::travelling(speed.0, together(definition.motion_power.at(speed)), combination.needs, quality)
+    Alternative::travelling(
+        speed.0,
+        together(definition.motion_power.at(speed)),
+        combination.needs,
+        quality,
+    )
 }
 
 /// The constraints that exclude a combination, in the order of the file.
@@ -326,7 +345,8 @@ fn demand(definition: &Definition, zone: usize, constraint: Constraint) -> Strin
     let Some(zone) = definition.zones.get(zone) else { return String::new() };
     match (constraint, &zone.require_hardware, &zone.require_tio) {
         (Constraint::Hardware, Some(required), _) => {
-            let name = definition.hardware.get(required.value.hardware).map_or("", |it| it.name.as_str());
+            let name =
+                definition.hardware.get(required.value.hardware).map_or("", |it| it.name.as_str());
             let count = required.value.units;
             format!("zone `{}` requires the moving option to use {count} of `{name}`", zone.id)
         }
@@ -340,19 +360,24 @@ fn demand(definition: &Definition, zone: usize, constraint: Constraint) -> Strin
 
 fn place_of(activity: &PlannedActivity, part: &Part<'_>) -> String {
     let (id, objective) = (&activity.id, &part.task_objective.id);
-    format!("the activity {id} (objective `{objective}`, {} to {})", activity.x_start, activity.x_end)
+    format!(
+        "the activity {id} (objective `{objective}`, {} to {})",
+        activity.x_start, activity.x_end
+    )
 }
 
 fn too_expensive(activity: &PlannedActivity, part: &Part<'_>, label: &str) -> Diagnostic {
     let place = place_of(activity, part);
     let message = format!("{place}, done with `{label}`, costs more than {} ms or mJ", u32::MAX);
-    let help = "split the objective, or give it a higher speed or less power; quality has the same limit";
+    let help =
+        "split the objective, or give it a higher speed or less power; quality has the same limit";
     Diagnostic::new(part.task_objective.span.clone(), message, "too large").help(help)
 }
 
 /// Says which constraint excluded the last alternative, and what each left.
 fn emptied(definition: &Definition, activity: &PlannedActivity, part: &Part<'_>) -> Diagnostic {
-    let mut constraints: Vec<_> = activity.dropped.iter().flat_map(|dropped| dropped.by.clone()).collect();
+    let mut constraints: Vec<_> =
+        activity.dropped.iter().flat_map(|dropped| dropped.by.clone()).collect();
     constraints.sort_unstable();
     constraints.dedup();
     let mut story = vec![format!("of {} combinations", activity.dropped.len())];
@@ -366,7 +391,9 @@ fn emptied(definition: &Definition, activity: &PlannedActivity, part: &Part<'_>)
         if left == 0 {
             let zone = &definition.zones[zone];
             last = match constraint {
-                Constraint::Hardware => zone.require_hardware.as_ref().map(|required| required.span.clone()),
+                Constraint::Hardware => {
+                    zone.require_hardware.as_ref().map(|required| required.span.clone())
+                }
                 Constraint::Tio => zone.require_tio.as_ref().map(|required| required.span.clone()),
             }
             .unwrap_or(zone.span.clone());

@@ -76,7 +76,13 @@ impl Alternative {
     #[must_use]
     pub const fn standing(duration_ms: u64, power_mw: u64, needs: Units, quality: u32) -> Self {
         let duration = Millis(duration_ms);
-        Self { speed: MillimetresPerSecond(0), duration, power: Milliwatts(power_mw), needs, quality }
+        Self {
+            speed: MillimetresPerSecond(0),
+            duration,
+            power: Milliwatts(power_mw),
+            needs,
+            quality,
+        }
     }
 
     /// The duration (ms) and the energy (mJ) of a rest done this way, each rounded half up.
@@ -96,21 +102,25 @@ impl Alternative {
         Some([duration.0 as u32, energy.0 as u32])
     }
 
-    /// The quality of a rest done this way: per full 100 mm of travel, else that of the whole activity.
+    /// The quality of a rest done this way: per full 100 mm of travel, else that of the whole
+    /// activity.
     ///
     /// `None` when it does not fit 32 bits.
     #[must_use]
     pub const fn quality_of(&self, rest: Rest) -> Option<u32> {
         match rest {
             Rest::Time(_) => Some(self.quality),
-            Rest::Travel(length) => match (self.quality as u64).checked_mul(length.0 / QUALITY_LENGTH) {
-                Some(quality) if quality <= u32::MAX as u64 => Some(quality as u32),
-                _ => None,
-            },
+            Rest::Travel(length) => {
+                match (self.quality as u64).checked_mul(length.0 / QUALITY_LENGTH) {
+                    Some(quality) if quality <= u32::MAX as u64 => Some(quality as u32),
+                    _ => None,
+                }
+            }
         }
     }
 
-    /// A rest done this way as a candidate of the allocation problem; `None` as for cost and quality.
+    /// A rest done this way as a candidate of the allocation problem; `None` as for cost and
+    /// quality.
     #[must_use]
     pub const fn candidate(&self, rest: Rest, id: u16) -> Option<Candidate<2>> {
         match (self.cost(rest), self.quality_of(rest)) {
@@ -148,7 +158,8 @@ pub enum RemainingError {
         /// Its position in the given activities.
         activity: usize,
     },
-    /// A cost or a quality of this activity does not fit 32 bits, or it has more than 65,536 alternatives.
+    /// A cost or a quality of this activity does not fit 32 bits, or it has more than 65,536
+    /// alternatives.
     TooLarge {
         /// Its position in the given activities.
         activity: usize,
@@ -161,12 +172,17 @@ impl core::fmt::Display for RemainingError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::NoCandidates { activity } => {
-                write!(f, "the available hardware covers no alternative of remaining activity {activity}")
+                write!(
+                    f,
+                    "the available hardware covers no alternative of remaining activity {activity}"
+                )
             }
             Self::TooLarge { activity } => {
                 write!(f, "a cost of remaining activity {activity} does not fit 32 bits")
             }
-            Self::BufferTooSmall => f.write_str("the buffers are too small for the remaining mission"),
+            Self::BufferTooSmall => {
+                f.write_str("the buffers are too small for the remaining mission")
+            }
         }
     }
 }
@@ -187,13 +203,14 @@ pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
 
 /// The candidates of a remaining mission, written into the caller's memory.
 ///
-/// `activities` start with the current one, of which `first` is left. Alternatives that need more than
-/// `available` are left out. The lists returned are what
-/// [`Problem::new`](cotama_core::problem::Problem::new) takes; [`Candidate::id`] is the index of the
-/// alternative in its activity.
+/// `activities` start with the current one, of which `first` is left. Alternatives that need more
+/// than `available` are left out. The lists returned are what
+/// [`Problem::new`](cotama_core::problem::Problem::new) takes; [`Candidate::id`] is the index of
+/// the alternative in its activity.
 ///
 /// # Errors
-/// The first activity without candidates, a cost that does not fit, or a buffer smaller than needed.
+/// The first activity without candidates, a cost that does not fit, or a buffer smaller than
+/// needed.
 pub fn remaining<'c, 'l>(
     activities: &[Activity<'_>],
     first: Rest,

@@ -1,5 +1,5 @@
-//! Broken mission files and what is said about them. The messages are in `tests/golden/`, one file each;
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-models --test broken` writes them again.
+//! Broken mission files and what is said about them. The messages are in `tests/golden/`, one file
+//! each; `UPDATE_GOLDEN=1 cargo test -p cotama-models --test broken` writes them again.
 #![cfg(feature = "std")]
 #![allow(clippy::format_collect)] // a broken file may be slow to make
 
@@ -26,14 +26,20 @@ fn compare(name: &str, said: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(golden, said).unwrap();
     } else {
-        assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said, "golden file of {name}");
+        assert_eq!(
+            std::fs::read_to_string(golden).unwrap_or_default(),
+            said,
+            "golden file of {name}"
+        );
     }
 }
 
 /// Parses a broken file on a thread of the usual 2 MiB, and checks the invariants of its errors.
 fn refused(name: &str, text: String) {
-    let parse = move || Mission::parse("patrol.toml", &text).expect_err("a broken file was accepted");
-    let errors = std::thread::Builder::new().stack_size(2 << 20).spawn(parse).unwrap().join().unwrap();
+    let parse =
+        move || Mission::parse("patrol.toml", &text).expect_err("a broken file was accepted");
+    let errors =
+        std::thread::Builder::new().stack_size(2 << 20).spawn(parse).unwrap().join().unwrap();
     assert!(!errors.diagnostics().is_empty());
     for diagnostic in errors.diagnostics() {
         assert!(errors.text().get(diagnostic.span.clone()).is_some(), "{name}: {diagnostic:?}");
@@ -104,8 +110,14 @@ fn edits_of_the_patrol() {
             "unknown_task",
             &[("task = \"MOV\"", "task = \"MVO\""), ("[\"TUR\", \"LOC\"]", "[\"TURN\", \"FLY\"]")],
         ),
-        ("unknown_option", &[("require_tio = \"L2\"", "require_tio = \"L9\""), ("{ D1 =", "{ D7 =")]),
-        ("unknown_zone", &[("\"H2\" = -45", "\"H22\" = -45"), ("\"H1-out\" = -10", "\"H1-out\" = -1000")]),
+        (
+            "unknown_option",
+            &[("require_tio = \"L2\"", "require_tio = \"L9\""), ("{ D1 =", "{ D7 =")],
+        ),
+        (
+            "unknown_zone",
+            &[("\"H2\" = -45", "\"H22\" = -45"), ("\"H1-out\" = -10", "\"H1-out\" = -1000")],
+        ),
         (
             "duplicate_ids",
             &[
@@ -114,11 +126,17 @@ fn edits_of_the_patrol() {
                 ("id = \"H2\"", "id = \"H1-out\""),
             ],
         ),
-        ("bad_ids", &[("id = \"M2\"", "id = \"M 2\""), ("[hardware.sonar]", "[hardware.\"so\\u001bnar\"]")]),
+        (
+            "bad_ids",
+            &[("id = \"M2\"", "id = \"M 2\""), ("[hardware.sonar]", "[hardware.\"so\\u001bnar\"]")],
+        ),
         ("bad_name", &[("name = \"patrol\"", "name = \"two\\nlines\"")]),
         ("zone_outside", &[("x_end_mm = 187000\nspeed", "x_end_mm = 187001\nspeed")]),
         ("zone_empty", &[("x_start_mm = 31000", "x_start_mm = 41000")]),
-        ("objectives_gap", &[("x_start_mm = 0\nx_end_mm = 37000", "x_start_mm = 5\nx_end_mm = 36000")]),
+        (
+            "objectives_gap",
+            &[("x_start_mm = 0\nx_end_mm = 37000", "x_start_mm = 5\nx_end_mm = 36000")],
+        ),
         (
             "objectives_overlap",
             &[("x_end_mm = 37000\ntasks = [\"DET\"]", "x_end_mm = 36000\ntasks = [\"DET\"]")],
@@ -161,7 +179,10 @@ fn edits_of_the_patrol() {
             )],
         ),
         ("monitor_period", &[("monitor_period_ms = 1000", "monitor_period_ms = 0")]),
-        ("beyond_ascii", &[("name = \"patrol\"", "name = \"päß\"; \n"), ("path_length_mm", "\u{feff}")]),
+        (
+            "beyond_ascii",
+            &[("name = \"patrol\"", "name = \"päß\"; \n"), ("path_length_mm", "\u{feff}")],
+        ),
     ];
     assert!(cases.len() >= 25);
     for (name, edits) in cases {
@@ -173,7 +194,10 @@ fn edits_of_the_patrol() {
 fn files_of_their_own() {
     refused("empty", String::new());
     refused("only_format", "format = \"panorama-mission/1\"\n".into());
-    refused("lists_empty", "format = \"panorama-mission/1\"\ntio = []\nobjective = []\nzone = []\n".into());
+    refused(
+        "lists_empty",
+        "format = \"panorama-mission/1\"\ntio = []\nobjective = []\nzone = []\n".into(),
+    );
     refused("nested", format!("format = {}", "[".repeat(100_000)));
     refused("nested_tables", format!("format = {}", "{a=".repeat(100_000)));
     refused("nested_keys", format!("{}b = 1", "a.".repeat(100_000)));
@@ -197,9 +221,14 @@ fn files_of_their_own() {
 fn files_of_faults() {
     let mission = Mission::parse("patrol", patrol()).unwrap();
     let run = &patrol()[patrol().find("[run]").unwrap()..];
-    let script = run.replace("[run]", "format = \"panorama-faults/1\"").replace("[[run.event]]", "[[event]]");
+    let script = run
+        .replace("[run]", "format = \"panorama-faults/1\"")
+        .replace("[[run.event]]", "[[event]]");
     let stand_alone = script.replace("monitor_period_ms = 1000", "");
-    assert_eq!(Faults::parse("faults.toml", &stand_alone, &mission).as_ref(), Ok(&mission.run.faults));
+    assert_eq!(
+        Faults::parse("faults.toml", &stand_alone, &mission).as_ref(),
+        Ok(&mission.run.faults)
+    );
     let errors = Faults::parse("faults.toml", &script, &mission).unwrap_err();
     compare("faults_with_period", &errors.to_string());
     let errors = Faults::parse("faults.toml", patrol(), &mission).unwrap_err();

@@ -9,8 +9,8 @@ use std::collections::{BTreeSet, HashMap};
 
 const NOW: Millis = Millis(0);
 
-/// After each round the environment does one thing, or nothing: 4,166 states and 22,810 such steps, as counted by two
-/// other programs for the same model.
+/// After each round the environment does one thing, or nothing: 4,166 states and 22,810 such steps,
+/// as counted by two other programs for the same model.
 #[test]
 fn the_rounds_reach_4166_states() {
     let first = decision::Player::<()>::new();
@@ -22,7 +22,9 @@ fn the_rounds_reach_4166_states() {
         at += 1;
         let mut after = state;
         let mut witness = |happening: &Happening<()>| {
-            if let Happening::Fired { transition: Of { component, id: TransitionId(id) }, .. } = happening {
+            if let Happening::Fired { transition: Of { component, id: TransitionId(id) }, .. } =
+                happening
+            {
                 fired.insert((*component, *id));
             }
         };

@@ -31,7 +31,9 @@ fn the_shipped_supervisors_reach_31266_states_by_327040_steps() {
         at += 1;
         let mut after = state;
         let mut witness = |happening: &Happening<()>| {
-            if let Happening::Fired { transition: Of { component, id: TransitionId(id) }, .. } = happening {
+            if let Happening::Fired { transition: Of { component, id: TransitionId(id) }, .. } =
+                happening
+            {
                 fired.insert((*component, *id));
             }
         };

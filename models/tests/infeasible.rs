@@ -1,6 +1,6 @@
-//! Missions without a plan: the cause and the relaxations, exactly, and that each relaxation is what it says.
-//! What is said of them is in `tests/golden/infeasible_*.txt`;
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-models --test infeasible` writes it again.
+//! Missions without a plan: the cause and the relaxations, exactly, and that each relaxation is
+//! what it says. What is said of them is in `tests/golden/infeasible_*.txt`; `UPDATE_GOLDEN=1 cargo
+//! test -p cotama-models --test infeasible` writes it again.
 #![cfg(feature = "std")]
 #![allow(clippy::cast_precision_loss)] // shares are compared roughly
 
@@ -31,8 +31,9 @@ fn patrol() -> Mission {
     patrol_with(&[])
 }
 
-/// Every pair of total duration and energy that no other beats, with this hardware: none where an activity has
-/// no alternative. No search, and no allocator: sums over the activities, one after the other.
+/// Every pair of total duration and energy that no other beats, with this hardware: none where an
+/// activity has no alternative. No search, and no allocator: sums over the activities, one after
+/// the other.
 fn front(mission: &Mission, available: Units) -> Vec<[u64; 2]> {
     let mut front = vec![[0, 0]];
     for activity in mission.scenario().activities() {
@@ -57,7 +58,12 @@ fn feasible(mission: &Mission, limits: [u64; 2], available: Units) -> bool {
 }
 
 /// Whether a relaxation, applied, is feasible.
-fn suffices(relaxation: &Relaxation, mission: &Mission, limits: [u64; 2], available: Units) -> bool {
+fn suffices(
+    relaxation: &Relaxation,
+    mission: &Mission,
+    limits: [u64; 2],
+    available: Units,
+) -> bool {
     let (mission, limits, available) = relaxation.apply(mission, limits, available).unwrap();
     feasible(&mission, limits, available)
 }
@@ -70,7 +76,9 @@ fn less(relaxation: &Relaxation) -> Vec<Relaxation> {
         to
     };
     match relaxation.clone() {
-        Relaxation::RaiseLimit { axis, from, to } => vec![Relaxation::RaiseLimit { axis, from, to: to - 1 }],
+        Relaxation::RaiseLimit { axis, from, to } => {
+            vec![Relaxation::RaiseLimit { axis, from, to: to - 1 }]
+        }
         Relaxation::RaiseLimits { from, to } => {
             [0, 1].map(|axis| Relaxation::RaiseLimits { from, to: without(axis, to) }).to_vec()
         }
@@ -99,18 +107,26 @@ fn less(relaxation: &Relaxation) -> Vec<Relaxation> {
 fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Units) {
     assert!(why.complete);
     for relaxation in &why.relaxations {
-        assert!(suffices(relaxation, mission, limits, available), "{relaxation:?} does not suffice");
+        assert!(
+            suffices(relaxation, mission, limits, available),
+            "{relaxation:?} does not suffice"
+        );
         for less in less(relaxation) {
-            assert!(!suffices(&less, mission, limits, available), "{less:?} is enough for {relaxation:?}");
+            assert!(
+                !suffices(&less, mission, limits, available),
+                "{less:?} is enough for {relaxation:?}"
+            );
         }
     }
     // Nothing that suffices is missing.
     let front = front(mission, available);
     let single = |relaxation: &Relaxation| why.relaxations.contains(relaxation);
-    let raises = why.relaxations.iter().filter(|it| matches!(it, Relaxation::RaiseLimit { .. })).count();
+    let raises =
+        why.relaxations.iter().filter(|it| matches!(it, Relaxation::RaiseLimit { .. })).count();
     let reachable = [0, 1].map(|axis| front.iter().any(|cost| cost[1 - axis] <= limits[1 - axis]));
     assert_eq!(raises, reachable.into_iter().filter(|&it| it).count());
-    let both = why.relaxations.iter().filter(|it| matches!(it, Relaxation::RaiseLimits { .. })).count();
+    let both =
+        why.relaxations.iter().filter(|it| matches!(it, Relaxation::RaiseLimits { .. })).count();
     assert_eq!(both > 0, raises == 0 && !front.is_empty());
     let (mut lifted, mut bare) = (0, mission.clone());
     for zone in 0..mission.zones.len() {
@@ -124,7 +140,11 @@ fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Unit
             bare = bare.without_zone_constraint(zone, constraint).unwrap_or(bare);
         }
     }
-    let sets = why.relaxations.iter().filter(|it| matches!(it, Relaxation::LiftConstraints { .. })).count();
+    let sets = why
+        .relaxations
+        .iter()
+        .filter(|it| matches!(it, Relaxation::LiftConstraints { .. }))
+        .count();
     assert_eq!(sets, usize::from(lifted == 0 && feasible(&bare, limits, available)));
     let mut kept = 0;
     for (hardware, it) in mission.hardware.iter().enumerate() {
@@ -138,7 +158,8 @@ fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Unit
         assert_eq!(listed, helps, "hardware {hardware}");
         kept += usize::from(helps.is_some());
     }
-    let sets = why.relaxations.iter().filter(|it| matches!(it, Relaxation::KeepHardwares { .. })).count();
+    let sets =
+        why.relaxations.iter().filter(|it| matches!(it, Relaxation::KeepHardwares { .. })).count();
     assert_eq!(sets, usize::from(kept == 0 && feasible(mission, limits, mission.available())));
     let mut last_end = None;
     for (objective, it) in mission.objectives.iter().enumerate() {
@@ -163,12 +184,15 @@ fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Unit
     check_heaviest(why, mission);
 }
 
-/// Raised limits by the larger part they add, then constraints, hardware, objectives as the file has them.
+/// Raised limits by the larger part they add, then constraints, hardware, objectives as the file
+/// has them.
 fn check_order(why: &Explanation, mission: &Mission) {
     let part = |from: u64, to: u64| to.saturating_sub(from) as f64 / from as f64;
     let key = |relaxation: &Relaxation| match *relaxation {
         Relaxation::RaiseLimit { from, to, .. } => (0, part(from, to), 0, 0),
-        Relaxation::RaiseLimits { from, to } => (0, part(from[0], to[0]).max(part(from[1], to[1])), 0, 0),
+        Relaxation::RaiseLimits { from, to } => {
+            (0, part(from[0], to[0]).max(part(from[1], to[1])), 0, 0)
+        }
         Relaxation::LiftConstraint { zone, constraint } => (1, 0.0, zone, constraint as usize),
         Relaxation::LiftConstraints { .. } => (1, 0.0, 0, 0),
         Relaxation::KeepHardware { hardware, .. } => (2, 0.0, hardware, 0),
@@ -205,12 +229,16 @@ fn compare(name: &str, why: &Explanation, mission: &Mission) {
 ",
     ) + "
 ";
-    let golden =
-        PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/infeasible_{name}.txt"));
+    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+        .join(format!("tests/golden/infeasible_{name}.txt"));
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(golden, said).unwrap();
     } else {
-        assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said, "golden file of {name}");
+        assert_eq!(
+            std::fs::read_to_string(golden).unwrap_or_default(),
+            said,
+            "golden file of {name}"
+        );
     }
 }
 
@@ -312,8 +340,11 @@ fn a_search_cut_short_says_so() {
     let all = mission.available();
     let front = front(&mission, all);
     let [duration, energy] = front[front.len() / 2];
-    // One unit from a plan it takes long to see that there is none; far from one, to find the least limit.
-    for (limits, what) in [([duration, energy - 1], "cause"), ([duration, energy / 2], "relaxations")] {
+    // One unit from a plan it takes long to see that there is none; far from one, to find the least
+    // limit.
+    for (limits, what) in
+        [([duration, energy - 1], "cause"), ([duration, energy / 2], "relaxations")]
+    {
         let why = explain(&mission, limits, all).unwrap();
         check(&why, &mission, limits, all);
         let mut cut_short = 0;
@@ -323,7 +354,10 @@ fn a_search_cut_short_says_so() {
                 assert_eq!(within, why);
                 continue;
             }
-            assert!(within.relaxations.iter().all(|it| suffices(it, &mission, limits, all)), "{within:?}");
+            assert!(
+                within.relaxations.iter().all(|it| suffices(it, &mission, limits, all)),
+                "{within:?}"
+            );
             let undecided = within.cause == Cause::Undecided { steps };
             assert!(!undecided || within.relaxations.is_empty());
             cut_short += usize::from(undecided == (what == "cause"));

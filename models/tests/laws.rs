@@ -18,7 +18,8 @@ fn with_zones(zones: &[(u64, u64, u64)]) -> Mission {
     let mut mission = before.to_owned();
     for (index, (start, length, speed)) in zones.iter().enumerate() {
         let end = (start + length).min(187_000);
-        writeln!(mission, "[[zone]]\nid = \"z{index}\"\nx_start_mm = {start}\nx_end_mm = {end}").unwrap();
+        writeln!(mission, "[[zone]]\nid = \"z{index}\"\nx_start_mm = {start}\nx_end_mm = {end}")
+            .unwrap();
         writeln!(mission, "speed_max_mm_s = {speed}").unwrap();
     }
     run.for_each(|line| mission.extend([line, "\n"]));

@@ -1,4 +1,5 @@
-//! The modules of the delivery in time: response times, particles, and the second point of the experiment.
+//! The modules of the delivery in time: response times, particles, and the second point of the
+//! experiment.
 
 use cotama_core::executive::{Executive, Happening, Overruns, Stage, Task, TaskSet, What};
 use cotama_core::units::Micros;
@@ -18,22 +19,26 @@ fn tasks(configuration: Configuration, load: Load, particles: u32) -> Vec<Task> 
     load::tasks(configuration, load, particles, &mut [SPARE; MOST]).to_vec()
 }
 
-/// Each module with its response time, what is left to its deadline, and its response time when another one overruns; in ms.
+/// Each module with its response time, what is left to its deadline, and its response time when
+/// another one overruns; in ms.
 fn table(configuration: Configuration, load: Load, particles: u32) -> String {
     let tasks = tasks(configuration, load, particles);
     let set = TaskSet::new(&tasks).unwrap();
     let names = (load != Load::Quiet).then_some("load").into_iter();
     let scheduled = configuration.scheduled();
-    let names =
-        names.chain(COSTS.iter().map(|it| it.module).filter(|it| scheduled.has(*it)).map(Module::name));
+    let names = names
+        .chain(COSTS.iter().map(|it| it.module).filter(|it| scheduled.has(*it)).map(Module::name));
     let ms = |time: Micros| Duration::from_micros(time.0).as_secs_f64() * 1_000.0;
-    let mut table =
-        format!("{load:?}, {particles} particles\nmodule  period   cost  response  slack  one overruns\n");
+    let mut table = format!(
+        "{load:?}, {particles} particles\nmodule  period   cost  response  slack  one overruns\n"
+    );
     let responses = set.response_times(Overruns::None).zip(set.response_times(Overruns::One));
     for ((name, task), (plain, one)) in names.zip(&tasks).zip(responses) {
-        let shown =
-            |time: Result<Micros, _>| time.map_or("late".to_owned(), |time| format!("{:.1}", ms(time)));
-        let slack = plain.map_or(String::new(), |plain| format!("{:.1}", ms(task.deadline) - ms(plain)));
+        let shown = |time: Result<Micros, _>| {
+            time.map_or("late".to_owned(), |time| format!("{:.1}", ms(time)))
+        };
+        let slack =
+            plain.map_or(String::new(), |plain| format!("{:.1}", ms(task.deadline) - ms(plain)));
         let (period, cost) = (ms(task.period), ms(task.cost));
         writeln!(
             table,
@@ -80,7 +85,11 @@ fn every_set_but_the_optimal_one_is_in_time_when_the_computer_is_busy() {
     for set in [FollowingOdometric, FollowingDegraded, Planning, TeleoperationFull] {
         for load in [Load::Quiet, Load::Busy] {
             let tasks = tasks(set, load, 0);
-            assert_eq!(TaskSet::new(&tasks).unwrap().schedulable(Overruns::None), Ok(()), "{set:?} {load:?}");
+            assert_eq!(
+                TaskSet::new(&tasks).unwrap().schedulable(Overruns::None),
+                Ok(()),
+                "{set:?} {load:?}"
+            );
         }
     }
     // Whatever one module does, and whatever the localisation takes, the others are in time.
@@ -99,8 +108,8 @@ fn troubles(executive: &mut Executive<14>, until: Micros) -> Vec<(u64, usize, Wh
     happenings.filter(trouble).map(|it| (it.at.0 / 1_000, it.task, it.what)).collect()
 }
 
-/// The second point of the experiment: under load the localisation alone misses its deadlines; the watchdog says so after three
-/// periods, and with fewer particles all is in time.
+/// The second point of the experiment: under load the localisation alone misses its deadlines; the
+/// watchdog says so after three periods, and with fewer particles all is in time.
 #[test]
 fn the_localisation_alone_is_found_too_slow_and_fewer_particles_cure_it() {
     let under_load = |particles| tasks(FollowingOptimal, Load::Busy, particles).try_into().unwrap();
@@ -110,7 +119,10 @@ fn the_localisation_alone_is_found_too_slow_and_fewer_particles_cure_it() {
         [(100 * period - 20, 13, What::DeadlineMissed), (100 * period, 13, skipped)]
     };
     let refused = (300, 13, What::Refused);
-    assert_eq!(troubles(&mut full, Micros(300_000)), [&late(1)[..], &late(2), &late(3), &[refused]].concat());
+    assert_eq!(
+        troubles(&mut full, Micros(300_000)),
+        [&late(1)[..], &late(2), &late(3), &[refused]].concat()
+    );
     assert_eq!(full.stage(13), Some(Stage::Fault));
 
     let mut reduced = Executive::<14>::new(under_load(PARTICLES[1])).unwrap();
@@ -120,8 +132,11 @@ fn the_localisation_alone_is_found_too_slow_and_fewer_particles_cure_it() {
 #[test]
 fn the_watchdog_of_the_loop_has_the_numbers_of_its_tasks() {
     let net = load::loop_watchdog::NET;
-    let within = |name: &str| net.transitions.iter().find(|it| it.name == name).unwrap().within.unwrap();
-    let ms = |within: cotama_core::net::Within| (u64::from(within.earliest), within.latest.map(u64::from));
+    let within =
+        |name: &str| net.transitions.iter().find(|it| it.name == name).unwrap().within.unwrap();
+    let ms = |within: cotama_core::net::Within| {
+        (u64::from(within.earliest), within.latest.map(u64::from))
+    };
     assert_eq!(ms(within("w3")), (DEADLINE.0 / 1_000, Some(DEADLINE.0 / 1_000)));
     assert_eq!(ms(within("w5")), (EXTRA.0 / 1_000, Some(EXTRA.0 / 1_000)));
     assert_eq!(DEADLINE.0 + EXTRA.0, PERIOD.0); // a fault is raised before the next release
@@ -130,7 +145,8 @@ fn the_watchdog_of_the_loop_has_the_numbers_of_its_tasks() {
 
 #[test]
 fn every_module_is_scheduled_in_some_configuration_but_the_parts_of_another() {
-    let scheduled = Configuration::ALL.iter().fold(Modules::NONE, |all, it| all.union(it.scheduled()));
+    let scheduled =
+        Configuration::ALL.iter().fold(Modules::NONE, |all, it| all.union(it.scheduled()));
     assert_eq!(Modules::ALL.without(scheduled).to_string(), "SCH ODO CTR");
     let costed = COSTS.iter().fold(Modules::NONE, |all, it| all.with(it.module));
     assert_eq!(costed, scheduled);

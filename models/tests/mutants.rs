@@ -1,5 +1,6 @@
-//! 100,000 mutants of the mission files: none makes the reader or the scenario panic, and each that is accepted
-//! has the invariants of a mission. A failure prints the number of its mutant, which makes it again.
+//! 100,000 mutants of the mission files: none makes the reader or the scenario panic, and each that
+//! is accepted has the invariants of a mission. A failure prints the number of its mutant, which
+//! makes it again.
 #![cfg(feature = "std")]
 
 use cotama_models::embedded;
@@ -58,7 +59,8 @@ fn mutate(text: &mut Vec<u8>, random: &mut Random) {
             let to = random.below(text.len());
             text.splice(to..to, copy);
         }
-        // A digit for a digit keeps the file readable, so that the checks behind the syntax are reached.
+        // A digit for a digit keeps the file readable, so that the checks behind the syntax are
+        // reached.
         5 => {
             let digits: Vec<_> = (0..text.len()).filter(|&at| text[at].is_ascii_digit()).collect();
             if let Some(&at) = digits.get(random.below(digits.len())) {
@@ -83,7 +85,8 @@ fn check(mission: &Mission) {
     assert_eq!(length, mission.path_length.0);
     for activity in &activities {
         for alternative in activity.alternatives {
-            let _ = alternative.candidate(Rest::Travel(cotama_core::units::Millimetres(u64::MAX)), 0);
+            let _ =
+                alternative.candidate(Rest::Travel(cotama_core::units::Millimetres(u64::MAX)), 0);
             assert!(scenario.available().covers(alternative.needs));
         }
     }
@@ -102,7 +105,9 @@ fn check(mission: &Mission) {
 fn no_mutant_makes_the_reader_panic() {
     // Half of the mutants are of files without their comments, where every byte matters.
     let bare = |text: &str| -> String {
-        text.lines().map(|line| line.split('#').next().unwrap_or("").trim_end().to_owned() + "\n").collect()
+        text.lines()
+            .map(|line| line.split('#').next().unwrap_or("").trim_end().to_owned() + "\n")
+            .collect()
     };
     let whole = ["patrol", "delivery"].map(|name| embedded::mission(name).unwrap().text);
     let texts = [whole[0].to_owned(), bare(whole[0]), whole[1].to_owned(), bare(whole[1])];

@@ -1,4 +1,5 @@
-//! The patrol gives Table 5 of Lambert et al. 2024 exactly, and the tables printed for firmware are its own.
+//! The patrol gives Table 5 of Lambert et al. 2024 exactly, and the tables printed for firmware are
+//! its own.
 #![cfg(feature = "std")]
 
 use cotama_core::problem::Problem;
@@ -15,7 +16,8 @@ fn patrol() -> Mission {
 
 #[test]
 fn the_activities_are_those_of_table_5() {
-    // id, objective, start and end in mm, alternatives before and after the constraints, v_max in mm/s
+    // id, objective, start and end in mm, alternatives before and after the constraints, v_max in
+    // mm/s
     let table_5 = [
         ("A1", "O1", 0, 31_000, 21, 21, 410),
         ("A2", "O1", 31_000, 34_000, 21, 12, 330),
@@ -71,7 +73,10 @@ fn an_alternative_costs_what_a_hand_finds() {
     assert_eq!(whole, Rest::Travel(Millimetres(31_000)));
     // 31 m / 0.41 m/s = 75.6098 s, times 18.224 W = 1377.917 J; (3 * 3 + 3) for each of 310 dm
     let candidate = alternative.candidate(whole, 7).unwrap();
-    assert_eq!((candidate.cost, candidate.quality, candidate.id), ([75_610, 1_377_917], 12 * 310, 7));
+    assert_eq!(
+        (candidate.cost, candidate.quality, candidate.id),
+        ([75_610, 1_377_917], 12 * 310, 7)
+    );
     // A turn with L3: 8 s at 7.5 W and two lasers.
     let t1_l3 = mission.scenario().activities[3].alternatives[2];
     let whole = activities[3].whole(&t1_l3);
@@ -86,7 +91,8 @@ fn every_dropped_combination_names_all_its_constraints() {
     let a3 = &mission.scenario().activities[2];
     let m3_l1 = a3.dropped.iter().find(|dropped| dropped.label == "M3 L1").unwrap();
     let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
-    let expected = [(zone("glass-out"), Constraint::Hardware), (zone("valve1-approach"), Constraint::Tio)];
+    let expected =
+        [(zone("glass-out"), Constraint::Hardware), (zone("valve1-approach"), Constraint::Tio)];
     assert_eq!(m3_l1.by, expected);
     assert_eq!(
         m3_l1.reason,
@@ -100,8 +106,9 @@ fn constraints_can_be_lifted_and_objectives_left_out() {
     let mission = patrol();
     let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
     // Without the added sonar requirement A10 has the 7 alternatives of its printed constraint.
-    let lifted =
-        mission.without_zone_constraint(zone("valve2-approach-sonar"), Constraint::Hardware).unwrap();
+    let lifted = mission
+        .without_zone_constraint(zone("valve2-approach-sonar"), Constraint::Hardware)
+        .unwrap();
     assert_eq!(lifted.scenario().combinations(), Some(1_344_505_391_502_336));
     assert_eq!(mission.without_zone_constraint(zone("H2"), Constraint::Hardware), None);
     assert_eq!(mission.without_zone_constraint(99, Constraint::Tio), None);
@@ -110,7 +117,10 @@ fn constraints_can_be_lifted_and_objectives_left_out() {
     assert_eq!(without_detection.scenario().activities.len(), 16);
     assert_eq!(without_detection.path_length, mission.path_length);
     let one_way = mission.without_objective(8).unwrap();
-    assert_eq!((one_way.scenario().activities.len(), one_way.path_length), (13, Millimetres(93_500)));
+    assert_eq!(
+        (one_way.scenario().activities.len(), one_way.path_length),
+        (13, Millimetres(93_500))
+    );
     assert!(one_way.run.faults.events.iter().all(|event| event.x <= one_way.path_length));
     assert_eq!(mission.without_objective(0), None);
     assert_eq!(mission.without_objective(9), None);
@@ -123,7 +133,8 @@ fn a_remaining_mission_becomes_a_problem_without_heap() {
     let activities = scenario.activities();
     let lasers = mission.hardware.iter().position(|hardware| hardware.name == "laser").unwrap();
     let available = scenario.available().without(lasers, 1);
-    // At 118 m one laser is lost: M4 to M7 and L3 fall away, 3 * 2 remain of 21, and M1, M2 in the glazed A16.
+    // At 118 m one laser is lost: M4 to M7 and L3 fall away, 3 * 2 remain of 21, and M1, M2 in the
+    // glazed A16.
     let rest = Rest::Travel(Millimetres(123_500 - 118_000));
     let mut candidates = vec![EMPTY; buffer_sizes(&activities[13..]).0];
     let mut lists = [&[][..]; 17];

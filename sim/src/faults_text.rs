@@ -6,7 +6,8 @@ use std::fmt::Write;
 
 /// The text of a `panorama-faults/1` file with these faults.
 ///
-/// Zones and hardware that the mission does not have are written with an empty name, which no reader accepts.
+/// Zones and hardware that the mission does not have are written with an empty name, which no
+/// reader accepts.
 ///
 /// ```
 /// use cotama_models::{embedded, faults::Faults, mission::Mission};
@@ -42,17 +43,23 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
     for incident in &faults.incidents {
         let _ = writeln!(text, "\n[[event]]\nx_mm = {}", incident.x.0);
         let _ = match &incident.kind {
-            IncidentKind::Failure(mode) => writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.name()),
-            IncidentKind::Repair(mode) => writeln!(text, "kind = \"repair\"\nmode = \"{}\"", mode.name()),
+            IncidentKind::Failure(mode) => {
+                writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.name())
+            }
+            IncidentKind::Repair(mode) => {
+                writeln!(text, "kind = \"repair\"\nmode = \"{}\"", mode.name())
+            }
             IncidentKind::Operator { answers, delay } => {
-                let answers: Vec<_> = answers.iter().map(|answer| format!("\"{}\"", answer.name())).collect();
+                let answers: Vec<_> =
+                    answers.iter().map(|answer| format!("\"{}\"", answer.name())).collect();
                 let answers = answers.join(", ");
                 writeln!(text, "kind = \"operator\"\nanswers = [{answers}]\ndelay_ms = {}", delay.0)
             }
         };
     }
     for random in &faults.random {
-        let _ = writeln!(text, "\n[[random]]\nname = \"{}\"\nper_km = {}", random.name, random.per_km);
+        let _ =
+            writeln!(text, "\n[[random]]\nname = \"{}\"\nper_km = {}", random.name, random.per_km);
         kind(&mut text, random.kind, mission);
     }
     text
@@ -61,13 +68,25 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
 fn kind(text: &mut String, kind: EventKind, mission: &Definition) {
     let name = |index: usize| mission.hardware.get(index).map_or("", |it| it.name.as_str());
     let _ = match kind {
-        EventKind::Obstacle { delay } => writeln!(text, "kind = \"obstacle\"\ndelay_ms = {}", delay.0),
-        EventKind::Odometry { extra } => writeln!(text, "kind = \"odometry\"\nextra_mm = {}", extra.0),
+        EventKind::Obstacle { delay } => {
+            writeln!(text, "kind = \"obstacle\"\ndelay_ms = {}", delay.0)
+        }
+        EventKind::Odometry { extra } => {
+            writeln!(text, "kind = \"odometry\"\nextra_mm = {}", extra.0)
+        }
         EventKind::Fault { hardware, units } => {
-            writeln!(text, "kind = \"fault\"\nhardware = \"{}\"\nunits_lost = {units}", name(hardware))
+            writeln!(
+                text,
+                "kind = \"fault\"\nhardware = \"{}\"\nunits_lost = {units}",
+                name(hardware)
+            )
         }
         EventKind::Repair { hardware, units } => {
-            writeln!(text, "kind = \"repair\"\nhardware = \"{}\"\nunits_back = {units}", name(hardware))
+            writeln!(
+                text,
+                "kind = \"repair\"\nhardware = \"{}\"\nunits_back = {units}",
+                name(hardware)
+            )
         }
     };
 }

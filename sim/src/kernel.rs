@@ -13,8 +13,8 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-/// A discrete-event queue. Equal times leave by priority (lower first), equal priorities in the order in
-/// which they came; nothing else decides, so the order is the same everywhere.
+/// A discrete-event queue. Equal times leave by priority (lower first), equal priorities in the
+/// order in which they came; nothing else decides, so the order is the same everywhere.
 #[derive(Clone, Debug)]
 pub struct Queue<E> {
     heap: BinaryHeap<Entry<E>>,

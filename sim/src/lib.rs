@@ -3,8 +3,8 @@
 //! A [`Mission`](cotama_models::mission::Mission) and [`Options`](options::Options) make a
 //! [`Simulation`](setup::Simulation), which runs any number of times; every run is a
 //! [`World`](world::World) that steps from event to event to its [`Run`](run::Run). With a
-//! [`Recorder`](record::Recorder) it also leaves a [`Trace`](trace::Trace), from which it can be drawn and
-//! [replayed](trace::replay). The same seed gives the same bytes on every machine.
+//! [`Recorder`](record::Recorder) it also leaves a [`Trace`](trace::Trace), from which it can be
+//! drawn and [replayed](trace::replay). The same seed gives the same bytes on every machine.
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 
 pub mod faults_text;

@@ -44,8 +44,8 @@ pub enum Planner {
     /// The paper's rule alone, which can miss a plan.
     #[default]
     Panorama,
-    /// The paper's rule and, where it finds nothing, a complete search for the plan that is highest on the
-    /// axis treated last.
+    /// The paper's rule and, where it finds nothing, a complete search for the plan that is highest
+    /// on the axis treated last.
     PanoramaThenExact {
         /// The most steps of one search.
         steps: u64,

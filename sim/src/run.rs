@@ -110,13 +110,15 @@ pub enum Cause {
 }
 
 impl Cause {
-    /// In words: `start`, `energy margin below zero`, `one laser lost`, `UST back`, `room for a better plan`.
+    /// In words: `start`, `energy margin below zero`, `one laser lost`, `UST back`, `room for a
+    /// better plan`.
     pub fn text(self, mission: &Mission) -> String {
         match self {
             Self::Start => "start".into(),
             Self::Margin { axis } => format!("{} margin below zero", AXES[axis.min(1)]),
             Self::Hardware { hardware, units } => {
-                const NUMBERS: [&str; 8] = ["no", "one", "two", "three", "four", "five", "six", "seven"];
+                const NUMBERS: [&str; 8] =
+                    ["no", "one", "two", "three", "four", "five", "six", "seven"];
                 let name = mission.hardware.get(hardware).map_or("hardware", |it| it.name.as_str());
                 let plural = if units == 1 || name.ends_with('s') { "" } else { "s" };
                 format!("{} {name}{plural} lost", NUMBERS[usize::from(units).min(7)])
@@ -188,7 +190,8 @@ impl NoPlan {
                 format!("no plan within the {} limit: {short} {} short", AXES[axis], UNITS[axis])
             }
             Self::Emptied { activity } => {
-                let id = mission.scenario().activities.get(activity).map_or("?", |it| it.id.as_str());
+                let id =
+                    mission.scenario().activities.get(activity).map_or("?", |it| it.id.as_str());
                 format!("no alternative left for {id}")
             }
             Self::Unknown { steps } => format!("no plan found in {steps} steps"),

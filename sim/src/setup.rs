@@ -34,13 +34,14 @@ pub const MAX_DRAWS: u64 = 10_000_000;
 pub struct Simulation<'m> {
     pub(crate) mission: &'m Mission,
     pub(crate) activities: Vec<Activity<'m>>,
-    /// For each activity all its alternatives as candidates of the whole activity; the id is the index.
+    /// For each activity all its alternatives as candidates of the whole activity; the id is the
+    /// index.
     pub(crate) whole: Vec<Vec<Candidate<2>>>,
     pub(crate) planner: Planner,
     pub(crate) monitor: Monitor<2>,
     pub(crate) period_us: u64,
-    /// Where the real power changes, in nm, and from there on its parts per thousand of the modelled one.
-    /// *Invariant:* sorted, strictly rising, the first one at 0.
+    /// Where the real power changes, in nm, and from there on its parts per thousand of the
+    /// modelled one. *Invariant:* sorted, strictly rising, the first one at 0.
     pub(crate) segments: Vec<(u64, u64)>,
     pub(crate) faults: Faults,
     events: Vec<Pending>,
@@ -68,7 +69,8 @@ pub enum SetupError {
     },
     /// A limit is beyond [`MAX_AMOUNT`](cotama_core::monitor::MAX_AMOUNT).
     LimitTooLarge(AmountOverflow),
-    /// The faults name a zone or a hardware that the mission does not have: they were read for another one.
+    /// The faults name a zone or a hardware that the mission does not have: they were read for
+    /// another one.
     ForeignFaults,
 }
 
@@ -113,7 +115,8 @@ impl<'m> Simulation<'m> {
             return Err(SetupError::TooManyDraws { draws });
         }
         let scenario = mission.scenario();
-        let mut monitor = Monitor::new(scenario.limits, scenario.order).map_err(SetupError::LimitTooLarge)?;
+        let mut monitor =
+            Monitor::new(scenario.limits, scenario.order).map_err(SetupError::LimitTooLarge)?;
         if let Some(upward) = options.upward {
             monitor = monitor.with_upward(upward);
         }
@@ -130,7 +133,8 @@ impl<'m> Simulation<'m> {
             faults,
         };
         let scripted = simulation.faults.events.iter();
-        let pending = |x_mm: u64, kind| Pending { x_nm: x_mm.saturating_mul(NM_PER_MM), kind, random: None };
+        let pending =
+            |x_mm: u64, kind| Pending { x_nm: x_mm.saturating_mul(NM_PER_MM), kind, random: None };
         simulation.events = scripted.map(|event| pending(event.x.0, event.kind)).collect();
         simulation.events.sort_by_key(|event| event.x_nm);
         Ok(simulation)
@@ -172,9 +176,9 @@ impl<'m> Simulation<'m> {
         self.mission.scenario().available
     }
 
-    /// The events of a run, sorted by place; of equal places the scripted first, then the random ones in the
-    /// order of the file. Each random event is drawn from its own stream, named `event` and its name: for
-    /// each metre of path whether it happens there, then at which millimetre.
+    /// The events of a run, sorted by place; of equal places the scripted first, then the random
+    /// ones in the order of the file. Each random event is drawn from its own stream, named `event`
+    /// and its name: for each metre of path whether it happens there, then at which millimetre.
     pub(crate) fn events(&self, seed: u64) -> Cow<'_, [Pending]> {
         if self.faults.random.is_empty() {
             return Cow::Borrowed(&self.events);
@@ -216,16 +220,20 @@ fn belongs(faults: &Faults, mission: &Mission) -> bool {
         && faults.random.iter().all(|random| known(random.kind))
 }
 
-/// The real power along the path. Zones are half-open, but the last place of the path belongs to the zones
-/// that end there; the errors of zones that overlap add up, and no power falls below zero.
+/// The real power along the path. Zones are half-open, but the last place of the path belongs to
+/// the zones that end there; the errors of zones that overlap add up, and no power falls below
+/// zero.
 fn segments(faults: &Faults, mission: &Mission) -> Vec<(u64, u64)> {
     let zone_ends = |index: usize| {
         let zone = &mission.zones[index];
         let end = if zone.x_end >= mission.path_length { u64::MAX } else { zone.x_end.0 };
         (zone.x_start.0, end)
     };
-    let errors: Vec<_> =
-        faults.power_errors.iter().map(|error| (zone_ends(error.zone), i64::from(error.permille))).collect();
+    let errors: Vec<_> = faults
+        .power_errors
+        .iter()
+        .map(|error| (zone_ends(error.zone), i64::from(error.permille)))
+        .collect();
     let mut borders: Vec<u64> =
         errors.iter().flat_map(|&((start, end), _)| [start, end]).chain([0]).collect();
     borders.sort_unstable();

@@ -37,7 +37,11 @@ pub(crate) enum NotFound {
 
 impl Solver {
     /// Looks for a plan.
-    pub(crate) fn solve(&mut self, planner: Planner, problem: &Problem<'_, 2>) -> Result<Found, NotFound> {
+    pub(crate) fn solve(
+        &mut self,
+        planner: Planner,
+        problem: &Problem<'_, 2>,
+    ) -> Result<Found, NotFound> {
         match planner {
             Planner::Panorama => self.panorama(problem),
             Planner::PanoramaThenExact { steps } => match self.panorama(problem) {
@@ -73,8 +77,8 @@ impl Solver {
         at_least(&mut self.stages, activities.len(), Stage::EMPTY);
         at_least(&mut self.plan, activities.len(), 0);
         at_least(&mut self.seen, SEEN, Seen::EMPTY);
-        let mut search =
-            Exact::new(objectives, steps, &mut self.items, &mut self.stages).with_memory(&mut self.seen);
+        let mut search = Exact::new(objectives, steps, &mut self.items, &mut self.stages)
+            .with_memory(&mut self.seen);
         found(&mut search, "exact", problem, &mut self.plan)
     }
 }

@@ -1,7 +1,7 @@
 //! Random numbers from one seed, through named streams.
 //!
-//! Every name has its own generator, so another consumer of random numbers never shifts the draws of the
-//! others. Integers only; the same on every platform.
+//! Every name has its own generator, so another consumer of random numbers never shifts the draws
+//! of the others. Integers only; the same on every platform.
 //!
 //! ```
 //! use cotama_sim::streams::Streams;
@@ -29,8 +29,8 @@ impl Streams {
 
     /// The stream of this name, from its beginning.
     ///
-    /// PCG XSL RR 128/64 (O'Neill, HMC-CS-2014-0905). Its increment is the FNV-1a hash of the name; its
-    /// state is mixed from seed and hash, as PCG streams that share a state are correlated.
+    /// PCG XSL RR 128/64 (O'Neill, HMC-CS-2014-0905). Its increment is the FNV-1a hash of the name;
+    /// its state is mixed from seed and hash, as PCG streams that share a state are correlated.
     pub fn stream(&self, name: &str) -> Stream {
         let hash = fnv1a(name.as_bytes());
         let mut mixer = self.seed ^ hash.rotate_left(32);
@@ -94,8 +94,8 @@ mod tests {
         std::array::from_fn(|_| stream.bits())
     }
 
-    /// Exact values, found with a second program in another language: they must never change, or stored seeds
-    /// no longer replay.
+    /// Exact values, found with a second program in another language: they must never change, or
+    /// stored seeds no longer replay.
     #[test]
     fn the_numbers_of_a_seed_and_a_name_are_fixed() {
         assert_eq!(fnv1a(b""), 0xcbf2_9ce4_8422_2325);

@@ -1,8 +1,8 @@
 //! What a run leaves behind: JSON lines, `cotama-trace/1`, enough to draw it and to run it again.
 //!
-//! The first line is the [`Header`], every other line one [`Record`], the last one its [`End`]. Every
-//! record says when (`t_us`, µs since the start) and where (`x_mm`, whole mm of path that are behind the
-//! robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
+//! The first line is the [`Header`], every other line one [`Record`], the last one its [`End`].
+//! Every record says when (`t_us`, µs since the start) and where (`x_mm`, whole mm of path that are
+//! behind the robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
 
 use serde::{Deserialize, Serialize};
 
@@ -23,8 +23,8 @@ pub struct Trace {
     pub header: Header,
     /// What happened, in the order of time; the last one is [`Record::End`].
     pub records: Vec<Record>,
-    /// Whether it is written as this program writes traces, byte for byte: true for every trace that was
-    /// recorded, false for one read from a file with other spacing or fields unknown here.
+    /// Whether it is written as this program writes traces, byte for byte: true for every trace
+    /// that was recorded, false for one read from a file with other spacing or fields unknown here.
     pub canonical: bool,
 }
 
@@ -204,8 +204,8 @@ pub struct Plan {
     pub t_us: u64,
     /// Where, in mm.
     pub x_mm: u64,
-    /// Why: `start`, `energy margin below zero`, `duration margin below zero`, `one laser lost` and the like,
-    /// `room for a better plan`.
+    /// Why: `start`, `energy margin below zero`, `duration margin below zero`, `one laser lost` and
+    /// the like, `room for a better plan`.
     pub cause: String,
     /// The id of the first activity of the plan: the current one, or the next if it is just done.
     pub first_activity: String,
@@ -241,9 +241,9 @@ pub struct PlanRow {
     pub energy_mj: u64,
 }
 
-/// The margins left at the safe ends of the mission, by the most expensive available way; below zero,
-/// reaching that end is not guaranteed. None if the available hardware offers no way, and in a supervised run, which
-/// does not look for one.
+/// The margins left at the safe ends of the mission, by the most expensive available way; below
+/// zero, reaching that end is not guaranteed. None if the available hardware offers no way, and in
+/// a supervised run, which does not look for one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ReturnMargin {
     /// Going on to the end of the mission, activities included.
@@ -267,9 +267,9 @@ pub struct Activity {
     pub speed_mm_s: u64,
 }
 
-/// The margins were checked: every period, after every event, at every new activity. Another sample follows
-/// every plan, with the margins and the power under it. A supervised run does not check its margins; there a sample is
-/// taken every period, and speed and power are those of the robot.
+/// The margins were checked: every period, after every event, at every new activity. Another sample
+/// follows every plan, with the margins and the power under it. A supervised run does not check its
+/// margins; there a sample is taken every period, and speed and power are those of the robot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Sample {
     /// When, in µs.
@@ -345,7 +345,8 @@ pub struct Request {
     pub t_us: u64,
     /// Where, in mm.
     pub x_mm: u64,
-    /// Why a plan was needed, worded as in [`Plan::cause`]; in a supervised run what the failure was taken for.
+    /// Why a plan was needed, worded as in [`Plan::cause`]; in a supervised run what the failure
+    /// was taken for.
     pub cause: String,
     /// Why there is none; in a supervised run why he is asked.
     pub reason: String,

@@ -1,14 +1,15 @@
 //! The robot on its mission: where it is, what it used, what it plans; one step after the other.
 //!
-//! *Exactness.* Time is counted in µs, positions in nm (mm/s times µs), energy in pJ (µW times µs), all without
-//! rounding, but that a leg ends at the first whole µs at which its end is reached. The monitor sees the time and
-//! the energy used, rounded half up to ms and mJ. The planned rest of the current activity is rounded as the
-//! mission files say: the duration of the rest of the way, half up to ms, and the energy that the modelled
-//! power takes in it, half up to mJ. A replan takes the rest of the way rounded up to mm.
+//! *Exactness.* Time is counted in µs, positions in nm (mm/s times µs), energy in pJ (µW times µs),
+//! all without rounding, but that a leg ends at the first whole µs at which its end is reached. The
+//! monitor sees the time and the energy used, rounded half up to ms and mJ. The planned rest of the
+//! current activity is rounded as the mission files say: the duration of the rest of the way, half
+//! up to ms, and the energy that the modelled power takes in it, half up to mJ. A replan takes the
+//! rest of the way rounded up to mm.
 //!
-//! *Order.* On arrival at a place, first what happens there, with a check after each event, then the next
-//! activity, with a check as it starts. An event on the border of two activities happens at the end of the one
-//! that arrives. Hindrances are atomic: no check falls inside them.
+//! *Order.* On arrival at a place, first what happens there, with a check after each event, then
+//! the next activity, with a check as it starts. An event on the border of two activities happens
+//! at the end of the one that arrives. Hindrances are atomic: no check falls inside them.
 
 use crate::kernel::Queue;
 use crate::record::Recorder;
@@ -62,7 +63,8 @@ pub struct World<'s> {
     leg_end_nm: u64,
     /// What is left of the current activity, if it does not travel, in µs.
     standing_us: u64,
-    /// Whether the current activity has not begun to take time; what does not travel is then replanned whole.
+    /// Whether the current activity has not begun to take time; what does not travel is then
+    /// replanned whole.
     fresh: bool,
     /// The current activity, and whether it is done (the next one starts after what happens here).
     activity: usize,

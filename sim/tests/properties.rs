@@ -31,7 +31,9 @@ fn hindrance() -> BoxedStrategy<EventKind> {
 fn faults(mission: &'static Mission) -> impl Strategy<Value = Faults> {
     let kind = move || {
         let hardware = 0..mission.hardware.len();
-        let units = move |hardware: usize, units: u8| (hardware, units.min(mission.hardware[hardware].units));
+        let units = move |hardware: usize, units: u8| {
+            (hardware, units.min(mission.hardware[hardware].units))
+        };
         let lost = (hardware.clone(), 1u8..=2).prop_map(move |(kind, count)| {
             let (hardware, units) = units(kind, count);
             EventKind::Fault { hardware, units }
@@ -51,18 +53,24 @@ fn faults(mission: &'static Mission) -> impl Strategy<Value = Faults> {
         prop_oneof![3 => -300i32..0, 3 => -50i32..50, 1 => -999i32..=10_000],
         0..=3,
     );
-    let random =
-        prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec((1u16..=30, hindrance()), 1..3)];
-    (prop::collection::vec(event, 0..12), errors, random).prop_map(|(mut events, errors, random)| {
-        events.sort_by_key(|event| event.x);
-        let power_errors = errors.into_iter().map(|(zone, permille)| PowerError { zone, permille }).collect();
-        let random = random
-            .into_iter()
-            .enumerate()
-            .map(|(index, (per_km, kind))| RandomEvent { name: format!("r{index}"), per_km, kind })
-            .collect();
-        Faults { power_errors, events, random, incidents: Vec::new() }
-    })
+    let random = prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec((1u16..=30, hindrance()), 1..3)];
+    (prop::collection::vec(event, 0..12), errors, random).prop_map(
+        |(mut events, errors, random)| {
+            events.sort_by_key(|event| event.x);
+            let power_errors =
+                errors.into_iter().map(|(zone, permille)| PowerError { zone, permille }).collect();
+            let random = random
+                .into_iter()
+                .enumerate()
+                .map(|(index, (per_km, kind))| RandomEvent {
+                    name: format!("r{index}"),
+                    per_km,
+                    kind,
+                })
+                .collect();
+            Faults { power_errors, events, random, incidents: Vec::new() }
+        },
+    )
 }
 
 #[derive(Clone, Debug)]
@@ -89,7 +97,8 @@ fn case() -> impl Strategy<Value = Case> {
                     // Below 20 ms the traces are large and say nothing new.
                     monitor_period: period.map(|ms| Millis(ms.max(20))),
                     planner,
-                    upward: upward.map(|(t, e, rt, re)| Upward { growth: [t, e], reserve: [rt, re] }),
+                    upward: upward
+                        .map(|(t, e, rt, re)| Upward { growth: [t, e], reserve: [rt, re] }),
                 },
             },
         )
@@ -112,8 +121,8 @@ fn power_after(records: &[Record]) -> u64 {
     samples.next().unwrap_or(0)
 }
 
-/// The energy used, in pJ, as the trace alone tells it: each leg at the power of the last sample before it, each
-/// hindrance at the power of the first sample after it.
+/// The energy used, in pJ, as the trace alone tells it: each leg at the power of the last sample
+/// before it, each hindrance at the power of the first sample after it.
 fn energy_of_legs(records: &[Record]) -> u128 {
     let (mut time, mut power, mut energy) = (0, 0, 0);
     for (index, record) in records.iter().enumerate() {
@@ -144,7 +153,8 @@ proptest! {
         let Some(Record::End(end)) = records.last() else { panic!("no end") };
         prop_assert_eq!(end.t_us, run.time_us);
 
-        // The time used is that of the end, the energy used that of all legs; power is traced to half a mW.
+        // The time used is that of the end, the energy used that of all legs; power is traced to
+        // half a mW.
         prop_assert_eq!(run.used[0], (run.time_us + 500) / 1000);
         prop_assert_eq!(u128::from(run.used[1]), (run.energy_pj + 500_000_000) / 1_000_000_000);
         let error = energy_of_legs(&records).abs_diff(run.energy_pj);

@@ -26,19 +26,30 @@ fn a_mission_without_faults_goes_as_planned() {
     for mission in [patrol(), shuttle()] {
         let run = run(&mission, &Options { faults: FaultChoice::None, ..Options::default() });
         assert_eq!((run.outcome, run.replans, run.reason), (Outcome::Completed, 0, None));
-        // Each activity is planned to half a millisecond and half a millijoule, and ends on a whole microsecond.
+        // Each activity is planned to half a millisecond and half a millijoule, and ends on a whole
+        // microsecond.
         let activities = mission.scenario().activities.len() as u64;
         let planned = run.plans[0].after;
-        assert!(run.margins[0].abs_diff(planned[0]) <= activities / 2 + 1, "{:?} {planned:?}", run.margins);
-        assert!(run.margins[1].abs_diff(planned[1]) <= activities * 10 + 1, "{:?} {planned:?}", run.margins);
+        assert!(
+            run.margins[0].abs_diff(planned[0]) <= activities / 2 + 1,
+            "{:?} {planned:?}",
+            run.margins
+        );
+        assert!(
+            run.margins[1].abs_diff(planned[1]) <= activities * 10 + 1,
+            "{:?} {planned:?}",
+            run.margins
+        );
     }
 }
 
 #[test]
 fn a_lost_camera_stops_the_patrol_before_the_valve() {
     let mission = patrol();
-    let options =
-        under(&mission, r#"event = [{ x_mm = 20000, kind = "fault", hardware = "kinect", units_lost = 1 }]"#);
+    let options = under(
+        &mission,
+        r#"event = [{ x_mm = 20000, kind = "fault", hardware = "kinect", units_lost = 1 }]"#,
+    );
     let end = run(&mission, &options);
     assert_eq!((end.outcome, end.operator_requests, end.replans), (Outcome::Safe, 1, 0));
     assert_eq!(end.reason, Some(Reason::NoPlan(NoPlan::Emptied { activity: 2 })));
@@ -49,7 +60,10 @@ fn a_lost_camera_stops_the_patrol_before_the_valve() {
     assert_eq!(request.cause, "one kinect lost");
     assert_eq!(request.reason, "no alternative left for A3");
     let Some(Record::End(end)) = records.last() else { panic!("an end") };
-    assert_eq!((end.outcome, end.reason.as_deref()), (Outcome::Safe, Some("no alternative left for A3")));
+    assert_eq!(
+        (end.outcome, end.reason.as_deref()),
+        (Outcome::Safe, Some("no alternative left for A3"))
+    );
 }
 
 #[test]
@@ -71,7 +85,9 @@ fn an_obstacle_on_the_last_millimetre_is_a_failure() {
     let body = r#"event = [{ x_mm = 187000, kind = "obstacle", delay_ms = 100000 }]"#;
     let end = run(&mission, &under(&mission, body));
     assert_eq!((end.outcome, end.operator_requests, end.replans), (Outcome::Failed, 0, 0));
-    let Some(Reason::LimitExceeded { axis: 0, by }) = end.reason else { panic!("{:?}", end.reason) };
+    let Some(Reason::LimitExceeded { axis: 0, by }) = end.reason else {
+        panic!("{:?}", end.reason)
+    };
     assert_eq!(by, end.margins[0].unsigned_abs());
 }
 
@@ -110,12 +126,20 @@ fn events_on_a_border_come_before_the_next_activity() {
     let story: Vec<_> = records
         .iter()
         .filter_map(|record| match record {
-            Record::Plan(plan) => Some(format!("{} from {}: {}", plan.x_mm, plan.first_activity, plan.cause)),
+            Record::Plan(plan) => {
+                Some(format!("{} from {}: {}", plan.x_mm, plan.first_activity, plan.cause))
+            }
             Record::Activity(activity) => Some(format!("{} {}", activity.x_mm, activity.activity)),
             Record::Event(event) => Some(match &event.event {
-                Happening::Obstacle { .. } => format!("{} obstacle {} us", event.x_mm, event.lost_us),
-                Happening::Odometry { .. } => format!("{} odometry {} us", event.x_mm, event.lost_us),
-                Happening::Fault { units_left, .. } => format!("{} fault, {units_left} left", event.x_mm),
+                Happening::Obstacle { .. } => {
+                    format!("{} obstacle {} us", event.x_mm, event.lost_us)
+                }
+                Happening::Odometry { .. } => {
+                    format!("{} odometry {} us", event.x_mm, event.lost_us)
+                }
+                Happening::Fault { units_left, .. } => {
+                    format!("{} fault, {units_left} left", event.x_mm)
+                }
                 Happening::Repair { .. } => "repair".into(),
             }),
             _ => None,
@@ -196,7 +220,11 @@ fn repaired_lasers_are_used_again_once() {
     let body = r#"event = [{ x_mm = 20000, kind = "fault", hardware = "laser", units_lost = 2 },
         { x_mm = 60000, kind = "repair", hardware = "laser", units_back = 2 }]"#;
     let kept = run(&mission, &under(&mission, body));
-    assert_eq!(causes(&mission, &kept), ["start", "two lasers lost"], "without the policy nothing goes up");
+    assert_eq!(
+        causes(&mission, &kept),
+        ["start", "two lasers lost"],
+        "without the policy nothing goes up"
+    );
     assert!(labels(&mission, &kept, 1).iter().all(|choice| !choice.contains("M5")));
     let options = Options { upward: Some(UPWARD), ..under(&mission, body) };
     let end = run(&mission, &options);
@@ -240,7 +268,8 @@ fn a_complete_search_drives_too() {
         Planner::Exact { aim: Aim::Quality, steps: 100_000 },
         Planner::Exact { aim: Aim::MinEnergy, steps: 100_000 },
     ] {
-        let end = run(&mission, &Options { planner, faults: FaultChoice::None, ..Options::default() });
+        let end =
+            run(&mission, &Options { planner, faults: FaultChoice::None, ..Options::default() });
         assert_eq!((end.outcome, end.replans), (Outcome::Completed, 0), "{planner:?}");
         match planner {
             Planner::Exact { aim: Aim::MinEnergy, .. } => {
@@ -257,7 +286,9 @@ fn options_that_do_not_fit_are_refused() {
     let (mission, other) = (shuttle(), patrol());
     let options = Options { monitor_period: Some(Millis(0)), ..Options::default() };
     assert_eq!(Simulation::new(&mission, &options).unwrap_err(), SetupError::ZeroPeriod);
-    let foreign =
-        under(&other, r#"event = [{ x_mm = 1, kind = "fault", hardware = "actuators", units_lost = 1 }]"#);
+    let foreign = under(
+        &other,
+        r#"event = [{ x_mm = 1, kind = "fault", hardware = "actuators", units_lost = 1 }]"#,
+    );
     assert_eq!(Simulation::new(&mission, &foreign).unwrap_err(), SetupError::ForeignFaults);
 }

@@ -25,8 +25,9 @@ fn without_header(text: &str) -> &str {
 
 /// FNV-1a, 64 bits.
 fn digest(text: &str) -> u64 {
-    text.bytes()
-        .fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3))
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x100_0000_01b3)
+    })
 }
 
 fn golden(name: &str, found: &str) {
@@ -37,7 +38,10 @@ fn golden(name: &str, found: &str) {
     }
     let expected = std::fs::read_to_string(&path).unwrap_or_default();
     let line = expected.lines().zip(found.lines()).position(|(a, b)| a != b);
-    assert!(expected == found, "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it");
+    assert!(
+        expected == found,
+        "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it"
+    );
 }
 
 /// Debug and release builds, and all platforms, agree on these bytes.
@@ -50,7 +54,8 @@ fn the_patrol_leaves_the_golden_trace() {
 
 #[test]
 fn threads_and_repetitions_leave_the_same_bytes() {
-    let random = r#"random = [{ name = "people", kind = "obstacle", per_km = 40, delay_ms = 150 }]"#;
+    let random =
+        r#"random = [{ name = "people", kind = "obstacle", per_km = 40, delay_ms = 150 }]"#;
     let options = Options { seed: 7, ..under(&patrol(), random) };
     let first = text(&options);
     assert_eq!(text(&options), first);
@@ -112,7 +117,10 @@ fn every_plan_is_followed_by_its_sample() {
     for pair in trace.records.windows(2) {
         if let Record::Plan(plan) = &pair[0] {
             let Record::Sample(sample) = pair[1] else { panic!("{:?}", pair[1]) };
-            assert_eq!((sample.t_us, sample.margins, sample.used), (plan.t_us, plan.after, plan.used));
+            assert_eq!(
+                (sample.t_us, sample.margins, sample.used),
+                (plan.t_us, plan.after, plan.used)
+            );
             let total: u64 = plan.plan.iter().map(|row| row.energy_mj).sum();
             assert_eq!(8_640_000 - plan.used.energy_mj as i64 - total as i64, plan.after.energy_mj);
             assert!(plan.return_margin.end.is_some() && plan.return_margin.start.is_some());
@@ -137,7 +145,8 @@ fn errors_say_where_and_what() {
     let broken = format!("{}\n{{\"record\":\"sample\",\"t_us\":-1}}\n", lines[0]);
     assert!(error(&broken).starts_with("t.jsonl:2:"), "{}", error(&broken));
     let cut = lines[..lines.len() - 1].join("\n");
-    let expected = format!("t.jsonl:{}:1: the trace stops before the end of the mission", lines.len());
+    let expected =
+        format!("t.jsonl:{}:1: the trace stops before the end of the mission", lines.len());
     assert_eq!(error(&cut), expected);
     let twice = format!("{original}{}\n", lines.last().unwrap());
     assert!(error(&twice).ends_with("a record after the end of the mission"));
@@ -147,7 +156,10 @@ fn errors_say_where_and_what() {
     let parse = |limits| Trace::parse_within("t.jsonl", original, limits).unwrap_err().to_string();
     assert!(parse(Limits { bytes: 10, ..Limits::default() }).contains("at most 10 are read"));
     assert!(parse(Limits { line_bytes: 10, ..Limits::default() }).contains("at most 10 are read"));
-    assert_eq!(parse(Limits { records: 3, ..Limits::default() }), "t.jsonl:5:1: more than 3 records");
+    assert_eq!(
+        parse(Limits { records: 3, ..Limits::default() }),
+        "t.jsonl:5:1: more than 3 records"
+    );
 }
 
 proptest! {

@@ -1,7 +1,8 @@
 //! Times the exact allocator on seeded instances: `cargo bench -p cotama-tests --bench allocation`.
 //!
-//! `--export DIR` also writes every instance and the results for `tests/compare/compare.py`, which times other
-//! solvers on the same instances. `--kind TEXT` keeps the kinds whose name contains the text.
+//! `--export DIR` also writes every instance and the results for `tests/compare/compare.py`, which
+//! times other solvers on the same instances. `--kind TEXT` keeps the kinds whose name contains the
+//! text.
 
 #![allow(clippy::cast_precision_loss)] // a gap in percent needs no more than a double's digits
 
@@ -34,11 +35,14 @@ fn time(instance: &Instance<2>) -> Timed {
     let begin = Instant::now();
     loop {
         let start = Instant::now();
-        let mut exact =
-            Exact::new(&[Objective::MostQuality], STEPS, &mut items, &mut stages).with_memory(&mut seen);
-        let answer = exact.allocate(&problem, &mut plan).expect("the memory is sized for the instance");
+        let mut exact = Exact::new(&[Objective::MostQuality], STEPS, &mut items, &mut stages)
+            .with_memory(&mut seen);
+        let answer =
+            exact.allocate(&problem, &mut plan).expect("the memory is sized for the instance");
         seconds.push(start.elapsed().as_secs_f64());
-        if seconds.len() >= 3 && begin.elapsed().as_secs_f64() > 0.02 || begin.elapsed().as_secs_f64() > 2.0 {
+        if seconds.len() >= 3 && begin.elapsed().as_secs_f64() > 0.02
+            || begin.elapsed().as_secs_f64() > 2.0
+        {
             seconds.sort_by(f64::total_cmp);
             return Timed { answer, plan, seconds: seconds[seconds.len() / 2] };
         }
@@ -48,7 +52,11 @@ fn time(instance: &Instance<2>) -> Timed {
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
     let after = |flag: &str| {
-        arguments.iter().position(|a| a == flag).and_then(|at| arguments.get(at + 1)).map(String::as_str)
+        arguments
+            .iter()
+            .position(|a| a == flag)
+            .and_then(|at| arguments.get(at + 1))
+            .map(String::as_str)
     };
     let (export, only) = (after("--export"), after("--kind").unwrap_or(""));
 
@@ -60,7 +68,8 @@ fn main() {
     kinds.push(("patrol".into(), vec![patrol]));
     for (zones, suffix) in [(Zones::Varied, ""), (Zones::Three, " three speeds")] {
         for activities in [17, 50, 200, 1000] {
-            let tight = |seed: u64| paper_like(activities, zones, TIGHTNESS[seed as usize % 4], seed);
+            let tight =
+                |seed: u64| paper_like(activities, zones, TIGHTNESS[seed as usize % 4], seed);
             kinds.push((format!("paper-like {activities}{suffix}"), (1..=5).map(tight).collect()));
         }
         let tight = |seed: u64| robot_like(1000, zones, TIGHTNESS[seed as usize % 4], seed);
@@ -98,9 +107,11 @@ fn main() {
                     .iter()
                     .map(|c| c.iter().map(|c| [c.quality, c.cost[0], c.cost[1]]).collect())
                     .collect();
-                let limits = json!({"duration_ms": instance.limits[0], "energy_mj": instance.limits[1]});
+                let limits =
+                    json!({"duration_ms": instance.limits[0], "energy_mj": instance.limits[1]});
                 let text = json!({"limits": limits, "activities": activities}).to_string();
-                std::fs::write(format!("{folder}/{name}.json"), text).expect("the export folder is writable");
+                std::fs::write(format!("{folder}/{name}.json"), text)
+                    .expect("the export folder is writable");
             }
             rows.push(json!({
                 "name": name, "kind": kind, "seconds": timed.seconds,

@@ -1,5 +1,5 @@
-//! One plan of the patrol with each allocator, and a hard mission of its size, each in a function of its own for an
-//! instruction count.
+//! One plan of the patrol with each allocator, and a hard mission of its size, each in a function
+//! of its own for an instruction count.
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
@@ -11,7 +11,8 @@ use std::hint::black_box;
 #[inline(never)]
 #[allow(clippy::large_stack_arrays)] // as firmware would hold it
 fn exact_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
-    let (mut items, mut stages, mut seen) = ([Item::EMPTY; 17 * 21], [Stage::EMPTY; 17], [Seen::EMPTY; 512]);
+    let (mut items, mut stages, mut seen) =
+        ([Item::EMPTY; 17 * 21], [Stage::EMPTY; 17], [Seen::EMPTY; 512]);
     let exact = Exact::new(&[Objective::MostQuality], u64::MAX, &mut items, &mut stages);
     match exact.with_memory(&mut seen).allocate(problem, plan) {
         Ok(Answer::Planned(planned)) => Some(planned.steps),

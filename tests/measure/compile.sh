@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# What it costs to check nets while compiling: the processor time of `cargo check` of a library with one net, less that
-# of the same net without the token that it needs to move, so with one marking. Median of five.
+# What it costs to check nets while compiling: the processor time of `cargo check` of a library with
+# one net, less that of the same net without the token that it needs to move, so with one marking.
+# Median of five.
 #
 #   tests/measure/compile.sh
 #
-# Times are of this machine and compiler. The last line is a net that is too large: how long until it is refused.
+# Times are of this machine and compiler. The last line is a net that is too large: how long until
+# it is refused.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 package=$(mktemp -d)
@@ -21,7 +23,8 @@ cotama-core = { path = "$PWD/core" }
 TOML
 export CARGO_TARGET_DIR=$package/target
 
-# A net: its tokens in `On`, its flags and counters, its transitions, its laws. Every transition reads `On`.
+# A net: its tokens in `On`, its flags and counters, its transitions, its laws. Every transition
+# reads `On`.
 net() {
     echo "cotama_core::net! { pub mod measured { places { On: $1, A: 1, B, C, D, E } $2"
     echo "events { Go, Back, Up, Down, Set, Clear } transitions { $3 } laws { $4 } } }"
@@ -60,7 +63,8 @@ supervisor() {
     net "$1" "flags { hot, lit } counters { count: 0 of $(($2 / 20 - 1)) }" "$lines" "$laws deterministic;"
 }
 
-# Processor time of one check, in milliseconds; ends the script when the compiler says something else than this.
+# Processor time of one check, in milliseconds; ends the script when the compiler says something
+# else than this.
 once() {
     local TIMEFORMAT=%U seconds
     cargo clean --quiet --package measured --manifest-path "$package/Cargo.toml"

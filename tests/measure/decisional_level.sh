@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Measures the whole decisional level of the delivery robot on a Cortex-M4F: bytes of code, tables and state, and the
-# instructions of every event in every state that the supervisors reach.
+# Measures the whole decisional level of the delivery robot on a Cortex-M4F: bytes of code, tables
+# and state, and the instructions of every event in every state that the supervisors reach.
 #
 #   tests/measure/decisional_level.sh
 #
-# Needs Debian's compiler (see .ci/install-thumb), arm-none-eabi-ld, qemu-system-arm and gcc. Instructions are not cycles.
-# Exit status 1 when a promise is not kept.
+# Needs Debian's compiler (see .ci/install-thumb), arm-none-eabi-ld, qemu-system-arm and gcc.
+# Instructions are not cycles. Exit status 1 when a promise is not kept.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/decisional_level
@@ -62,8 +62,8 @@ printf 'state: %d bytes, of which the supervisors %d and the executive %d; while
     "$(is "bytes robot")" "$(is "bytes supervisors")" "$(is "bytes executive")" "$(is "bytes rule")" "$(is "bytes exact")"
 promise "state, bytes" "$(is "bytes robot")" 2048
 
-# A region is named after its batch; those of the exploration follow each other as a round and one of each event.
-# NAME COUNT MEAN MOST; the marks' own instructions are taken off.
+# A region is named after its batch; those of the exploration follow each other as a round and one
+# of each event. NAME COUNT MEAN MOST; the marks' own instructions are taken off.
 awk '
     FNR == NR && $1 == "batch" { name[++batches] = $2; left[batches] = $3; all += $3 }
     FNR == NR && $1 == "event" { event[++events] = $3 }

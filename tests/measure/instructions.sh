@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# Counts the instructions of one plan of the patrol, and of a mission that uses all promised steps, with callgrind
-# on the release build.
+# Counts the instructions of one plan of the patrol, and of a mission that uses all promised steps,
+# with callgrind on the release build.
 #
 #   tests/measure/instructions.sh
 #
-# The count is of this machine's instruction set and compiler; unlike a time it is the same in every run.
-# Instructions are not cycles. Needs valgrind.
+# The count is of this machine's instruction set and compiler; unlike a time it is the same in every
+# run. Instructions are not cycles. Needs valgrind.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 command -v valgrind >/dev/null || { echo "valgrind is not installed" >&2; exit 1; }

@@ -1,23 +1,24 @@
 #!/usr/bin/env bash
-# Seeds one defect after the other into a copy of the workspace, and sees whether a test fails each time.
+# Seeds one defect after the other into a copy of the workspace, and sees whether a test fails each
+# time.
 #
-#   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list next to this script
-#   tests/mutants/run.sh --table         writes README.md anew from the lists
+#   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list
+#   next to this script tests/mutants/run.sh --table         writes README.md anew from the lists
 #
 # A list has paragraphs:
 #
-#   mutant: what is wrong, in plain words
-#   file: path below verification/src
-#   test: the target that kills it, where it is not the one of the engine
-#   by: the test that kills it, tried first; the whole test target is run only when it does not; `time` when the target hangs
+#   mutant: what is wrong, in plain words file: path below verification/src test: the target that
+#   kills it, where it is not the one of the engine by: the test that kills it, tried first; the
+#   whole test target is run only when it does not; `time` when the target hangs
 #   - text that occurs exactly once in the file, of one or more lines
 #   + text in its place
 #   equivalent: why no test can tell the difference; then it is not run
 #
-# Each mutant costs one incremental build of the crate and of one test target, and one test. Before, the tests that are named
-# in a list are run once without a defect; a test that kills and is not named is run again without the defect, after it.
-# SECONDS_PER_RUN (default 120) is how long tests may take: one that hangs is killed by time. Exits 1 when a mutant survives,
-# does not compile, or its text is not found, or when a test fails without a defect.
+# Each mutant costs one incremental build of the crate and of one test target, and one test. Before,
+# the tests that are named in a list are run once without a defect; a test that kills and is not
+# named is run again without the defect, after it. SECONDS_PER_RUN (default 120) is how long tests
+# may take: one that hangs is killed by time. Exits 1 when a mutant survives, does not compile, or
+# its text is not found, or when a test fails without a defect.
 set -euo pipefail
 export LC_ALL=C CARGO_PROFILE_DEV_DEBUG=0 CARGO_INCREMENTAL=1 CARGO_TERM_COLOR=never
 unset COTAMA_MCC_DIR COTAMA_TPN_DIR # the suite alone must do

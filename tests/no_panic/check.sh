@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# Proves that no operation of the executor can panic or needs a heap, for every model that ships; and the same of most
-# other operations of core. Those of which the compiler cannot see it are named as open.
+# Proves that no operation of the executor can panic or needs a heap, for every model that ships;
+# and the same of most other operations of core. Those of which the compiler cannot see it are named
+# as open.
 #
 #   tests/no_panic/check.sh [TARGET]
 #
-# Links each root of this crate alone: it links exactly if its code holds no panic. With a TARGET of Cortex-M the
-# compiler is Debian's (see .ci/install-thumb). Exit status 1 when a root can panic, when a canary cannot, or when a net of
-# the models has no roots, or a system.
+# Links each root of this crate alone: it links exactly if its code holds no panic. With a TARGET of
+# Cortex-M the compiler is Debian's (see .ci/install-thumb). Exit status 1 when a root can panic,
+# when a canary cannot, or when a net of the models has no roots, or a system.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/no_panic
@@ -57,8 +58,8 @@ while read -r name; do
     printf '%-28s %s\n' "$name" "$verdict"
 done <"$work/names"
 
-# Every net and every system of the models, and of this crate, by the module that `net!`, `system!` or a macro over them makes of it, has a
-# player's roots here.
+# Every net and every system of the models, and of this crate, by the module that `net!`, `system!`
+# or a macro over them makes of it, has a player's roots here.
 find ../../models/src src -name '*.rs' -exec awk '
     /^ *(cotama_core::|crate::)?(net|watchdog|recovery|path_following|teleoperation|observation|contextual|faults|system|level)! *\{/ { open = 1 }
     open && /^ *(pub )?mod [a-z0-9_]+ *\{/ { sub(/pub /, ""); print $2; open = 0 }' {} + | sort -u >"$work/shipped"

@@ -3,9 +3,9 @@
 #
 #   tests/no_std/check.sh [TARGET]
 #
-# Builds this crate, and its canaries, which must fail to build for the reason they are there for. With a TARGET
-# of Cortex-M the compiler is Debian's (see .ci/install-thumb); then each entry point is linked alone as well,
-# and its size is printed.
+# Builds this crate, and its canaries, which must fail to build for the reason they are there for.
+# With a TARGET of Cortex-M the compiler is Debian's (see .ci/install-thumb); then each entry point
+# is linked alone as well, and its size is printed.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}") # before the folder changes
@@ -43,7 +43,8 @@ if [ -z "$target" ]; then
 fi
 canary canary-std "can't find crate for \`std\`"
 
-# Linked alone, an entry point keeps only what it reaches; an undefined symbol would be an error here.
+# Linked alone, an entry point keeps only what it reaches; an undefined symbol would be an error
+# here.
 library=$CARGO_TARGET_DIR/$target/release/libcotama_no_std.a
 "${build[@]}" # the canaries took the library away
 image=$(mktemp)

@@ -1,8 +1,8 @@
 //! What `net!` refuses while compiling, and in which words.
 //!
-//! Every file in `cases` is a library with one net. Those named `*_ok` compile without a warning; the others are refused,
-//! as `golden.txt` says. After a change of the words: `BLESS=1 cargo test -p cotama-tests --test refused`, and read the
-//! difference as a stranger would.
+//! Every file in `cases` is a library with one net. Those named `*_ok` compile without a warning;
+//! the others are refused, as `golden.txt` says. After a change of the words: `BLESS=1 cargo test
+//! -p cotama-tests --test refused`, and read the difference as a stranger would.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -24,7 +24,8 @@ struct Said {
 }
 
 impl Said {
-    /// What is wrong. Beside the words of `net!` those of the compiler say the same once more, or follow from it.
+    /// What is wrong. Beside the words of `net!` those of the compiler say the same once more, or
+    /// follow from it.
     fn errors(&self) -> &[String] {
         if self.refusals.is_empty() { &self.stops } else { &self.refusals }
     }
@@ -43,10 +44,13 @@ fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
 
     let (mut refused, mut wrong) = (Vec::new(), Vec::new());
     for name in &names {
-        let (errors, warnings) = said.get(name).map_or((&[][..], &[][..]), |it| (it.errors(), &it.warnings));
+        let (errors, warnings) =
+            said.get(name).map_or((&[][..], &[][..]), |it| (it.errors(), &it.warnings));
         match (name.ends_with("_ok"), errors.is_empty()) {
             (true, true) if warnings.is_empty() => {}
-            (true, _) => wrong.push(format!("{name} is refused or warned of: {errors:?} {warnings:?}")),
+            (true, _) => {
+                wrong.push(format!("{name} is refused or warned of: {errors:?} {warnings:?}"))
+            }
             (false, true) => wrong.push(format!("{name} is not refused")),
             (false, false) => refused.push(format!("== {name}\n{}\n\n", errors.join("\n"))),
         }
@@ -66,8 +70,9 @@ fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
 
 fn case_names(here: &Path) -> Vec<String> {
     let cases = fs::read_dir(here.join("cases")).expect("there are cases");
-    let mut names: Vec<String> =
-        cases.filter_map(|case| Some(case.ok()?.path().file_stem()?.to_str()?.to_owned())).collect();
+    let mut names: Vec<String> = cases
+        .filter_map(|case| Some(case.ok()?.path().file_stem()?.to_str()?.to_owned()))
+        .collect();
     names.sort();
     names
 }
@@ -84,7 +89,8 @@ fn package(here: &Path, names: &[String]) -> PathBuf {
     for name in names {
         let path = here.join("cases").join(name).with_extension("rs");
         let path = path.display();
-        manifest.push(format!("[[example]]\nname = '{name}'\npath = '{path}'\ncrate-type = ['lib']\n"));
+        manifest
+            .push(format!("[[example]]\nname = '{name}'\npath = '{path}'\ncrate-type = ['lib']\n"));
     }
     fs::create_dir_all(&package).expect("the directory for tests can be written");
     fs::write(package.join("Cargo.toml"), manifest.concat()).expect("the manifest can be written");
@@ -133,7 +139,8 @@ fn hear(said: &mut Said, message: &Value) {
     }
     let ours = text.strip_prefix("evaluation panicked: ");
     // `compile_error!` has no code, as errors of syntax, but a net.
-    let ours = ours.or_else(|| (message["code"].is_null() && text.starts_with("net `")).then_some(text));
+    let ours =
+        ours.or_else(|| (message["code"].is_null() && text.starts_with("net `")).then_some(text));
     let (list, error) = match ours {
         Some(ours) => (&mut said.refusals, ours.to_owned()),
         None => (&mut said.stops, place(message)),
@@ -145,14 +152,16 @@ fn hear(said: &mut Said, message: &Value) {
 
 /// Where the compiler stops reading: the words are its own.
 fn place(message: &Value) -> String {
-    let Some(span) =
-        message["spans"].as_array().and_then(|spans| spans.iter().find(|it| it["is_primary"] == true))
+    let Some(span) = message["spans"]
+        .as_array()
+        .and_then(|spans| spans.iter().find(|it| it["is_primary"] == true))
     else {
         return String::new();
     };
     let text = &span["text"][0];
     let line = text["text"].as_str().unwrap_or_default();
     let column = |name: &str| text[name].as_u64().map_or(0, |column| column as usize - 1);
-    let token: String = line.chars().take(column("highlight_end")).skip(column("highlight_start")).collect();
+    let token: String =
+        line.chars().take(column("highlight_end")).skip(column("highlight_start")).collect();
     format!("(the compiler stops at `{token}` in `{}`)", line.trim())
 }

@@ -32,9 +32,12 @@ pub(crate) fn exact<const A: usize>(
     steps: u64,
 ) -> (Answer<A>, Vec<u16>) {
     let count = problem.activities().iter().map(|c| c.len()).sum();
-    let (mut items, mut stages) = (vec![Item::EMPTY; count], vec![Stage::EMPTY; problem.activities().len()]);
+    let (mut items, mut stages) =
+        (vec![Item::EMPTY; count], vec![Stage::EMPTY; problem.activities().len()]);
     let mut plan = vec![0; problem.activities().len()];
-    let answer = Exact::new(objectives, steps, &mut items, &mut stages).allocate(problem, &mut plan).unwrap();
+    let answer = Exact::new(objectives, steps, &mut items, &mut stages)
+        .allocate(problem, &mut plan)
+        .unwrap();
     (answer, plan)
 }
 
@@ -60,23 +63,34 @@ fn exact_is_brute_force<const A: usize>(seed: u64) {
         &[Objective::Least(1), Objective::MostQuality],
         &[],
     ];
-    let feasible: Vec<_> =
-        every_plan(&instance).into_iter().filter(|(_, cost, _)| problem.within_limits(cost)).collect();
+    let feasible: Vec<_> = every_plan(&instance)
+        .into_iter()
+        .filter(|(_, cost, _)| problem.within_limits(cost))
+        .collect();
     for objectives in orders {
-        let best = feasible.iter().map(|(_, cost, quality)| worth(objectives, cost, *quality)).max();
+        let best =
+            feasible.iter().map(|(_, cost, quality)| worth(objectives, cost, *quality)).max();
         let (answer, plan) = exact(&problem, objectives, u64::MAX);
-        let story =
-            || format!("seed {seed}, {A} axes, {objectives:?}: {instance:?} gives {answer:?} {plan:?}");
+        let story = || {
+            format!("seed {seed}, {A} axes, {objectives:?}: {instance:?} gives {answer:?} {plan:?}")
+        };
         match (answer, &best) {
             (Answer::Planned(planned), Some(best)) => {
-                assert_eq!(problem.totals(&plan), Some((planned.cost, planned.quality)), "{}", story());
+                assert_eq!(
+                    problem.totals(&plan),
+                    Some((planned.cost, planned.quality)),
+                    "{}",
+                    story()
+                );
                 assert!(problem.within_limits(&planned.cost) && planned.optimal, "{}", story());
                 assert_eq!(&worth(objectives, &planned.cost, planned.quality), best, "{}", story());
             }
             (Answer::Infeasible { axis, least, .. }, None) => {
                 let reachable = every_plan(&instance)
                     .iter()
-                    .filter(|(_, cost, _)| (0..axis).all(|before| cost[before] <= instance.limits[before]))
+                    .filter(|(_, cost, _)| {
+                        (0..axis).all(|before| cost[before] <= instance.limits[before])
+                    })
                     .map(|(_, cost, _)| cost[axis])
                     .min();
                 assert_eq!(reachable, Some(least), "{}", story());
@@ -88,7 +102,8 @@ fn exact_is_brute_force<const A: usize>(seed: u64) {
     anytime_bounds_hold(&problem, feasible.iter().map(|(_, _, quality)| *quality).max(), seed);
 }
 
-/// However the candidates of each activity are written, the plan has the same candidates, by their numbers.
+/// However the candidates of each activity are written, the plan has the same candidates, by their
+/// numbers.
 #[test]
 fn the_order_of_candidates_does_not_change_the_plan() {
     for seed in 0..5_000 {
@@ -102,7 +117,8 @@ fn the_order_of_candidates_does_not_change_the_plan() {
         }
         let chosen = |instance: &Instance<2>| {
             let slices = instance.slices();
-            let (answer, plan) = exact(&instance.problem(&slices), &[Objective::MostQuality], u64::MAX);
+            let (answer, plan) =
+                exact(&instance.problem(&slices), &[Objective::MostQuality], u64::MAX);
             let numbers = |(c, &choice): (&Vec<Candidate<2>>, &u16)| {
                 let candidate = c[usize::from(choice)];
                 (candidate.cost, candidate.quality)
@@ -137,12 +153,17 @@ fn anytime_bounds_hold<const A: usize>(problem: &Problem<A>, optimum: Option<u64
                     planned.bound == Some(planned.quality),
                     "seed {seed}, {steps} steps"
                 );
-                assert!(!planned.optimal || Some(planned.quality) == optimum, "seed {seed}, {steps} steps");
+                assert!(
+                    !planned.optimal || Some(planned.quality) == optimum,
+                    "seed {seed}, {steps} steps"
+                );
                 if planned.optimal {
                     break;
                 }
             }
-            Answer::Unknown { bound, .. } => assert!(Some(bound) >= optimum, "seed {seed}, {steps} steps"),
+            Answer::Unknown { bound, .. } => {
+                assert!(Some(bound) >= optimum, "seed {seed}, {steps} steps")
+            }
             Answer::Infeasible { .. } => {
                 assert_eq!(optimum, None, "seed {seed}");
                 break;
@@ -208,7 +229,10 @@ fn rules_of_the_paper<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> 
         }
         let mut chosen: Vec<usize> = left.iter().map(|candidates| candidates.len() - 1).collect();
         let sum = |chosen: &[usize]| -> u64 {
-            left.iter().zip(chosen).map(|(candidates, &at)| u64::from(candidates[at].1.cost[axis])).sum()
+            left.iter()
+                .zip(chosen)
+                .map(|(candidates, &at)| u64::from(candidates[at].1.cost[axis]))
+                .sum()
         };
         for activity in (0..left.len()).rev() {
             while sum(&chosen) > problem.limits()[axis] && chosen[activity] > 0 {
@@ -226,7 +250,11 @@ fn rules_of_the_paper<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> 
     let last = *problem.order().last()?;
     let pick = |candidates: &Vec<(usize, &Candidate<A>)>| {
         let best = candidates.iter().map(|(_, c)| c.cost[last]).max()?;
-        candidates.iter().filter(|(_, c)| c.cost[last] == best).map(|(index, _)| *index as u16).min()
+        candidates
+            .iter()
+            .filter(|(_, c)| c.cost[last] == best)
+            .map(|(index, _)| *index as u16)
+            .min()
     };
     left.iter().map(pick).collect()
 }
@@ -258,7 +286,10 @@ fn panorama_is_its_rules_on_20_000_small_problems() {
 fn pairs(activities: &[&[[u32; 2]]], limits: [u64; 2]) -> Instance<2> {
     let candidate = |(id, &cost): (usize, &[u32; 2])| Candidate { cost, quality: 0, id: id as u16 };
     Instance {
-        activities: activities.iter().map(|c| c.iter().enumerate().map(candidate).collect()).collect(),
+        activities: activities
+            .iter()
+            .map(|c| c.iter().enumerate().map(candidate).collect())
+            .collect(),
         limits,
     }
 }
@@ -281,7 +312,10 @@ fn the_rule_misses_plans_that_the_exact_allocator_finds() {
     assert!(exact_finds(&one_order));
 
     let both_orders = pairs(&[&[[1, 3], [2, 5]], &[[1, 5], [4, 1], [3, 2]]], [4, 5]);
-    assert_eq!((rule_finds(&both_orders, [0, 1]), rule_finds(&both_orders, [1, 0])), (false, false));
+    assert_eq!(
+        (rule_finds(&both_orders, [0, 1]), rule_finds(&both_orders, [1, 0])),
+        (false, false)
+    );
     assert!(exact_finds(&both_orders));
 }
 
@@ -301,8 +335,8 @@ fn random_problems_have_more_plans_that_the_rule_misses_and_none_the_other_way()
     assert_eq!((missed, missed_in_both_orders), (1497, 344));
 }
 
-/// The documented promise to firmware: 17 activities within 100,000 steps and this memory. Most missions are proven
-/// with far fewer; the others end with a plan and a bound.
+/// The documented promise to firmware: 17 activities within 100,000 steps and this memory. Most
+/// missions are proven with far fewer; the others end with a plan and a bound.
 #[test]
 fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
     let (mut proven, mut worst_gap, mut steps) = (0, 0, Vec::new());
@@ -313,9 +347,11 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
         let (mut items, mut stages) = (vec![Item::EMPTY; 17 * 21], vec![Stage::EMPTY; 17]);
         let mut seen = vec![Seen::EMPTY; 4096];
         let mut plan = [0; 17];
-        let mut exact =
-            Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages).with_memory(&mut seen);
-        let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else { panic!("seed {seed}") };
+        let mut exact = Exact::new(&[Objective::MostQuality], 100_000, &mut items, &mut stages)
+            .with_memory(&mut seen);
+        let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else {
+            panic!("seed {seed}")
+        };
         let bound = planned.bound.expect("the exact allocator proves one");
         proven += u32::from(planned.optimal);
         worst_gap = worst_gap.max((bound - planned.quality) * 1000 / bound);
@@ -323,12 +359,14 @@ fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
         steps.push(planned.steps);
     }
     steps.sort_unstable();
-    // Of 10,000: proven best, the worst gap in permille, the median and the 90th percentile of the steps.
+    // Of 10,000: proven best, the worst gap in permille, the median and the 90th percentile of the
+    // steps.
     assert_eq!((proven, worst_gap, steps[5_000], steps[9_000]), (9842, 26, 761, 9727));
     assert_eq!((size_of::<Item<2>>(), size_of::<Stage<2>>(), size_of::<Seen<2>>()), (32, 256, 40));
 }
 
-/// Nodes that are remembered save steps and never an answer: whatever the memory, what is proven best is the same.
+/// Nodes that are remembered save steps and never an answer: whatever the memory, what is proven
+/// best is the same.
 #[test]
 fn memory_for_nodes_does_not_change_what_is_proven() {
     let mut compared = 0;
@@ -342,7 +380,9 @@ fn memory_for_nodes_does_not_change_what_is_proven() {
             let mut exact = Exact::new(&[Objective::MostQuality], 300_000, &mut items, &mut stages)
                 .with_memory(&mut seen);
             match exact.allocate(&problem, &mut plan) {
-                Ok(Answer::Planned(planned)) if planned.optimal => Some((planned.quality, planned.steps)),
+                Ok(Answer::Planned(planned)) if planned.optimal => {
+                    Some((planned.quality, planned.steps))
+                }
                 _ => None,
             }
         };

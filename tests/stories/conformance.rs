@@ -1,14 +1,17 @@
 //! Every run of the supervised simulator is a run of the system that is checked.
 //!
-//! What the supervisors were told is told again, a round each, to the net of rounds, by a token game of this file: the
-//! simulator's player takes no part. The net must be able to hear each event where it was told, must fire the same transitions in
-//! the same rounds, and must end where the simulator says that the mission ended.
+//! What the supervisors were told is told again, a round each, to the net of rounds, by a token
+//! game of this file: the simulator's player takes no part. The net must be able to hear each event
+//! where it was told, must fire the same transitions in the same rounds, and must end where the
+//! simulator says that the mission ended.
 
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{Configuration, FailureMode, Module, Told, delivery, faults, local, recovering};
+use cotama_models::cotama::{
+    Configuration, FailureMode, Module, Told, delivery, faults, local, recovering,
+};
 use cotama_models::mission::Mission;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
@@ -40,7 +43,8 @@ impl Game {
         let is_phase =
             |name: &str| name == "round" || name.starts_with("turn.") || name.starts_with("after.");
         for (it, id) in net.transitions.iter().zip(0..) {
-            let mut phases = it.take.iter().filter(|arc| is_phase(&net.places[arc.place.0 as usize].name));
+            let mut phases =
+                it.take.iter().filter(|arc| is_phase(&net.places[arc.place.0 as usize].name));
             let phase = phases.next().expect("every transition takes the token of the round");
             assert!(phases.next().is_none(), "and no other");
             from[phase.place.0 as usize].push(TransitionId(id));
@@ -80,7 +84,9 @@ impl Game {
         assert_eq!(marking[self.rounds.round().0 as usize], 1);
         let (mut after, mut fired) = (marking.clone(), Vec::new());
         while after[self.rounds.outside().0 as usize] == 0 {
-            let [one] = self.enabled(&after)[..] else { panic!("in a turn one transition is enabled") };
+            let [one] = self.enabled(&after)[..] else {
+                panic!("in a turn one transition is enabled")
+            };
             self.fire(&mut after, one);
             fired.push(one);
         }
@@ -91,17 +97,23 @@ impl Game {
     /// What is outside does this, or nothing; `None` when it cannot.
     fn outside(&self, marking: &mut Marking, told: Option<&str>) -> Option<TransitionId> {
         let on = |id: &TransitionId| self.net.transitions[id.0 as usize].on;
-        let name = |id: &TransitionId| on(id).map(|on| self.net.events[on.0 as usize].name.as_str());
-        let ways: Vec<_> = self.enabled(marking).into_iter().filter(|it| name(it) == told).collect();
+        let name =
+            |id: &TransitionId| on(id).map(|on| self.net.events[on.0 as usize].name.as_str());
+        let ways: Vec<_> =
+            self.enabled(marking).into_iter().filter(|it| name(it) == told).collect();
         let one = *ways.first()?;
         assert_eq!(ways.len(), 1, "one event does one thing");
         self.fire(marking, one);
         Some(one)
     }
 
-    /// Tells all of it again: the last marking and what fired, with the number of the round; or in which round an event was
-    /// told that cannot come there.
-    fn replay(&mut self, told: &[(u64, Told)], rounds: u64) -> Result<(Marking, Vec<(u64, String)>), u64> {
+    /// Tells all of it again: the last marking and what fired, with the number of the round; or in
+    /// which round an event was told that cannot come there.
+    fn replay(
+        &mut self,
+        told: &[(u64, Told)],
+        rounds: u64,
+    ) -> Result<(Marking, Vec<(u64, String)>), u64> {
         let mut marking: Marking = self.net.places.iter().map(|it| it.initial).collect();
         let mut fired = Vec::new();
         let mut told = told.iter().peekable();
@@ -115,7 +127,10 @@ impl Game {
             let steps = happened.turns.iter().chain([outside]).flat_map(|it| it.split(" + "));
             let noted = |it: &&str| {
                 let is_theirs = it.starts_with("faults.") || it.starts_with("operator.");
-                *it != "idle" && !it.ends_with(" ignored") && !it.ends_with(" goes on") && !is_theirs
+                *it != "idle"
+                    && !it.ends_with(" ignored")
+                    && !it.ends_with(" goes on")
+                    && !is_theirs
             };
             fired.extend(steps.filter(noted).map(|it| (round, it.to_owned())));
         }
@@ -152,7 +167,8 @@ impl Game {
             (round, format!("{}.{}", it.net, it.transition))
         });
         let simulated: Vec<_> = simulated.collect();
-        if let Some(at) = (0..fired.len().max(simulated.len())).find(|&at| fired.get(at) != simulated.get(at))
+        if let Some(at) =
+            (0..fired.len().max(simulated.len())).find(|&at| fired.get(at) != simulated.get(at))
         {
             return Some(format!("{:?} fired, not {:?}", simulated.get(at), fired.get(at)));
         }
@@ -198,7 +214,8 @@ fn the_seven_points_are_a_run_of_the_checked_system() {
         less.told.remove(altered);
         later.told[altered].0 += 1;
         let refused = [less, later].map(|it| game.refusal(&it).is_some());
-        // With the sonars localisation and avoidance are gone already, so nobody answers that they are lost.
+        // With the sonars localisation and avoidance are gone already, so nobody answers that they
+        // are lost.
         let known = [faults::Event::lose_mcl, faults::Event::lose_avoidance].map(Told::Failure);
         let is_known = known.contains(&run.told[altered].1);
         assert_eq!(refused[0], !is_known, "{:?}", run.told[altered]);
@@ -208,7 +225,8 @@ fn the_seven_points_are_a_run_of_the_checked_system() {
 
 const PAGE: &str = include_str!("../../docs/delivery.md");
 
-/// The rows of the story: what was told when, what fired until something else was told, and what ran then.
+/// The rows of the story: what was told when, what fired until something else was told, and what
+/// ran then.
 fn rows(run: &Run) -> String {
     let time = |round: u64| Millis((round - 1) * PERIOD.0);
     let mut rows = String::new();
@@ -249,7 +267,11 @@ fn what_the_page_of_the_delivery_claims_holds() {
     assert_eq!(claims.len(), 6);
     for claim in claims {
         let formula = property::parse(claim, model.pt()).unwrap();
-        assert_eq!(check(&model, &formula, &Options::default()).verdict, Verdict::Holds(true), "{claim}");
+        assert_eq!(
+            check(&model, &formula, &Options::default()).verdict,
+            Verdict::Holds(true),
+            "{claim}"
+        );
     }
 }
 
@@ -261,7 +283,8 @@ const PLACES: [local::State; 5] = [
     local::State::Teleprogrammed,
 ];
 
-/// The runs of the simulator's matrix and more: each row of the FMECA in each place, those of any module for each module.
+/// The runs of the simulator's matrix and more: each row of the FMECA in each place, those of any
+/// module for each module.
 #[test]
 fn every_row_in_every_place_is_a_run_of_the_checked_system() {
     let mission = mission();

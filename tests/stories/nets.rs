@@ -6,8 +6,8 @@ mod snapshots;
 use cotama_core::net::code::Code;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{
-    EventId, Firing, Loaded, Net, Outcome, OutputId, Packed, PlaceId, Player, TransitionId, Why, clocks,
-    words,
+    EventId, Firing, Loaded, Net, Outcome, OutputId, Packed, PlaceId, Player, TransitionId, Why,
+    clocks, words,
 };
 use cotama_core::units::Millis;
 use cotama_tests::instances::Draw;
@@ -17,8 +17,8 @@ use cotama_tests::textbook::{Fired, Game};
 /// What is played: a net of `W` words and up to `C` intervals.
 type Played<'c, const W: usize, const C: usize> = Player<Loaded<'c, W>, W, C>;
 
-/// Calls a function of `W` and `C` with the number of words that this net needs, or seldom with one more, and with
-/// [`CLOCKS`] clocks, or none when none is needed.
+/// Calls a function of `W` and `C` with the number of words that this net needs, or seldom with one
+/// more, and with [`CLOCKS`] clocks, or none when none is needed.
 macro_rules! with_size_of {
     ($net:expr, $draw:expr, $story:ident($($argument:expr),*)) => {{
         use $crate::nets::{CLOCKS, clocks, one_in, words};
@@ -37,7 +37,11 @@ macro_rules! with_size_of {
 use with_size_of;
 
 /// The packed net; half of the nets whose bounds hold in every order of firing are played as such.
-fn load<'c, const W: usize>(packed: &'c Packed<W>, net: &Net<'c>, draw: &mut Draw) -> Loaded<'c, W> {
+fn load<'c, const W: usize>(
+    packed: &'c Packed<W>,
+    net: &Net<'c>,
+    draw: &mut Draw,
+) -> Loaded<'c, W> {
     let Loaded { net, code } = packed.load(net);
     let bounded = one_in(draw, 2) && Game::is_bounded(&net, 60);
     Loaded { net, code: Code { bounded, ..code } }
@@ -63,12 +67,17 @@ fn assert_same<const W: usize, const C: usize>(
     seed: u64,
 ) {
     assert_eq!(log, game.fired, "seed {seed}");
-    let tokens: Vec<u32> = (0..game.tokens.len()).map(|it| player.tokens(PlaceId(it as u32))).collect();
+    let tokens: Vec<u32> =
+        (0..game.tokens.len()).map(|it| player.tokens(PlaceId(it as u32))).collect();
     assert_eq!(tokens, game.tokens, "seed {seed}");
     assert_eq!(player.now(), Millis(game.now), "seed {seed}");
     assert_eq!(player.wake_at(), game.wake_at().map(Millis), "seed {seed}");
     for transition in (0..game.since.len()).map(|it| TransitionId(it as u32)) {
-        assert_eq!(player.enabled(transition), game.can_fire(transition), "seed {seed}, {transition:?}");
+        assert_eq!(
+            player.enabled(transition),
+            game.can_fire(transition),
+            "seed {seed}, {transition:?}"
+        );
     }
     assert!(game.is_within_bounds(), "seed {seed}");
 }
@@ -147,7 +156,8 @@ fn offers_are_answered_by_the_book<const W: usize, const C: usize>(
     let packed = Packed::<W>::of(net).unwrap();
     let program = load(&packed, net, draw);
     let (mut log, mut now) = (Vec::new(), draw.between(0, 1_000));
-    let mut player: Played<'_, W, C> = Player::start(program, Millis(now), &mut record(net, &mut log));
+    let mut player: Played<'_, W, C> =
+        Player::start(program, Millis(now), &mut record(net, &mut log));
     let mut game = Game::start(net, now);
     seen.words[W] += 1;
     seen.bounded += u32::from(program.code.bounded);
@@ -206,7 +216,10 @@ fn time_passes_by_the_book() {
         with_size_of!(net, draw, offers_are_answered_by_the_book(net, seed, draw, seen));
     }
     seen.assert_enough();
-    assert!([seen.by_itself, seen.too_early, seen.too_late].iter().all(|&it| it > 5_000), "{seen:?}");
+    assert!(
+        [seen.by_itself, seen.too_early, seen.too_late].iter().all(|&it| it > 5_000),
+        "{seen:?}"
+    );
 }
 
 /// Plays 50 rounds, with an offer in between now and then.
@@ -219,7 +232,8 @@ fn rounds_are_those_of_the_book<const W: usize, const C: usize>(
     let packed = Packed::<W>::of(net).unwrap();
     let program = load(&packed, net, draw);
     let (mut log, mut now) = (Vec::new(), 0);
-    let mut player: Played<'_, W, C> = Player::start(program, Millis(now), &mut record(net, &mut log));
+    let mut player: Played<'_, W, C> =
+        Player::start(program, Millis(now), &mut record(net, &mut log));
     let mut game = Game::start(net, now);
     for _ in 0..50 {
         if game.endless {
@@ -228,8 +242,9 @@ fn rounds_are_those_of_the_book<const W: usize, const C: usize>(
         assert_same(&player, &log, &game, seed);
         now += delay(draw) / 2;
         let some = if net.events.is_empty() { 0 } else { draw.between(0, 4) };
-        let events: Vec<EventId> =
-            (0..some).map(|_| EventId(draw.between(0, net.events.len() as u64 - 1) as u32)).collect();
+        let events: Vec<EventId> = (0..some)
+            .map(|_| EventId(draw.between(0, net.events.len() as u64 - 1) as u32))
+            .collect();
         if let Some(event) = events.first().filter(|_| one_in(draw, 16)) {
             let outcome = player.offer_with(Millis(now), event, &mut record(net, &mut log));
             let by_the_book = game.offer(now, *event);
@@ -272,9 +287,13 @@ fn rounds_go_by_the_book() {
     assert!(seen.iter().all(|&it| it > 5_000), "{seen:?}");
 }
 
-/// Plays the same events three times: told the time only with an event, at every instant, and whenever the player
-/// wants to be told. What fires, and when, is the same.
-fn polling_makes_no_difference<const W: usize, const C: usize>(net: &Net<'_>, seed: u64, draw: &mut Draw) {
+/// Plays the same events three times: told the time only with an event, at every instant, and
+/// whenever the player wants to be told. What fires, and when, is the same.
+fn polling_makes_no_difference<const W: usize, const C: usize>(
+    net: &Net<'_>,
+    seed: u64,
+    draw: &mut Draw,
+) {
     let mut now = 0;
     let mut events: Vec<(u64, Option<EventId>)> = Vec::new();
     for _ in 0..30 {
@@ -296,15 +315,22 @@ fn polling_makes_no_difference<const W: usize, const C: usize>(net: &Net<'_>, se
     }
     let play = |until: &mut dyn FnMut(&mut Played<'_, W, C>, u64, &mut Vec<Fired>)| {
         let mut log = Vec::new();
-        let mut player: Played<'_, W, C> = Player::start(program, Millis(0), &mut record(net, &mut log));
+        let mut player: Played<'_, W, C> =
+            Player::start(program, Millis(0), &mut record(net, &mut log));
         let mut outcomes = Vec::new();
         for &(at, event) in &events {
             until(&mut player, at, &mut log);
             match event {
                 Some(event) => {
-                    outcomes.push(player.offer_with(Millis(at), &event, &mut record(net, &mut log)));
+                    outcomes.push(player.offer_with(
+                        Millis(at),
+                        &event,
+                        &mut record(net, &mut log),
+                    ));
                 }
-                None => assert!(!player.advance_with(Millis(at), &mut record(net, &mut log)).behind),
+                None => {
+                    assert!(!player.advance_with(Millis(at), &mut record(net, &mut log)).behind)
+                }
             }
         }
         (outcomes, log, player.now(), player.snapshot())

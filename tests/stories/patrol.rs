@@ -42,7 +42,10 @@ fn its_front_has_607_plans() {
         let mut front = Front::new(&mut nodes);
         let plans = front.find(problem).expect("enough memory");
         assert_eq!(plans.len(), 607);
-        let most = (0..plans.len()).filter_map(|index| plans.totals(index)).map(|(_, quality)| quality).max();
+        let most = (0..plans.len())
+            .filter_map(|index| plans.totals(index))
+            .map(|(_, quality)| quality)
+            .max();
         assert_eq!(most, Some(21_830));
     });
 }

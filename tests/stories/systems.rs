@@ -93,11 +93,18 @@ impl Witness<u8> for Log {
         self.0.push(match happening {
             Happening::Fired { transition, carries, at, .. } => {
                 let net = component(transition.component).net;
-                format!("{} at {} with {carries}", net.transitions[transition.id.0 as usize].name, at.0)
+                format!(
+                    "{} at {} with {carries}",
+                    net.transitions[transition.id.0 as usize].name, at.0
+                )
             }
-            Happening::Ignored { event: of, carries } => format!("{} ignored with {carries}", event(of)),
+            Happening::Ignored { event: of, carries } => {
+                format!("{} ignored with {carries}", event(of))
+            }
             Happening::Mailed { to, carries } => format!("{} mailed with {carries}", event(to)),
-            Happening::Cleared { mailbox, carries } => format!("{} cleared of {carries}", event(mailbox)),
+            Happening::Cleared { mailbox, carries } => {
+                format!("{} cleared of {carries}", event(mailbox))
+            }
         });
     }
 }
@@ -179,7 +186,8 @@ fn a_broadcast_reaches_all_or_none() {
     let mut cell = broadcast::Player::<u8>::new();
     let make = broadcast::on::maker(&maker::Event::make);
     assert!(matches!(cell.offer(Millis(0), make, 1, &mut ()), Offered::Fired(_)));
-    let (one, two) = (broadcast::on::one(&worker::Event::part), broadcast::on::two(&worker::Event::part));
+    let (one, two) =
+        (broadcast::on::one(&worker::Event::part), broadcast::on::two(&worker::Event::part));
     assert_eq!((cell.waiting(one), cell.waiting(two)), (1, 1));
     let before = cell;
     assert_eq!(cell.offer(Millis(0), make, 2, &mut ()), Offered::Refused { full: one });
@@ -207,7 +215,8 @@ fn time_is_the_same_in_one_step_or_many() {
     assert_eq!(drive(&[200]), drive(&[1, 49, 50, 51, 199, 200]));
 }
 
-/// The same system made at run time, without its bindings, is refused: a shared place belongs to nobody.
+/// The same system made at run time, without its bindings, is refused: a shared place belongs to
+/// nobody.
 #[test]
 fn a_system_that_does_not_fit_together_says_why() {
     let whole = line::SYSTEM;

@@ -1,9 +1,10 @@
-//! The token game by the book: an independent second implementation that the player is compared with.
+//! The token game by the book: an independent second implementation that the player is compared
+//! with.
 //!
-//! Tokens are numbers in a list, clocks are instants, and every question is answered by looking at all transitions.
-//! It is slow, and short enough to be compared with the definitions by eye: those of
-//! [`Player`](cotama_core::net::Player) for one event after the other, of [`Round`](cotama_core::net::Round) for
-//! synchronous rounds.
+//! Tokens are numbers in a list, clocks are instants, and every question is answered by looking at
+//! all transitions. It is slow, and short enough to be compared with the definitions by eye: those
+//! of [`Player`](cotama_core::net::Player) for one event after the other, of
+//! [`Round`](cotama_core::net::Round) for synchronous rounds.
 
 pub mod nets;
 mod rounds;
@@ -27,8 +28,8 @@ pub struct Game<'n> {
     pub now: u64,
     /// What has fired so far, in this order.
     pub fired: Vec<Fired>,
-    /// Whether it came to one of the limits: more than [`SETTLE`] or [`CATCH_UP`] transitions in a row fired by
-    /// themselves. What the game says is then not to be compared any more.
+    /// Whether it came to one of the limits: more than [`SETTLE`] or [`CATCH_UP`] transitions in a
+    /// row fired by themselves. What the game says is then not to be compared any more.
     pub endless: bool,
     /// All transitions: those of the highest priority first, then those of earlier lines.
     order: Vec<TransitionId>,
@@ -50,7 +51,8 @@ impl<'n> Game<'n> {
     pub fn start(net: &'n Net<'n>, now: u64) -> Self {
         let tokens = net.places.iter().map(|place| place.initial).collect();
         let since = vec![None; net.transitions.len()];
-        let mut order: Vec<_> = (0..net.transitions.len()).map(|it| TransitionId(it as u32)).collect();
+        let mut order: Vec<_> =
+            (0..net.transitions.len()).map(|it| TransitionId(it as u32)).collect();
         order.sort_by_key(|it| (Reverse(net.transitions[it.0 as usize].priority), it.0));
         let mut game = Self { net, tokens, since, now, fired: Vec::new(), endless: false, order };
         game.start_clocks();
@@ -116,8 +118,8 @@ impl<'n> Game<'n> {
         self.tokens.iter().zip(bounds).all(|(&tokens, bound)| tokens <= bound)
     }
 
-    /// Whether no order in which transitions can fire, whatever the time and the priorities, exceeds a bound; `false`
-    /// as well when the net has more than so many markings.
+    /// Whether no order in which transitions can fire, whatever the time and the priorities,
+    /// exceeds a bound; `false` as well when the net has more than so many markings.
     pub fn is_bounded(net: &'n Net<'n>, markings: usize) -> bool {
         let start = Self::start(net, 0);
         let initial: Vec<u32> = net.places.iter().map(|place| place.initial).collect();
@@ -206,8 +208,9 @@ impl<'n> Game<'n> {
         self.order.iter().copied().filter(at_once).find(|&it| self.can_fire(it))
     }
 
-    /// The transition to fire next of those without event but with an interval, and when. The last instant of the
-    /// interval does not matter: one that there was no room for fires as soon as there is.
+    /// The transition to fire next of those without event but with an interval, and when. The last
+    /// instant of the interval does not matter: one that there was no room for fires as soon as
+    /// there is.
     fn next_due(&self) -> Option<(u64, TransitionId)> {
         let due = |id: TransitionId| {
             let it = &self.net.transitions[id.0 as usize];
@@ -229,11 +232,13 @@ impl<'n> Game<'n> {
         it.take.iter().chain(it.read).all(|arc| self.at(arc.place) >= arc.weight)
     }
 
-    /// Whether no place would hold more than its bound; of a transition that [has tokens](Self::has_tokens).
+    /// Whether no place would hold more than its bound; of a transition that [has
+    /// tokens](Self::has_tokens).
     fn has_room(&self, transition: TransitionId) -> bool {
         let it = &self.net.transitions[transition.0 as usize];
         it.give.iter().all(|given| {
-            let taken = it.take.iter().find(|taken| taken.place == given.place).map_or(0, |arc| arc.weight);
+            let taken =
+                it.take.iter().find(|taken| taken.place == given.place).map_or(0, |arc| arc.weight);
             let after = u64::from(self.at(given.place) - taken) + u64::from(given.weight);
             after <= u64::from(self.net.places[given.place.0 as usize].bound.min(LARGEST))
         })

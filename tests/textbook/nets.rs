@@ -19,7 +19,8 @@ pub enum Time {
     With,
 }
 
-/// A net of this seed, without defect: places with arcs at random, or a state machine with counters.
+/// A net of this seed, without defect: places with arcs at random, or a state machine with
+/// counters.
 ///
 /// # Panics
 /// Never: it has fewer places than ids.
@@ -48,7 +49,8 @@ pub fn random_net(draw: &mut Draw, time: Time) -> OwnedNet {
         net.transition(transition).expect("few transitions");
     }
     if one_in(draw, 2) {
-        let priorities: &[i16] = if one_in(draw, 8) { &[i16::MIN, 0, i16::MAX] } else { &[-1, 0, 1, 2] };
+        let priorities: &[i16] =
+            if one_in(draw, 8) { &[i16::MIN, 0, i16::MAX] } else { &[-1, 0, 1, 2] };
         for transition in &mut net.transitions {
             transition.priority = *pick(draw, priorities);
         }
@@ -99,7 +101,8 @@ fn scattered_places(net: &mut OwnedNet, draw: &mut Draw) {
             _ => draw.between(1, 5) as u32,
         };
         let place = OwnedPlace::new(&format!("p{number}"), initial(draw, bound)).at_most(bound);
-        let role = *pick(draw, &[Role::State, Role::State, Role::Data, Role::Shared, Role::Mailbox]);
+        let role =
+            *pick(draw, &[Role::State, Role::State, Role::Data, Role::Shared, Role::Mailbox]);
         net.place(OwnedPlace { role, ..place }).expect("few places");
     }
 }
@@ -136,7 +139,8 @@ fn places_of_a_machine(net: &mut OwnedNet, draw: &mut Draw) -> u32 {
     let marked = draw.between(0, u64::from(states) - 1) as u32;
     let bound = *pick(draw, &[1, 1, 1, 2]);
     for state in 0..states {
-        let place = OwnedPlace::new(&format!("s{state}"), u32::from(state == marked)).at_most(bound);
+        let place =
+            OwnedPlace::new(&format!("s{state}"), u32::from(state == marked)).at_most(bound);
         net.place(place).expect("few places");
     }
     for counter in 0..draw.between(0, 2) {
@@ -160,16 +164,24 @@ fn places_of_a_machine(net: &mut OwnedNet, draw: &mut Draw) -> u32 {
     states
 }
 
-/// From a state to a state, or staying in one that is read; counters count up and down, or are tested.
-fn arcs_of_a_machine(it: OwnedTransition, net: &OwnedNet, states: u32, draw: &mut Draw) -> OwnedTransition {
+/// From a state to a state, or staying in one that is read; counters count up and down, or are
+/// tested.
+fn arcs_of_a_machine(
+    it: OwnedTransition,
+    net: &OwnedNet,
+    states: u32,
+    draw: &mut Draw,
+) -> OwnedTransition {
     let mut state = || PlaceId(below(draw, states as usize) as u32);
     let (from, to) = (state(), state());
     let mut it = if one_in(draw, 24) { it.read(from, 1) } else { it.take(from, 1).give(to, 1) };
     for place in states..net.places.len() as u32 {
         let weight = *pick(draw, &[1, 1, 1, 2]);
         let (this, next) = (PlaceId(place), PlaceId(place + 1));
-        let has_complement =
-            net.places.get(place as usize + 1).is_some_and(|next| next.role == Role::Complement(this));
+        let has_complement = net
+            .places
+            .get(place as usize + 1)
+            .is_some_and(|next| next.role == Role::Complement(this));
         match (draw.between(0, 7), net.places[place as usize].role) {
             (_, Role::Complement(_)) => {}
             (0, _) => it.read.push(Arc { place: this, weight }),
@@ -184,9 +196,14 @@ fn arcs_of_a_machine(it: OwnedTransition, net: &OwnedNet, states: u32, draw: &mu
     it
 }
 
-/// What it waits for, and what it says. One that fires at once by itself mostly moves tokens to later places only, so
-/// that the net settles.
-fn trigger(mut it: OwnedTransition, net: &OwnedNet, draw: &mut Draw, time: Time) -> OwnedTransition {
+/// What it waits for, and what it says. One that fires at once by itself mostly moves tokens to
+/// later places only, so that the net settles.
+fn trigger(
+    mut it: OwnedTransition,
+    net: &OwnedNet,
+    draw: &mut Draw,
+    time: Time,
+) -> OwnedTransition {
     for _ in 0..draw.between(0, 2) {
         if !net.outputs.is_empty() {
             it.emits.push(OutputId(below(draw, net.outputs.len()) as u32));

@@ -5,7 +5,8 @@ use cotama_core::net::code::LARGEST;
 use cotama_core::net::{EventId, Round, TransitionId};
 
 impl Game<'_> {
-    /// One round: time passes and nothing fires meanwhile; then everything is taken, then everything is given.
+    /// One round: time passes and nothing fires meanwhile; then everything is taken, then
+    /// everything is given.
     pub fn round(&mut self, now: u64, events: &[EventId]) -> Round {
         self.now = now.max(self.now);
         let mut left = self.clone();
@@ -22,7 +23,11 @@ impl Game<'_> {
         let ignored = events.iter().take(64).enumerate().filter(|(_, event)| !used(event));
         let ignored = ignored.fold(0, |bits, (position, _)| bits | 1 << position);
         if !self.all_fits(&left, &firing) {
-            let all = events.iter().take(64).enumerate().fold(0, |bits, (position, _)| bits | 1 << position);
+            let all = events
+                .iter()
+                .take(64)
+                .enumerate()
+                .fold(0, |bits, (position, _)| bits | 1 << position);
             return Round { fired: 0, ignored: all, full: true };
         }
         left.stop_clocks();
@@ -38,7 +43,8 @@ impl Game<'_> {
         Round { fired: firing.len() as u32, ignored, full: false }
     }
 
-    /// Fires a transition whatever the bounds and the time, as the laws see it; `false` when it lacks tokens.
+    /// Fires a transition whatever the bounds and the time, as the laws see it; `false` when it
+    /// lacks tokens.
     pub fn force(&mut self, transition: TransitionId) -> bool {
         let enabled = self.has_tokens(transition);
         if enabled {
@@ -51,7 +57,8 @@ impl Game<'_> {
     fn all_fits(&self, left: &Self, firing: &[TransitionId]) -> bool {
         (0..self.tokens.len()).all(|place| {
             let gives = firing.iter().flat_map(|it| self.net.transitions[it.0 as usize].give);
-            let given = gives.filter(|arc| arc.place.0 as usize == place).map(|arc| u64::from(arc.weight));
+            let given =
+                gives.filter(|arc| arc.place.0 as usize == place).map(|arc| u64::from(arc.weight));
             let bound = self.net.places[place].bound.min(LARGEST);
             u64::from(left.tokens[place]) + given.sum::<u64>() <= u64::from(bound)
         })

@@ -1,9 +1,11 @@
-//! Times the explicit engine on families of nets: `cargo bench -p cotama-verification --bench explicit`.
+//! Times the explicit engine on families of nets: `cargo bench -p cotama-verification --bench
+//! explicit`.
 //!
-//! `--net TEXT` keeps the nets whose name contains the text; `--jobs N` uses N threads; `--mib N` is a limit of memory, for
-//! a single run; other arguments are more nets: files that end in `.pnml`, and families with a number, as in
-//! `philosophers:20`. Times are the best of three: CPU time of the whole process where the system tells it, in the form of
-//! Linux, else time by the clock.
+//! `--net TEXT` keeps the nets whose name contains the text; `--jobs N` uses N threads; `--mib N`
+//! is a limit of memory, for a single run; other arguments are more nets: files that end in
+//! `.pnml`, and families with a number, as in `philosophers:20`. Times are the best of three: CPU
+//! time of the whole process where the system tells it, in the form of Linux, else time by the
+//! clock.
 
 #![allow(clippy::cast_precision_loss)] // times need no more than a double's digits
 
@@ -25,7 +27,8 @@ fn on_processor() -> Option<u64> {
     threads.map(|it| nanoseconds(it.ok()?)).sum()
 }
 
-/// What was found, the seconds that it took by the clock, and on a processor when there is one thread.
+/// What was found, the seconds that it took by the clock, and on a processor when there is one
+/// thread.
 fn timed<T>(jobs: usize, times: usize, mut run: impl FnMut() -> T) -> (T, f64, f64) {
     let once = |_| {
         let (start, before) = (Instant::now(), on_processor());
@@ -39,12 +42,15 @@ fn timed<T>(jobs: usize, times: usize, mut run: impl FnMut() -> T) -> (T, f64, f
 
 fn main() {
     let arguments: Vec<String> = std::env::args().collect();
-    let after = |flag: &str| arguments.iter().position(|it| it == flag).and_then(|at| arguments.get(at + 1));
+    let after = |flag: &str| {
+        arguments.iter().position(|it| it == flag).and_then(|at| arguments.get(at + 1))
+    };
     let only = after("--net").map_or("", String::as_str);
     let jobs = after("--jobs").map_or(1, |it| it.parse().expect("--jobs takes a number"));
     let bytes = after("--mib").map(|it| it.parse::<u64>().expect("--mib takes a number") << 20);
     let limits = bytes.map_or(Limits::default(), |bytes| Limits { bytes, ..Limits::default() });
-    // What the process takes at most is to be seen from outside: a second run would find memory that the first one left.
+    // What the process takes at most is to be seen from outside: a second run would find memory
+    // that the first one left.
     let times = if bytes.is_some() { 1 } else { 3 };
     let member = |(family, n): (&Family, u32)| {
         let net = family.net(n).expect("n is in the range of the family");
@@ -57,7 +63,8 @@ fn main() {
     });
     let usual = families.into_iter().zip([5, 5, 12, 2]);
     let mut nets: Vec<(String, Pt)> = usual.into_iter().chain(asked).map(member).collect();
-    for file in arguments.iter().filter(|it| Path::new(it).extension() == Some(OsStr::new("pnml"))) {
+    for file in arguments.iter().filter(|it| Path::new(it).extension() == Some(OsStr::new("pnml")))
+    {
         let bytes = std::fs::read(file).unwrap_or_else(|error| panic!("{file}: {error}"));
         let net = pnml::read(file, &bytes).unwrap_or_else(|errors| panic!("{errors}"));
         nets.push((file.clone(), Pt::from(&net.view().net())));

@@ -1,8 +1,8 @@
 //! Bounds of places that the structure of a net proves, whatever its behaviour.
 //!
-//! A weighted sum of tokens that no transition increases never exceeds its value at the start, and no place in it its
-//! share of that. Such sums are found by the method of Farkas: start with each place alone, and combine sums until no
-//! transition increases any of them.
+//! A weighted sum of tokens that no transition increases never exceeds its value at the start, and
+//! no place in it its share of that. Such sums are found by the method of Farkas: start with each
+//! place alone, and combine sums until no transition increases any of them.
 
 use crate::pt::Pt;
 use std::cmp::Ordering;
@@ -15,8 +15,8 @@ const SUMS: usize = 2_000;
 /// Numbers that may be looked at: some tenths of a second.
 const WORK: usize = 50_000_000;
 
-/// What [`bounds`] found of a net, so that it is looked for once. A copy of the net may be changed, so it knows nothing yet; and
-/// what is known of two nets is no difference between them.
+/// What [`bounds`] found of a net, so that it is looked for once. A copy of the net may be changed,
+/// so it knows nothing yet; and what is known of two nets is no difference between them.
 #[derive(Debug, Default)]
 pub struct Bounds(OnceLock<Vec<Option<u32>>>);
 
@@ -36,7 +36,8 @@ impl Eq for Bounds {}
 
 /// For each place the most tokens that it can hold by the sums found; `None` where none was found.
 ///
-/// What is found is proved. The search is cut off on nets with very many sums, so not everything that is true is found.
+/// What is found is proved. The search is cut off on nets with very many sums, so not everything
+/// that is true is found.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -78,7 +79,8 @@ fn proved(pt: &Pt) -> Vec<Option<u32>> {
 struct Sum {
     weights: Vec<(u32, i64)>,
     grows: Vec<(u32, i64)>,
-    /// A bit for each place modulo 64: a quick test whether places of one sum are among those of another.
+    /// A bit for each place modulo 64: a quick test whether places of one sum are among those of
+    /// another.
     places: u64,
 }
 
@@ -94,7 +96,8 @@ struct Sums<'p> {
     /// For each place the sums whose first place it is, and maybe some that were given up.
     first: Vec<Vec<u32>>,
     costs: Vec<Cost>,
-    /// The transitions that increase some sum, the cheapest first, with the costs under which they are listed.
+    /// The transitions that increase some sum, the cheapest first, with the costs under which they
+    /// are listed.
     open: BTreeSet<(Cost, u32)>,
     listed: Vec<Cost>,
     /// Transitions whose costs have changed since they were listed.
@@ -105,7 +108,8 @@ struct Sums<'p> {
     work: usize,
 }
 
-/// What it costs that a transition increases no sum: how many pairs there are, and how long all their sums are.
+/// What it costs that a transition increases no sum: how many pairs there are, and how long all
+/// their sums are.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 struct Cost {
     pairs: usize,
@@ -173,7 +177,8 @@ impl Sums<'_> {
         self.work += sum.grows.len();
         for &(transition, by) in &sum.grows {
             let cost = &mut self.costs[transition as usize];
-            // A step changes the costs of a transition many times: it is listed anew once, when the next one is looked for.
+            // A step changes the costs of a transition many times: it is listed anew once, when the
+            // next one is looked for.
             if *cost == self.listed[transition as usize] {
                 self.stale.push(transition);
             }
@@ -187,7 +192,8 @@ impl Sums<'_> {
     /// The transition that increases some sum and costs least.
     fn cheapest(&mut self) -> Option<u32> {
         for transition in self.stale.drain(..) {
-            let (cost, listed) = (self.costs[transition as usize], &mut self.listed[transition as usize]);
+            let (cost, listed) =
+                (self.costs[transition as usize], &mut self.listed[transition as usize]);
             self.open.remove(&(*listed, transition));
             *listed = cost;
             if cost.up > 0 {
@@ -204,14 +210,16 @@ impl Sums<'_> {
         }
     }
 
-    /// Whether a sum that grows by one transition adds nothing to another one that it is added to: no tokens at the start, and
-    /// no growth by other transitions. So a long chain of places is not added up from each of them.
+    /// Whether a sum that grows by one transition adds nothing to another one that it is added to:
+    /// no tokens at the start, and no growth by other transitions. So a long chain of places is not
+    /// added up from each of them.
     fn adds_nothing(&self, up: &Sum) -> bool {
         up.weights.iter().all(|it| self.initial[it.0 as usize] == 0)
             && up.grows.iter().filter(|it| it.1 > 0).count() == 1
     }
 
-    /// Gives up the sums that a transition increases; returns what takes their place, short ones first.
+    /// Gives up the sums that a transition increases; returns what takes their place, short ones
+    /// first.
     fn settle(&mut self, transition: u32) -> Vec<Pair> {
         self.settled[transition as usize] = true;
         let (mut grown, mut shrunk) = (Vec::new(), Vec::new());
@@ -277,8 +285,8 @@ fn factors(up: &Sum, down: &Sum, transition: u32) -> Option<[i64; 2]> {
     Some([a / divisor, b / divisor])
 }
 
-/// The smallest combination of a sum that grows and one that shrinks that does neither; `None` when numbers get too
-/// large.
+/// The smallest combination of a sum that grows and one that shrinks that does neither; `None` when
+/// numbers get too large.
 fn balanced(up: &Sum, down: &Sum, transition: u32) -> Option<Sum> {
     let [a, b] = factors(up, down, transition)?;
     let mut weights = combined(&up.weights, a, &down.weights, b)?;
@@ -346,13 +354,16 @@ pub(crate) fn gcd(mut a: u64, mut b: u64) -> u64 {
 }
 
 impl Sum {
-    /// Whether the places of this sum, and the settled transitions that decrease it, are among those of the other one: then
-    /// the other one says nothing new.
+    /// Whether the places of this sum, and the settled transitions that decrease it, are among
+    /// those of the other one: then the other one says nothing new.
     fn is_within(&self, other: &Self, settled: &[bool]) -> bool {
         self.places & !other.places == 0
             && self.weights.len() <= other.weights.len()
             && among(self.weights.iter().map(|it| it.0), &other.weights)
-            && among(self.grows.iter().map(|it| it.0).filter(|&it| settled[it as usize]), &other.grows)
+            && among(
+                self.grows.iter().map(|it| it.0).filter(|&it| settled[it as usize]),
+                &other.grows,
+            )
     }
 }
 

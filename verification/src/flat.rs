@@ -1,13 +1,14 @@
 //! A system as one net: the interleaving meaning of several nets.
 //!
-//! Every mailbox becomes two places, `net.event.waiting` and `net.event.room`. A transition on an event that arrives by mail also
-//! takes it out of the mailbox; where no transition on it is enabled, a transition of its own ignores it for good. A
-//! rendezvous becomes one transition with what it makes others do, one for each combination of what they can do. What is
-//! mailed needs room. An event that empties a mailbox is one transition for each number that can wait in it.
+//! Every mailbox becomes two places, `net.event.waiting` and `net.event.room`. A transition on an
+//! event that arrives by mail also takes it out of the mailbox; where no transition on it is
+//! enabled, a transition of its own ignores it for good. A rendezvous becomes one transition with
+//! what it makes others do, one for each combination of what they can do. What is mailed needs
+//! room. An event that empties a mailbox is one transition for each number that can wait in it.
 //!
-//! Turns, priorities and the order in which a net reads its mailboxes are gone: any order is possible, so what never happens here
-//! never happens in a round. Places keep their names, as `net.place`; a place whose absence decides something gets a
-//! complement, `net.place.absent`.
+//! Turns, priorities and the order in which a net reads its mailboxes are gone: any order is
+//! possible, so what never happens here never happens in a round. Places keep their names, as
+//! `net.place`; a place whose absence decides something gets a complement, `net.place.absent`.
 
 mod branch;
 mod lowered;
@@ -62,7 +63,8 @@ pub enum FlatError {
         /// The transition, as `net.transition`.
         transition: String,
     },
-    /// So many transitions of a net as [`SETTLE`](cotama_core::system::SETTLE) fire at once by themselves, one after another.
+    /// So many transitions of a net as [`SETTLE`](cotama_core::system::SETTLE) fire at once by
+    /// themselves, one after another.
     Endless {
         /// The net.
         net: String,
@@ -91,16 +93,27 @@ impl fmt::Display for FlatError {
                     "the absence of tokens in {place} decides whether an event is ignored: give the place a bound"
                 )
             }
-            Self::TooMany => write!(f, "as one net it has more than {MOST_TRANSITIONS} transitions"),
+            Self::TooMany => {
+                write!(f, "as one net it has more than {MOST_TRANSITIONS} transitions")
+            }
             Self::Net { net, defect } => write!(f, "the net {net} is not sound: {defect:?}"),
             Self::Interval { transition } => {
-                write!(f, "rounds have no time, and {transition} has an interval: check the interleavings")
+                write!(
+                    f,
+                    "rounds have no time, and {transition} has an interval: check the interleavings"
+                )
             }
             Self::Complement { place, transition } => {
-                write!(f, "{transition} changes {place} and does not change its complement to match")
+                write!(
+                    f,
+                    "{transition} changes {place} and does not change its complement to match"
+                )
             }
             Self::Endless { net } => {
-                write!(f, "the net {net} does not settle: its transitions without event fire again and again")
+                write!(
+                    f,
+                    "the net {net} does not settle: its transitions without event fire again and again"
+                )
             }
             Self::Text { observer, error } => write!(f, "the observer {observer}: {error}"),
             Self::Condition { observer } => {
@@ -118,8 +131,8 @@ impl std::error::Error for FlatError {}
 /// Makes a system one net.
 ///
 /// # Errors
-/// When it does not fit together, when the absence of tokens in a place without a bound decides, or when the net would be
-/// too large.
+/// When it does not fit together, when the absence of tokens in a place without a bound decides, or
+/// when the net would be too large.
 pub fn flat(system: &System<'_>) -> Result<OwnedNet, FlatError> {
     if let Some(defect) = system.defect() {
         return Err(FlatError::Defect(defect));
@@ -132,7 +145,8 @@ pub fn flat(system: &System<'_>) -> Result<OwnedNet, FlatError> {
     Ok(second.net)
 }
 
-/// What happens in one step, one thing after the other: tokens that must be there before all of it, and what it changes.
+/// What happens in one step, one thing after the other: tokens that must be there before all of it,
+/// and what it changes.
 #[derive(Clone, Debug, Default)]
 struct Step {
     name: Vec<String>,
@@ -214,7 +228,9 @@ impl<'s> Flat<'s> {
             let (name, net) = self.component(component);
             for output in net.outputs {
                 let doc = output.doc;
-                self.net.output(&format!("{name}.{}", output.name), doc).map_err(|_| FlatError::TooMany)?;
+                self.net
+                    .output(&format!("{name}.{}", output.name), doc)
+                    .map_err(|_| FlatError::TooMany)?;
             }
             for transition in net.transitions.iter().filter(|it| it.on.is_none()) {
                 let steps = self.fired(vec![Step::default()], component, transition)?;
@@ -278,15 +294,19 @@ impl<'s> Flat<'s> {
     ) -> Result<Vec<Step>, FlatError> {
         let (name, _) = self.component(component);
         let mut changes: BTreeMap<PlaceId, (i64, i64)> = BTreeMap::new();
-        for (arc, change) in
-            transition.take.iter().map(|arc| (arc, -1)).chain(transition.read.iter().map(|arc| (arc, 0)))
+        for (arc, change) in transition
+            .take
+            .iter()
+            .map(|arc| (arc, -1))
+            .chain(transition.read.iter().map(|arc| (arc, 0)))
         {
             let weight = i64::from(arc.weight);
             let it = changes.entry(self.place(component, arc.place)?).or_default();
             *it = (it.0.max(weight), it.1 + change * weight);
         }
         for arc in transition.give {
-            changes.entry(self.place(component, arc.place)?).or_default().1 += i64::from(arc.weight);
+            changes.entry(self.place(component, arc.place)?).or_default().1 +=
+                i64::from(arc.weight);
         }
         for step in &mut steps {
             step.name.push(format!("{name}.{}", transition.name));
@@ -296,7 +316,8 @@ impl<'s> Flat<'s> {
         }
         for &output in transition.emits {
             let from = Of { component, id: output };
-            let links: Vec<_> = self.system.links.iter().filter(|link| link.from == from).copied().collect();
+            let links: Vec<_> =
+                self.system.links.iter().filter(|link| link.from == from).copied().collect();
             if links.is_empty() {
                 let said = self.output(component, output);
                 for step in &mut steps {
@@ -304,7 +325,9 @@ impl<'s> Flat<'s> {
                 }
             }
             for link in links {
-                if let Some(&(waiting, room, _)) = self.mailboxes.get(&(link.to.component, link.to.id.0)) {
+                if let Some(&(waiting, room, _)) =
+                    self.mailboxes.get(&(link.to.component, link.to.id.0))
+                {
                     for step in &mut steps {
                         step.then(room, 1, -1);
                         step.then(waiting, 0, 1);
@@ -327,14 +350,23 @@ impl<'s> Flat<'s> {
     }
 
     fn output(&self, component: u16, output: OutputId) -> OutputId {
-        let before =
-            self.system.components.iter().take(usize::from(component)).map(|it| it.net.outputs.len() as u32);
+        let before = self
+            .system
+            .components
+            .iter()
+            .take(usize::from(component))
+            .map(|it| it.net.outputs.len() as u32);
         OutputId(before.sum::<u32>() + output.0)
     }
 
-    /// No transition on an event is enabled: for each of them some need is not met. A condition that implies another one is
-    /// left out.
-    fn ignored(&mut self, starts: &[Step], component: u16, event: EventId) -> Result<Vec<Step>, FlatError> {
+    /// No transition on an event is enabled: for each of them some need is not met. A condition
+    /// that implies another one is left out.
+    fn ignored(
+        &mut self,
+        starts: &[Step],
+        component: u16,
+        event: EventId,
+    ) -> Result<Vec<Step>, FlatError> {
         let (name, net) = self.component(component);
         let mut unmet: Vec<BTreeMap<PlaceId, i64>> = vec![BTreeMap::new()];
         for transition in net.transitions.iter().filter(|it| it.on == Some(event)) {
@@ -371,19 +403,31 @@ impl<'s> Flat<'s> {
             step.name.push(label.clone());
             step
         };
-        Ok(starts.iter().flat_map(|step| unmet.iter().map(move |needs| under(step, needs))).collect())
+        Ok(starts
+            .iter()
+            .flat_map(|step| unmet.iter().map(move |needs| under(step, needs)))
+            .collect())
     }
 
-    /// Whether these tokens cannot all be there, a place and its complement holding its bound together.
+    /// Whether these tokens cannot all be there, a place and its complement holding its bound
+    /// together.
     fn contradicts(&self, needs: &BTreeMap<PlaceId, i64>) -> bool {
         needs.iter().any(|(place, need)| {
             let other = self.absent.get(place).and_then(|absent| needs.get(absent));
-            other.is_some_and(|other| need + other > i64::from(self.net.places[place.0 as usize].bound))
+            other.is_some_and(|other| {
+                need + other > i64::from(self.net.places[place.0 as usize].bound)
+            })
         })
     }
 
-    /// Adds the transitions that steps stand for; those whose needs contradict each other are left out.
-    fn add(&mut self, steps: Vec<Step>, like: &Transition<'_>, on: Option<EventId>) -> Result<(), FlatError> {
+    /// Adds the transitions that steps stand for; those whose needs contradict each other are left
+    /// out.
+    fn add(
+        &mut self,
+        steps: Vec<Step>,
+        like: &Transition<'_>,
+        on: Option<EventId>,
+    ) -> Result<(), FlatError> {
         for step in steps {
             if self.contradicts(&step.needs) {
                 continue;
@@ -392,7 +436,8 @@ impl<'s> Flat<'s> {
                 return Err(FlatError::TooMany);
             }
             let mut it = OwnedTransition::new(&step.name.join(" + ")).doc(like.doc);
-            (it.on, it.within, it.priority, it.emits) = (on, like.within, like.priority, step.outputs);
+            (it.on, it.within, it.priority, it.emits) =
+                (on, like.within, like.priority, step.outputs);
             for (&place, &change) in &step.effects {
                 let need = step.needs.get(&place).copied().unwrap_or(0).max(-change);
                 let weight = |tokens: i64| u32::try_from(tokens).unwrap_or(u32::MAX);
@@ -400,7 +445,9 @@ impl<'s> Flat<'s> {
                     (0, 0) => it,
                     (need, 0) => it.read(place, weight(need)),
                     (0, gain) => it.give(place, weight(gain)),
-                    (need, gain) if gain > 0 => it.read(place, weight(need)).give(place, weight(gain)),
+                    (need, gain) if gain > 0 => {
+                        it.read(place, weight(need)).give(place, weight(gain))
+                    }
                     (need, loss) if need + loss > 0 => {
                         it.take(place, weight(need)).give(place, weight(need + loss))
                     }

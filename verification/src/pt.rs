@@ -5,8 +5,8 @@ use cotama_core::net::{Net, PlaceId, TransitionId};
 
 /// A place/transition net: every order in which enabled transitions can fire.
 ///
-/// A transition is enabled when every place of its `needs` holds the weight; firing changes the places of its `effects`.
-/// Reads are needs without an effect. Lists are sorted by place.
+/// A transition is enabled when every place of its `needs` holds the weight; firing changes the
+/// places of its `effects`. Reads are needs without an effect. Lists are sorted by place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pt {
     /// The name of the net.
@@ -53,7 +53,9 @@ impl<T: Copy> Lists<T> {
     #[inline]
     pub fn of(&self, at: u32) -> &[(u32, T)] {
         match (self.starts.get(at as usize), self.starts.get(at as usize + 1)) {
-            (Some(&start), Some(&end)) => self.items.get(start as usize..end as usize).unwrap_or(&[]),
+            (Some(&start), Some(&end)) => {
+                self.items.get(start as usize..end as usize).unwrap_or(&[])
+            }
             _ => &[],
         }
     }
@@ -109,8 +111,9 @@ impl From<&Net<'_>> for Pt {
         }));
         let effects = Lists::new(net.transitions.iter().map(|it| {
             let taken = it.take.iter().map(|arc| (arc.place.0, -i64::from(arc.weight)));
-            let mut effects: Vec<_> =
-                taken.chain(it.give.iter().map(|arc| (arc.place.0, i64::from(arc.weight)))).collect();
+            let mut effects: Vec<_> = taken
+                .chain(it.give.iter().map(|arc| (arc.place.0, i64::from(arc.weight))))
+                .collect();
             effects.sort_unstable_by_key(|&(place, _)| place);
             effects.dedup_by(|later, kept| {
                 later.0 == kept.0 && {
@@ -121,7 +124,8 @@ impl From<&Net<'_>> for Pt {
             effects.retain(|&(_, change)| change != 0);
             effects
         }));
-        let (consumers, changers) = (needs.reversed(net.places.len()), effects.reversed(net.places.len()));
+        let (consumers, changers) =
+            (needs.reversed(net.places.len()), effects.reversed(net.places.len()));
         Self {
             name: net.name.to_owned(),
             places: net.places.iter().map(|it| it.name.to_owned()).collect(),
@@ -131,7 +135,11 @@ impl From<&Net<'_>> for Pt {
             effects,
             consumers,
             changers,
-            arcs: net.transitions.iter().map(|it| it.take.len() + 2 * it.read.len() + it.give.len()).sum(),
+            arcs: net
+                .transitions
+                .iter()
+                .map(|it| it.take.len() + 2 * it.read.len() + it.give.len())
+                .sum(),
             bounds: Bounds::default(),
         }
     }

@@ -1,6 +1,7 @@
 //! Drawings of small nets, byte for byte, and what holds for drawings of any net.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test drawings` writes the expected files anew.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test drawings` writes the expected files
+//! anew.
 
 #[path = "drawings/nets.rs"]
 mod nets;
@@ -24,8 +25,8 @@ fn golden(file: &str, text: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(&path, text).unwrap();
     }
-    let expected =
-        std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let expected = std::fs::read_to_string(&path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     assert!(
         text == expected,
         "{} is out of date: set UPDATE_GOLDEN=1 and look at the difference",
@@ -123,11 +124,15 @@ fn both_values_of_a_flag_on_one_line_are_one_label() {
 fn counters_read_as_comparisons() {
     let mut it = nets::Sketch::new("tries", "");
     let (from, to) = (it.state("from", 1, ""), it.state("to", 0, ""));
-    let tries =
-        it.net.place(OwnedPlace { role: Role::Data, ..OwnedPlace::new("tries", 0).at_most(3) }).unwrap();
-    let left = OwnedPlace { role: Role::Complement(tries), ..OwnedPlace::new("left", 3).at_most(3) };
+    let tries = it
+        .net
+        .place(OwnedPlace { role: Role::Data, ..OwnedPlace::new("tries", 0).at_most(3) })
+        .unwrap();
+    let left =
+        OwnedPlace { role: Role::Complement(tries), ..OwnedPlace::new("left", 3).at_most(3) };
     let left = it.net.place(left).unwrap();
-    let add = |it: &mut nets::Sketch, more: fn(OwnedTransition, PlaceId, PlaceId) -> OwnedTransition| {
+    let add = |it: &mut nets::Sketch,
+               more: fn(OwnedTransition, PlaceId, PlaceId) -> OwnedTransition| {
         it.step(from, to, "", &[]);
         let last = it.net.transitions.last_mut().unwrap();
         *last = more(last.clone(), tries, left);
@@ -140,13 +145,17 @@ fn counters_read_as_comparisons() {
     add(&mut it, |step, tries, left| step.take(tries, 2).give(left, 2));
     let labels = "[tries ≥ 2]\\n[tries ≤ 0]\\n[tries = 2]\\n[1 ≤ tries ≤ 2]\\n[tries ≤ 2] / tries += 1\\n\
                   [tries ≥ 2] / tries -= 2";
-    assert_eq!(dot_edges(&it.net), ["start -> p0;".to_owned(), format!("p0 -> p1 [label=\"{labels}\"];")]);
+    assert_eq!(
+        dot_edges(&it.net),
+        ["start -> p0;".to_owned(), format!("p0 -> p1 [label=\"{labels}\"];")]
+    );
 }
 
 #[test]
 fn what_breaks_the_state_machine_is_drawn_as_a_net() {
-    let is_states =
-        |net: &OwnedNet| mermaid::write(&net.view().net(), Style::States).starts_with("stateDiagram");
+    let is_states = |net: &OwnedNet| {
+        mermaid::write(&net.view().net(), Style::States).starts_with("stateDiagram")
+    };
     assert!(is_states(&nets::door()));
     let mut second_token = nets::door();
     second_token.places[1].initial = 1;
@@ -182,7 +191,8 @@ fn a_marking_and_a_transition_are_pointed_out() {
     ));
 }
 
-/// Well-formed, ids once, all shapes in the picture, no two nodes on each other. Returns the elements.
+/// Well-formed, ids once, all shapes in the picture, no two nodes on each other. Returns the
+/// elements.
 fn check_svg(text: &str) -> Vec<Element> {
     let elements = xml::parse(text).unwrap_or_else(|error| panic!("{error}:\n{text}"));
     let mut ids: Vec<&str> = elements.iter().filter_map(|it| it.get("id")).collect();
@@ -191,8 +201,9 @@ fn check_svg(text: &str) -> Vec<Element> {
     ids.dedup();
     assert_eq!(ids.len(), count, "an id occurs twice");
     let (width, height) = (elements[0].number("width"), elements[0].number("height"));
-    let inside =
-        |x: i64, y: i64| assert!((0..=width).contains(&x) && (0..=height).contains(&y), "{x} {y} is outside");
+    let inside = |x: i64, y: i64| {
+        assert!((0..=width).contains(&x) && (0..=height).contains(&y), "{x} {y} is outside")
+    };
     let mut boxes: Vec<[i64; 4]> = Vec::new();
     for it in &elements {
         let class = it.get("class").unwrap_or_default();
@@ -210,8 +221,10 @@ fn check_svg(text: &str) -> Vec<Element> {
                 continue;
             }
             "path" => {
-                let numbers =
-                    it.get("d").unwrap_or_default().split(|c: char| !c.is_ascii_digit() && c != '-');
+                let numbers = it
+                    .get("d")
+                    .unwrap_or_default()
+                    .split(|c: char| !c.is_ascii_digit() && c != '-');
                 numbers
                     .filter(|it| !it.is_empty())
                     .for_each(|it| assert!(it.parse::<i64>().is_ok_and(|it| it >= 0)));
@@ -227,7 +240,10 @@ fn check_svg(text: &str) -> Vec<Element> {
     }
     for (at, one) in boxes.iter().enumerate() {
         for other in &boxes[..at] {
-            let apart = one[2] <= other[0] || other[2] <= one[0] || one[3] <= other[1] || other[3] <= one[1];
+            let apart = one[2] <= other[0]
+                || other[2] <= one[0]
+                || one[3] <= other[1]
+                || other[3] <= one[1];
             assert!(apart, "{one:?} and {other:?} overlap");
         }
     }

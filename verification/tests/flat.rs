@@ -77,7 +77,9 @@ fn tokens(player: &Shop, name: &str) -> u32 {
     match rest.rsplit_once('.') {
         Some((of, "waiting")) => waiting(of),
         Some((of, "room")) => capacity(of) - waiting(of),
-        Some((of, "absent")) => 1 - tokens(player, &format!("{}.{of}", shop::SYSTEM.components[at].name)),
+        Some((of, "absent")) => {
+            1 - tokens(player, &format!("{}.{of}", shop::SYSTEM.components[at].name))
+        }
         _ => {
             let place = net.places.iter().position(|it| it.name == rest).unwrap();
             player.tokens(Of { component, id: PlaceId(place as u32) })
@@ -127,7 +129,10 @@ fn every_state_of_the_rounds_is_one_of_the_interleavings() {
             }
         }
     }
-    assert_eq!((pt.places.len(), pt.transitions.len(), reached.len(), known.len()), (17, 27, 55, 31));
+    assert_eq!(
+        (pt.places.len(), pt.transitions.len(), reached.len(), known.len()),
+        (17, 27, 55, 31)
+    );
 }
 
 #[test]

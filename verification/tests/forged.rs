@@ -1,13 +1,15 @@
-//! Certificates that claim too much by just one step: each would be believed if one check of the checker were missing.
+//! Certificates that claim too much by just one step: each would be believed if one check of the
+//! checker were missing.
 
 use cotama_verification::certificate::{
-    Case, Certificate, Evidence, Fact, Formula, Growth, Linear, Net, Question, Refutation, SCHEMA, Trace,
-    Transition, verify,
+    Case, Certificate, Evidence, Fact, Formula, Growth, Linear, Net, Question, Refutation, SCHEMA,
+    Trace, Transition, verify,
 };
 
 /// A net of one place, or two, with one transition.
 fn net(places: &[(&str, u32)], take: &[(&str, u32)], give: &[(&str, u32)]) -> Net {
-    let arcs = |list: &[(&str, u32)]| list.iter().map(|it| (it.0.to_owned(), it.1)).collect::<Vec<_>>();
+    let arcs =
+        |list: &[(&str, u32)]| list.iter().map(|it| (it.0.to_owned(), it.1)).collect::<Vec<_>>();
     let fire = Transition { name: "fire".to_owned(), take: arcs(take), give: arcs(give) };
     Net { name: "net".to_owned(), places: arcs(places), transitions: vec![fire] }
 }
@@ -30,7 +32,11 @@ fn reached(goal: Formula) -> Question {
 }
 
 fn refuted(facts: Vec<Fact>, by: Vec<(usize, u64)>) -> Evidence {
-    Evidence::Refutation(Refutation { dead: Vec::new(), facts, cases: vec![Case::Contradiction(by)] })
+    Evidence::Refutation(Refutation {
+        dead: Vec::new(),
+        facts,
+        cases: vec![Case::Contradiction(by)],
+    })
 }
 
 #[test]
@@ -52,7 +58,8 @@ fn a_full_place_does_not_start_from_zero_again() {
 
 #[test]
 fn a_sum_beyond_128_bits_is_no_contradiction() {
-    // One token is there; 2 * (2^64 - 1) times `1 - 2^63 * tokens <= 0` has a weight that wraps around to 2^64.
+    // One token is there; 2 * (2^64 - 1) times `1 - 2^63 * tokens <= 0` has a weight that wraps
+    // around to 2^64.
     let marked = net(&[("p", 1)], &[("p", 1)], &[("p", 1)]);
     let goal = reached(Formula::AtMost(at_most(1, i64::MIN)));
     let twice = refuted(Vec::new(), vec![(0, u64::MAX), (0, u64::MAX)]);
@@ -65,5 +72,8 @@ fn more_than_none_is_one_and_not_two() {
     let marked = net(&[("p", 1)], &[("p", 1)], &[("p", 1)]);
     let goal = reached(Formula::Not(Box::new(Formula::AtMost(at_most(0, 1)))));
     let evidence = refuted(vec![Fact::AtMost(at_most(-1, 1))], vec![(0, 1), (1, 1)]);
-    assert_eq!(refusal(marked, goal, false, evidence), "no contradiction: the constant is not above 0");
+    assert_eq!(
+        refusal(marked, goal, false, evidence),
+        "no contradiction: the constant is not above 0"
+    );
 }

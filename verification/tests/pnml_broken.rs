@@ -1,5 +1,6 @@
-//! Broken PNML files and what is said about them. The messages are in `tests/golden/pnml/broken.txt`;
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test pnml_broken` writes them again.
+//! Broken PNML files and what is said about them. The messages are in
+//! `tests/golden/pnml/broken.txt`; `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test
+//! pnml_broken` writes them again.
 
 use cotama_verification::pnml::{self, Limits, PnmlErrors};
 use std::fmt::Write as _;
@@ -294,7 +295,8 @@ fn a_million_nested_pages_are_refused_on_a_small_stack() {
     let pages = ("<page>".repeat(1_000_000), "</page>".repeat(1_000_000));
     let bytes = format!("<pnml><net>{}{}</net></pnml>", pages.0, pages.1).into_bytes();
     let read = move || refusal("nested", &bytes).to_string();
-    let said = std::thread::Builder::new().stack_size(64 << 10).spawn(read).unwrap().join().unwrap();
+    let said =
+        std::thread::Builder::new().stack_size(64 << 10).spawn(read).unwrap().join().unwrap();
     let expected = "nested.pnml:1:1536: elements are nested more than 256 deep\n  \
                     help: no PNML needs this; the file is damaged or made to do harm";
     assert_eq!(said, expected);
@@ -321,8 +323,9 @@ fn a_long_chain_of_references_is_followed_once() {
 #[test]
 fn the_limits_hold() {
     let bytes = nodes("");
-    let read =
-        |limits| pnml::read_within("net.pnml", &bytes, limits).map(|imported| imported.net.places.len());
+    let read = |limits| {
+        pnml::read_within("net.pnml", &bytes, limits).map(|imported| imported.net.places.len())
+    };
     let told = |limits| read(limits).unwrap_err().diagnostics()[0].message.clone();
     let limits = Limits { bytes: bytes.len(), depth: 4, attributes: 2, text: 50, objects: 5 };
     assert_eq!(read(limits), Ok(2));

@@ -1,5 +1,5 @@
-//! Nets of others. The folder of them is given by the environment variable `COTAMA_MCC_DIR`: files `*.pnml`, and
-//! `facts.tsv` with the columns model, places, transitions and arcs.
+//! Nets of others. The folder of them is given by the environment variable `COTAMA_MCC_DIR`: files
+//! `*.pnml`, and `facts.tsv` with the columns model, places, transitions and arcs.
 
 use cotama_verification::pnml;
 use std::collections::BTreeMap;
@@ -29,7 +29,8 @@ fn public_nets_have_the_known_numbers_of_places_transitions_and_arcs() {
     };
     let folder = Path::new(&folder);
     let facts = facts(folder);
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    let mut files: Vec<_> =
+        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "pnml"));
     files.sort();
     assert_eq!(files.len(), facts.len(), "one fact for each net");
@@ -39,11 +40,19 @@ fn public_nets_have_the_known_numbers_of_places_transitions_and_arcs() {
             Ok(net) => net,
             Err(errors) => panic!("{errors}"),
         };
-        let arcs = net.transitions.iter().map(|it| it.take.len() + 2 * it.read.len() + it.give.len()).sum();
+        let arcs = net
+            .transitions
+            .iter()
+            .map(|it| it.take.len() + 2 * it.read.len() + it.give.len())
+            .sum();
         assert_eq!([net.places.len(), net.transitions.len(), arcs], facts[model], "{model}");
         let view = net.view();
         assert_eq!(view.net().defect(), None, "{model}");
-        assert_eq!(pnml::read(model, pnml::write(&view.net()).as_bytes()).as_ref(), Ok(&net), "{model}");
+        assert_eq!(
+            pnml::read(model, pnml::write(&view.net()).as_bytes()).as_ref(),
+            Ok(&net),
+            "{model}"
+        );
         assert_eq!(
             pnml::read(model, pnml::write_for_tina(&view.net()).as_bytes()).as_ref(),
             Ok(&net),

@@ -75,7 +75,8 @@ fn names_are_trimmed_and_stand_for_ids_otherwise() {
 
 #[test]
 fn equal_names_are_told_apart_by_their_ids() {
-    let place = |id: &str, name: &str| format!("<place id='{id}'><name><text>{name}</text></name></place>");
+    let place =
+        |id: &str, name: &str| format!("<place id='{id}'><name><text>{name}</text></name></place>");
     let page = [("a", "idle"), ("b", "idle"), ("c", "idle (b)"), ("d", "idle"), ("e", "e")];
     let net = read(&file(&page.map(|(id, name)| place(id, name)).concat()));
     assert_eq!(place_names(&net), ["idle", "idle (b) (b)", "idle (b)", "idle (d)", "e"]);
@@ -110,9 +111,11 @@ fn intervals_of_tina_are_milliseconds() {
         ("c", delay("><cn>0</cn><infinity/>")),
         ("d", String::new()),
     ];
-    let net =
-        read(&file(&page.map(|(id, delay)| format!("<transition id='{id}'>{delay}</transition>")).concat()));
-    let within: Vec<_> = net.transitions.iter().map(|transition| transition.within.unwrap()).collect();
+    let net = read(&file(
+        &page.map(|(id, delay)| format!("<transition id='{id}'>{delay}</transition>")).concat(),
+    ));
+    let within: Vec<_> =
+        net.transitions.iter().map(|transition| transition.within.unwrap()).collect();
     let from = |earliest, latest| Within { earliest, latest };
     assert_eq!(within, [from(4, Some(9)), from(4, None), from(0, None), from(0, None)]);
 }
@@ -141,9 +144,9 @@ fn the_dialect_of_pipe_is_read() {
 
 #[test]
 fn a_coloured_net_beside_the_only_plain_one_is_skipped() {
-    let coloured =
-        "<net id='c' type='http://www.pnml.org/version-2009/grammar/symmetricnet'><place id='p'/></net>";
-    let net = read(&format!("<pnml>{coloured}<net id='plain'><place id='p'/></net>{coloured}</pnml>"));
+    let coloured = "<net id='c' type='http://www.pnml.org/version-2009/grammar/symmetricnet'><place id='p'/></net>";
+    let net =
+        read(&format!("<pnml>{coloured}<net id='plain'><place id='p'/></net>{coloured}</pnml>"));
     assert_eq!((net.name.as_str(), net.places.len()), ("plain", 1));
 }
 
@@ -171,8 +174,9 @@ fn the_ids_of_the_file_are_known() {
 #[test]
 fn encodings_are_known_by_their_first_bytes_or_their_declaration() {
     let text = file("<place id='p'><name><text>Tür → 🤖</text></name></place>");
-    let utf16 =
-        |text: &str, bytes: fn(u16) -> [u8; 2]| text.encode_utf16().flat_map(bytes).collect::<Vec<_>>();
+    let utf16 = |text: &str, bytes: fn(u16) -> [u8; 2]| {
+        text.encode_utf16().flat_map(bytes).collect::<Vec<_>>()
+    };
     let declared = format!("<?xml version=\"1.0\" encoding='utf-8'?>{text}");
     let little = utf16(&format!("\u{feff}{text}"), u16::to_le_bytes);
     let big = utf16(&format!("\u{feff}{text}"), u16::to_be_bytes);
@@ -181,14 +185,16 @@ fn encodings_are_known_by_their_first_bytes_or_their_declaration() {
     for bytes in [declared.into_bytes(), little, big, marked].into_iter().chain(unmarked) {
         assert_eq!(place_names(&read_bytes(&bytes)), ["Tür → 🤖"]);
     }
-    let latin = format!("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>{}", text.replace(" → 🤖", ""));
+    let latin =
+        format!("<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>{}", text.replace(" → 🤖", ""));
     let latin: Vec<u8> = latin.chars().map(|c| u8::try_from(c).unwrap()).collect();
     assert_eq!(place_names(&read_bytes(&latin)), ["Tür"]);
 }
 
 #[test]
 fn line_ends_of_windows_are_line_ends() {
-    let text = file("\r\n<place id='p'>\r\n<name><text>two\r\nlines\rmore&#13;</text></name></place>\r\n");
+    let text =
+        file("\r\n<place id='p'>\r\n<name><text>two\r\nlines\rmore&#13;</text></name></place>\r\n");
     assert_eq!(place_names(&read(&text)), ["two\nlines\nmore"]);
 }
 
@@ -197,7 +203,8 @@ fn many_equal_names_and_many_arcs_keep_the_order_of_the_file() {
     let mut page = String::from("<transition id='t'/><transition id='u'/>");
     for index in 0..100_000 {
         write!(page, "<place id='p{index}'><name><text>p</text></name></place>").unwrap();
-        write!(page, "<arc source='p{index}' target='t'/><arc source='u' target='p{index}'/>").unwrap();
+        write!(page, "<arc source='p{index}' target='t'/><arc source='u' target='p{index}'/>")
+            .unwrap();
     }
     let net = pnml::read("net.pnml", file(&page).as_bytes()).unwrap();
     assert_eq!((&*net.places[0].name, &*net.places[99_999].name), ("p", "p (p99999)"));
@@ -220,7 +227,8 @@ impl Dice {
 
 #[test]
 fn damaged_files_never_panic_and_say_where() {
-    let written = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml")).unwrap();
+    let written =
+        std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml")).unwrap();
     let tina = pnml::write_for_tina(&read_bytes(&written).view().net()).into_bytes();
     let mixed = file(
         "<place id='p'><initialMarking><text>1</text></initialMarking></place><!-- c --><referencePlace id='r' ref='p'/>\
@@ -284,5 +292,9 @@ fn damaged_files_never_panic_and_say_where() {
             }
         }
     }
-    assert_eq!((accepted > 1_000, refused > 10_000), (true, true), "{accepted} accepted, {refused} refused");
+    assert_eq!(
+        (accepted > 1_000, refused > 10_000),
+        (true, true),
+        "{accepted} accepted, {refused} refused"
+    );
 }

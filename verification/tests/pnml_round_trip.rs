@@ -20,13 +20,15 @@ fn comes_back(net: &OwnedNet) {
     }
 }
 
-/// Checks a written file against what the grammars of the core model and of P/T nets demand of the elements that the
-/// writer uses: their order, their attributes, unique ids, arcs that end at nodes.
+/// Checks a written file against what the grammars of the core model and of P/T nets demand of the
+/// elements that the writer uses: their order, their attributes, unique ids, arcs that end at
+/// nodes.
 fn is_valid(text: &str) {
     let mut reader = quick_xml::Reader::from_str(text);
     reader.config_mut().expand_empty_elements = true;
     let mut open: Vec<(String, String)> = Vec::new();
-    let (mut ids, mut places, mut transitions) = (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
+    let (mut ids, mut places, mut transitions) =
+        (BTreeSet::new(), BTreeSet::new(), BTreeSet::new());
     let mut arcs = Vec::new();
     loop {
         match reader.read_event().unwrap() {
@@ -108,9 +110,9 @@ fn in_order(element: &str, children: &str) -> bool {
 }
 
 fn weird_text() -> impl Strategy<Value = String> {
-    let palette =
-        "ab  \t\n\r<>&\"'\\{}u;#]]>\u{0}\u{1b}\u{7f}\u{85}\u{a0}é→🤖\u{2028}\u{fffd}\u{fffe}\u{ffff}";
-    let character = prop_oneof![4 => select(palette.chars().collect::<Vec<_>>()), 1 => any::<char>()];
+    let palette = "ab  \t\n\r<>&\"'\\{}u;#]]>\u{0}\u{1b}\u{7f}\u{85}\u{a0}é→🤖\u{2028}\u{fffd}\u{fffe}\u{ffff}";
+    let character =
+        prop_oneof![4 => select(palette.chars().collect::<Vec<_>>()), 1 => any::<char>()];
     proptest::collection::vec(character, 0..8).prop_map(|text| text.into_iter().collect())
 }
 
@@ -136,7 +138,8 @@ fn weight() -> impl Strategy<Value = u32> {
 }
 
 fn places(count: usize) -> impl Strategy<Value = Vec<OwnedPlace>> {
-    let place = (weird_text(), number(), number(), any::<bool>(), 0..5_usize, any::<prop::sample::Index>());
+    let place =
+        (weird_text(), number(), number(), any::<bool>(), 0..5_usize, any::<prop::sample::Index>());
     (names(count), proptest::collection::vec(place, count)).prop_map(|(names, drawn)| {
         let mut places: Vec<OwnedPlace> = Vec::new();
         for (name, (doc, a, b, bounded, role, of)) in names.into_iter().zip(drawn) {
@@ -190,7 +193,11 @@ fn ids(count: usize, most: usize) -> impl Strategy<Value = Vec<u32>> {
     proptest::collection::vec(0..count.max(1) as u32, if count == 0 { 0..=0 } else { 0..=most })
 }
 
-fn transition(places: usize, events: usize, outputs: usize) -> impl Strategy<Value = OwnedTransition> {
+fn transition(
+    places: usize,
+    events: usize,
+    outputs: usize,
+) -> impl Strategy<Value = OwnedTransition> {
     let lines = prop_oneof![Just(None), number().prop_map(Some)];
     let needs = (arcs(places), any::<u8>());
     let said = (weird_text(), lines, ids(events, 1), ids(outputs, 3), within(), any::<i16>());
@@ -231,19 +238,27 @@ fn law(places: usize) -> impl Strategy<Value = OwnedLaw> {
 fn ignored(places: usize, events: usize) -> impl Strategy<Value = Vec<Ignored>> {
     let most = if events == 0 { 0..=0 } else { 0..=3 };
     let pair = (0..events.max(1) as u32, 0..places as u32);
-    let ignored = pair.prop_map(|(event, place)| Ignored { event: EventId(event), place: PlaceId(place) });
+    let ignored =
+        pair.prop_map(|(event, place)| Ignored { event: EventId(event), place: PlaceId(place) });
     proptest::collection::vec(ignored, most)
 }
 
 fn net() -> impl Strategy<Value = OwnedNet> {
     (1..7_usize, 0..4_usize, 0..4_usize, 0..7_usize).prop_flat_map(
         |(places_count, events, outputs, count)| {
-            let transitions = proptest::collection::vec(transition(places_count, events, outputs), count);
+            let transitions =
+                proptest::collection::vec(transition(places_count, events, outputs), count);
             let laws = proptest::collection::vec(law(places_count), 0..5);
             let texts = (weird_text(), weird_text(), names(count));
             let signals = (signals(events), signals(outputs), ignored(places_count, events));
             (texts, places(places_count), signals, transitions, laws).prop_map(
-                |((name, doc, names), places, (events, outputs, ignored), mut transitions, laws)| {
+                |(
+                    (name, doc, names),
+                    places,
+                    (events, outputs, ignored),
+                    mut transitions,
+                    laws,
+                )| {
                     for (transition, name) in transitions.iter_mut().zip(names) {
                         transition.name = name;
                     }
@@ -279,7 +294,8 @@ fn a_read_is_not_a_take_that_is_given_back() {
     let power = net.place(OwnedPlace::new("power", 1)).unwrap();
     let lit = net.place(OwnedPlace::new("lit", 0)).unwrap();
     net.transition(OwnedTransition::new("reads").read(power, 1).give(lit, 1)).unwrap();
-    net.transition(OwnedTransition::new("borrows").take(power, 1).give(lit, 1).give(power, 1)).unwrap();
+    net.transition(OwnedTransition::new("borrows").take(power, 1).give(lit, 1).give(power, 1))
+        .unwrap();
     net.transition(OwnedTransition::new("doubles").read(power, 2).give(power, 3)).unwrap();
     comes_back(&net);
 }
@@ -300,8 +316,12 @@ fn the_written_text_of_a_small_net() {
     let open = net.place(OwnedPlace::new(" open\u{1b}", 0)).unwrap();
     let free = net.place(OwnedPlace::new("free", 2)).unwrap();
     let come = net.event("come", "").unwrap();
-    net.transition(OwnedTransition::new("opens").on(come).take(shut, 1).read(free, 2).give(open, 1)).unwrap();
-    net.transition(OwnedTransition::new("shuts").within(100, None).take(open, 1).give(shut, 1)).unwrap();
+    net.transition(
+        OwnedTransition::new("opens").on(come).take(shut, 1).read(free, 2).give(open, 1),
+    )
+    .unwrap();
+    net.transition(OwnedTransition::new("shuts").within(100, None).take(open, 1).give(shut, 1))
+        .unwrap();
     net.laws.push(OwnedLaw::NeverBoth(shut, open));
     let text = pnml::write(&net.view().net());
     let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml");
@@ -324,8 +344,9 @@ fn tina_is_told_when_a_transition_fires() {
     net.transition(OwnedTransition::new("asked in time").on(event).within(4, Some(9))).unwrap();
     let text = pnml::write_for_tina(&net.view().net());
     let interval = |line: &str| {
-        let start =
-            line.strip_prefix("<delay><interval xmlns=\"http://www.w3.org/1998/Math/MathML\" closure=")?;
+        let start = line.strip_prefix(
+            "<delay><interval xmlns=\"http://www.w3.org/1998/Math/MathML\" closure=",
+        )?;
         start.strip_suffix("</interval></delay>").map(str::to_owned)
     };
     let intervals: Vec<String> = text.lines().filter_map(interval).collect();

@@ -42,7 +42,8 @@ impl<'de> Deserialize<'de> for Triple {
 
             fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Triple, A::Error> {
                 let mut next = |before: usize| {
-                    list.next_element::<u32>()?.ok_or_else(|| A::Error::invalid_length(before, &Three))
+                    list.next_element::<u32>()?
+                        .ok_or_else(|| A::Error::invalid_length(before, &Three))
                 };
                 let triple = Triple(next(0)?, next(1)?, next(2)?);
                 match list.next_element::<IgnoredAny>()? {
@@ -132,8 +133,9 @@ impl Instance {
             quality,
             id,
         };
-        let candidates =
-            |activity: Bounded<Triple, ActivityList>| (0..).zip(&activity.items).map(candidate).collect();
+        let candidates = |activity: Bounded<Triple, ActivityList>| {
+            (0..).zip(&activity.items).map(candidate).collect()
+        };
         Ok(Self {
             limits: [file.limits.duration_ms, file.limits.energy_mj],
             activities: file.activities.items.into_iter().map(candidates).collect(),

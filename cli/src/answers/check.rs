@@ -218,7 +218,8 @@ pub(crate) struct StatespaceAnswer {
     pub(crate) semantics: Option<Semantics>,
     /// What to know about the model as it was explored.
     pub(crate) notes: Vec<String>,
-    /// Reachable markings, of a time net state classes. This and what follows is null where it is not known or has no end.
+    /// Reachable markings, of a time net state classes. This and what follows is null where it is
+    /// not known or has no end.
     pub(crate) states: Option<String>,
     /// Firings between them.
     pub(crate) arcs: Option<String>,

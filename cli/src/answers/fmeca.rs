@@ -16,7 +16,8 @@ pub(crate) struct FmecaAnswer {
     pub(crate) diagnosability: Diagnosability,
 }
 
-/// How many failure modes are seen and answered; every one of them is in `detected` or in `undetectable`.
+/// How many failure modes are seen and answered; every one of them is in `detected` or in
+/// `undetectable`.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct CountsRow {
     pub(crate) rows: usize,
@@ -126,7 +127,8 @@ pub(crate) struct StatusRow {
     pub(crate) impossible: Vec<&'static str>,
     /// The largest sets of failure modes that some flags leave open.
     pub(crate) groups: Vec<GroupRow>,
-    /// Every two that some flags leave open, with the probes of which each one would tell them apart.
+    /// Every two that some flags leave open, with the probes of which each one would tell them
+    /// apart.
     pub(crate) pairs: Vec<PairRow>,
     /// Whether probes could tell all pairs apart.
     pub(crate) separable: bool,

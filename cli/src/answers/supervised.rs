@@ -1,4 +1,5 @@
-//! The answer for a supervised run: from each failure to the reaction. Failures are counted from 1, in the order of `failures`.
+//! The answer for a supervised run: from each failure to the reaction. Failures are counted from 1,
+//! in the order of `failures`.
 
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -18,7 +19,8 @@ pub(crate) struct Supervised {
     pub(crate) told: Vec<Told>,
 }
 
-/// A point of the story: the start, a failure, or what the operator does before the robot goes on alone.
+/// A point of the story: the start, a failure, or what the operator does before the robot goes on
+/// alone.
 #[derive(Debug, JsonSchema, Serialize)]
 pub(crate) struct Point {
     /// From 1.
@@ -87,7 +89,8 @@ pub(crate) struct Failure {
     pub(crate) transition: Option<String>,
     /// When a supervisor first acted on it.
     pub(crate) answered_ms: Option<u64>,
-    /// For how long, in all, the robot moved without a module that its configuration required and that this failure breaks.
+    /// For how long, in all, the robot moved without a module that its configuration required and
+    /// that this failure breaks.
     pub(crate) exposed_ms: u64,
 }
 

@@ -101,7 +101,8 @@ fn seconds(text: &str) -> Result<Duration, String> {
 
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
-    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net) file, or `-`
+    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
+    /// file, or `-`
     pub(crate) model: String,
     /// A property, or the name of a usual question; any number of them
     #[arg(long, value_name = "TEXT")]
@@ -115,7 +116,8 @@ pub(crate) struct CheckArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: interleaving; rounds where a system has requirements]
+    /// What it means that nets of a system work together [default: interleaving; rounds where a
+    /// system has requirements]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
@@ -135,12 +137,14 @@ pub(crate) struct CheckArgs {
 
 #[derive(Args, Debug)]
 pub(crate) struct StatespaceArgs {
-    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net) file, or `-`
+    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
+    /// file, or `-`
     pub(crate) model: String,
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: interleaving; rounds where a system has requirements]
+    /// What it means that nets of a system work together [default: interleaving; rounds where a
+    /// system has requirements]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
@@ -166,7 +170,8 @@ pub(crate) struct VerifyArgs {
 pub(crate) enum Semantics {
     /// They act in any order, at any time: what never happens so never happens in rounds
     Interleaving,
-    /// As they are executed: each net settles and reads its mailboxes in its turn, then one event comes from outside, or none
+    /// As they are executed: each net settles and reads its mailboxes in its turn, then one event
+    /// comes from outside, or none
     Rounds,
 }
 

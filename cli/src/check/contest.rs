@@ -27,8 +27,12 @@ mod tests {
 
     #[test]
     fn each_technique_is_named_once() {
-        let named = techniques(&["structural", "reductions", "structural", "explicit", "temporal"], 1);
-        assert_eq!(named, ["TOPOLOGICAL", "STRUCTURAL_REDUCTION", "EXPLICIT", "SEQUENTIAL_PROCESSING"]);
+        let named =
+            techniques(&["structural", "reductions", "structural", "explicit", "temporal"], 1);
+        assert_eq!(
+            named,
+            ["TOPOLOGICAL", "STRUCTURAL_REDUCTION", "EXPLICIT", "SEQUENTIAL_PROCESSING"]
+        );
         assert_eq!(techniques(&[""; 0], 2), ["PARALLEL_PROCESSING"]);
     }
 }

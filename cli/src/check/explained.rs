@@ -11,11 +11,13 @@ use cotama_verification::property::{Formula, Property, Question};
 use cotama_verification::temporal::Rest;
 use std::fmt::Write;
 
-/// What may be asked to find out whether a property holds vacuously: so many questions, each among so many markings.
+/// What may be asked to find out whether a property holds vacuously: so many questions, each among
+/// so many markings.
 const QUESTIONS: usize = 8;
 const MARKINGS: u64 = 100_000;
 
-/// Among so many markings it is looked for all that no run uses, where the verdict did not need them all.
+/// Among so many markings it is looked for all that no run uses, where the verdict did not need
+/// them all.
 const UNUSED: u64 = 1_000_000;
 
 /// The run of an answer, explained, if there is one.
@@ -42,9 +44,12 @@ pub(super) fn diagnosis(
     Some(if explained == Err(NotARun::Net) { Diagnosis::new(&case) } else { explained })
 }
 
-/// Which firings of a run are shown: of a system in rounds not those in which its token only goes on.
+/// Which firings of a run are shown: of a system in rounds not those in which its token only goes
+/// on.
 pub(super) fn shown(subject: &Subject, answer: &Answer, count: usize) -> Vec<bool> {
-    let (Some(rounds), Some(run)) = (&subject.rounds, &answer.run) else { return vec![true; count] };
+    let (Some(rounds), Some(run)) = (&subject.rounds, &answer.run) else {
+        return vec![true; count];
+    };
     let run = Run::from(run.clone());
     run.firings().map(|it| rounds.part(it) != Some(Part::Between)).collect()
 }
@@ -110,7 +115,9 @@ pub(super) fn unused<'m>(
 }
 
 pub(super) fn unused_row(unused: &Unused<'_>) -> UnusedRow {
-    let rows = |all: Vec<Never>| all.into_iter().map(|it| NeverRow { name: it.name, why: it.why }).collect();
+    let rows = |all: Vec<Never>| {
+        all.into_iter().map(|it| NeverRow { name: it.name, why: it.why }).collect()
+    };
     UnusedRow {
         transitions: rows(unused.never_fired()),
         places: rows(unused.never_marked()),

@@ -102,7 +102,12 @@ impl Files {
         })
     }
 
-    fn write(&self, position: usize, screen: &Screen, text: impl Fn(Form) -> String) -> Result<(), Failure> {
+    fn write(
+        &self,
+        position: usize,
+        screen: &Screen,
+        text: impl Fn(Form) -> String,
+    ) -> Result<(), Failure> {
         let Some((wanted, form)) = &self.trace else { return Ok(()) };
         let path = self.path(wanted, position);
         output::file(&path, text(*form).as_bytes())?;
@@ -113,7 +118,10 @@ impl Files {
     /// Says that no run is written, where one is wanted.
     pub(super) fn no_trace(&self, property: &Property, screen: &Screen) {
         if self.trace.is_some() {
-            screen.note(&format!("no trace for {}: no single run shows the answer", visible(&property.name)));
+            screen.note(&format!(
+                "no trace for {}: no single run shows the answer",
+                visible(&property.name)
+            ));
         }
     }
 }
@@ -134,14 +142,19 @@ impl Form {
             Some("svg") => Ok(Self::Svg),
             Some("json") => Ok(Self::Json),
             _ => {
-                let message = format!("{}: the end of this name says no form of a trace", path.display());
+                let message =
+                    format!("{}: the end of this name says no form of a trace", path.display());
                 Err(Failure::new(message).help("a trace is written as .html, .svg or .json"))
             }
         }
     }
 }
 
-fn certified(subject: &Subject, property: &Property, answer: &Answer) -> Result<Certificate, String> {
+fn certified(
+    subject: &Subject,
+    property: &Property,
+    answer: &Answer,
+) -> Result<Certificate, String> {
     let Model::Plain(pt) = &subject.model else {
         return Err(certificate::Uncertifiable::Time.to_string());
     };

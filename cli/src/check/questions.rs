@@ -29,7 +29,8 @@ pub(super) struct Asked {
     pub(super) watched: Vec<Option<Subject>>,
 }
 
-/// What is asked on the command line or in a file; without either, the laws of the model, or the usual questions.
+/// What is asked on the command line or in a file; without either, the laws of the model, or the
+/// usual questions.
 pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failure> {
     let pt = subject.model.pt();
     let mut properties = Vec::new();
@@ -110,8 +111,9 @@ fn file(path: &str, subject: &Subject) -> Result<Vec<Property>, Failure> {
         lines(name, input::utf8(path, WHAT, bytes)?, subject.model.pt())?
     };
     if properties.is_empty() {
-        return Err(Failure::new(format!("{name}: there is no property in it"))
-            .help("one a line, as `name: AG !(a & b)`; or a property file of the Model Checking Contest"));
+        return Err(Failure::new(format!("{name}: there is no property in it")).help(
+            "one a line, as `name: AG !(a & b)`; or a property file of the Model Checking Contest",
+        ));
     }
     Ok(properties)
 }
@@ -163,7 +165,8 @@ fn parsed(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
 /// A name before a colon, and what stands after it.
 fn named(line: &str) -> (Option<&str>, &str) {
     let is_name = |name: &str| {
-        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'))
+        !name.is_empty()
+            && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | '.'))
     };
     match line.split_once(':') {
         Some((name, formula)) if is_name(name.trim()) => (Some(name.trim()), formula),
@@ -189,7 +192,13 @@ fn errors(source: &str, text: String, wrong: Vec<(PropertyError, Option<Mark>)>)
     }
     let omitted = wrong.len().saturating_sub(KEPT);
     let errors = wrong.into_iter().take(KEPT).filter_map(|(error, at)| {
-        Some(FileError { message: error.message, at: at?, label: None, help: error.help, related: None })
+        Some(FileError {
+            message: error.message,
+            at: at?,
+            label: None,
+            help: error.help,
+            related: None,
+        })
     });
     FileErrors { source: source.to_owned(), text, errors: errors.collect(), omitted }.into()
 }
@@ -210,8 +219,8 @@ fn laws(net: &OwnedNet) -> Asked {
     Asked { properties, left_out, are_laws, is_usual: are_laws, ..Asked::default() }
 }
 
-/// What is usually asked of a net: is there no deadlock, is it 1-safe, or else how many tokens are there, can each
-/// transition fire.
+/// What is usually asked of a net: is there no deadlock, is it 1-safe, or else how many tokens are
+/// there, can each transition fire.
 fn usual(pt: &Pt) -> Vec<Property> {
     let property = |name: &str, question| Property { name: name.to_owned(), question };
     let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());

@@ -5,9 +5,9 @@ use crate::answers::fmeca::{
     AmbiguousCase, Diagnosability, GroupRow, PairRow, ProbeRow, StatusRow, UndetectableRow,
 };
 use cotama_models::cotama::{
-    Class, Diagnosis, FailureMode, FailureModes, Flag, Flags, Loss, Losses, Modules, Probe, Probes, Report,
-    Resource, Resources, Situation, ambiguity_groups, available, confusable_pairs, decide, diagnose,
-    is_detectable, local, path_following, shared_flags, undetectable,
+    Class, Diagnosis, FailureMode, FailureModes, Flag, Flags, Loss, Losses, Modules, Probe, Probes,
+    Report, Resource, Resources, Situation, ambiguity_groups, available, confusable_pairs, decide,
+    diagnose, is_detectable, local, path_following, shared_flags, undetectable,
 };
 
 /// The statuses that are looked at: the sound robot, and each single loss that leaves it running.
@@ -74,11 +74,16 @@ fn group(set: FailureModes, status: Modules) -> GroupRow {
 }
 
 fn probe(it: Probe) -> ProbeRow {
-    ProbeRow { name: it.name(), doc: it.doc(), shows: modes(it.shows()), needs: modules(it.needs()) }
+    ProbeRow {
+        name: it.name(),
+        doc: it.doc(),
+        shows: modes(it.shows()),
+        needs: modules(it.needs()),
+    }
 }
 
-/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI): avoidance drives the robot back along its path, in
-/// front of an obstacle that the map does not have.
+/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI): avoidance drives the robot
+/// back along its path, in front of an obstacle that the map does not have.
 fn ambiguous_case() -> AmbiguousCase {
     let raised = Flags::of(&[Flag::PoseGrowth, Flag::Backward]);
     let found = diagnose(raised, Modules::ALL);
@@ -100,8 +105,10 @@ fn ambiguous_case() -> AmbiguousCase {
         .iter()
         .filter(|probe| !probe.shows().common(candidates).is_empty())
         .fold(Probes::NONE, Probes::with);
-    let seen: Vec<_> =
-        raised.iter().map(|it| format!("`{}` ({})", it.name(), it.doc().trim_end_matches('.'))).collect();
+    let seen: Vec<_> = raised
+        .iter()
+        .map(|it| format!("`{}` ({})", it.name(), it.doc().trim_end_matches('.')))
+        .collect();
     let explained: Vec<_> = candidates.iter().map(|it| explanation(it, raised)).collect();
     let text = vec![
         format!(
@@ -122,7 +129,10 @@ fn ambiguous_case() -> AmbiguousCase {
             consequence(decided),
             consequence(decided_alone),
         ),
-        format!("What would tell them apart without the operator: the probes {}.", and(&probes(helps))),
+        format!(
+            "What would tell them apart without the operator: the probes {}.",
+            and(&probes(helps))
+        ),
     ];
     AmbiguousCase {
         flags: flags(raised),
@@ -150,9 +160,17 @@ fn explanation(mode: FailureMode, raised: Flags) -> String {
     let (text, signature) = (mode.description(), mode.rule().signature);
     let always = and(&flags(signature.always.common(raised)));
     let sometimes = signature.sometimes.common(raised);
-    let sometimes =
-        if sometimes.is_empty() { String::new() } else { format!(", sometimes {}", and(&flags(sometimes))) };
-    format!("{} ({}: {}) always raises {always}{sometimes}", mode.name(), text.component, text.failure)
+    let sometimes = if sometimes.is_empty() {
+        String::new()
+    } else {
+        format!(", sometimes {}", and(&flags(sometimes)))
+    };
+    format!(
+        "{} ({}: {}) always raises {always}{sometimes}",
+        mode.name(),
+        text.component,
+        text.failure
+    )
 }
 
 /// A list in words.

@@ -1,5 +1,6 @@
-//! Cause-effect (Ishikawa) diagrams: what takes a function away. The head is the effect, each rib a component, each branch of
-//! a rib a failure mode with its cause (method: Durand et al., IROS 2010).
+//! Cause-effect (Ishikawa) diagrams: what takes a function away. The head is the effect, each rib a
+//! component, each branch of a rib a failure mode with its cause (method: Durand et al., IROS
+//! 2010).
 
 use super::scene::{Face, Group, Place, Scene};
 use cotama_models::cotama::{FailureMode, Rib, Severity, ribs};
@@ -62,7 +63,8 @@ impl Bone {
         NAME + GAP + self.branches.iter().map(|it| it.height + GAP).sum::<i64>()
     }
 
-    /// How far to the left of its foot its texts would reach if it were upright, with what its slope adds beside them.
+    /// How far to the left of its foot its texts would reach if it were upright, with what its
+    /// slope adds beside them.
     fn width(&self) -> i64 {
         self.branches.iter().map(|it| it.width + CLEAR + slope(it.height)).max().unwrap_or(0)
     }
@@ -77,7 +79,8 @@ const fn slope(distance: i64) -> i64 {
 pub(crate) fn diagram(function: &str) -> Scene {
     let bones: Vec<Bone> = ribs(function).map(|rib| Bone::new(&rib)).collect();
     // Ribs stand above and below in turn, two at each foot.
-    let reach = |side: usize| bones.iter().skip(side).step_by(2).map(Bone::height).max().unwrap_or(0);
+    let reach =
+        |side: usize| bones.iter().skip(side).step_by(2).map(Bone::height).max().unwrap_or(0);
     let (above, below) = (reach(0), reach(1));
     let head = Head::new(function);
     let spine = MARGIN + above.max(head.height / 2);
@@ -86,15 +89,19 @@ pub(crate) fn diagram(function: &str) -> Scene {
     for pair in bones.chunks(2) {
         let room = |(side, bone): (usize, &Bone)| {
             let Some((before, foot)) = before.zip(feet.last()) else {
-                return MARGIN + slope([above, below][side]) + bone.width().max(bone.name_width() / 2);
+                return MARGIN
+                    + slope([above, below][side])
+                    + bone.width().max(bone.name_width() / 2);
             };
-            let names = before.get(side).map_or(0, |it| i64::midpoint(it.name_width(), bone.name_width()));
+            let names =
+                before.get(side).map_or(0, |it| i64::midpoint(it.name_width(), bone.name_width()));
             foot + names.max(bone.width()) + GAP
         };
         feet.push(pair.iter().enumerate().map(room).max().unwrap_or(0));
         before = Some(pair);
     }
-    let (first, last) = (feet.first().copied().unwrap_or(MARGIN), feet.last().copied().unwrap_or(MARGIN));
+    let (first, last) =
+        (feet.first().copied().unwrap_or(MARGIN), feet.last().copied().unwrap_or(MARGIN));
     let mut scene = Scene::default();
     let left = last + 40;
     let mut body = Group::default();
@@ -138,7 +145,13 @@ fn draw(scene: &mut Scene, bone: &Bone, (foot, spine): Place, side: i64, reach: 
 fn drawn(branch: &Branch, (left, top): Place, rib: i64) -> Group {
     let mode = branch.mode;
     let (rule, text) = (mode.rule(), mode.description());
-    let title = format!("{}: {}. Cause: {}. Effect: {}", mode.name(), text.failure, text.cause, text.effect);
+    let title = format!(
+        "{}: {}. Cause: {}. Effect: {}",
+        mode.name(),
+        text.failure,
+        text.cause,
+        text.effect
+    );
     let mut group = Group { title, items: Vec::new() };
     badges(&mut group, mode.name(), (rule.autonomous, rule.operator), (left, top));
     let mut y = top;
@@ -276,7 +289,8 @@ mod tests {
                 for (other_text, other) in &texts[..at] {
                     assert!(apart(*one, *other), "{text:?} and {other_text:?}: {one:?} {other:?}");
                 }
-                let inside = one[0] >= 0 && one[1] >= 0 && one[2] <= scene.width && one[3] <= scene.height;
+                let inside =
+                    one[0] >= 0 && one[1] >= 0 && one[2] <= scene.width && one[3] <= scene.height;
                 assert!(inside, "{text:?} {one:?}");
             }
         }
@@ -297,7 +311,11 @@ mod tests {
     fn every_failure_mode_is_drawn_once() {
         let scenes: Vec<_> = functions().map(diagram).collect();
         for mode in FailureMode::ALL {
-            let drawn = scenes.iter().flat_map(Scene::texts).filter(|(text, _)| *text == mode.name()).count();
+            let drawn = scenes
+                .iter()
+                .flat_map(Scene::texts)
+                .filter(|(text, _)| *text == mode.name())
+                .count();
             assert_eq!(drawn, 1, "{}", mode.name());
         }
     }
@@ -305,6 +323,8 @@ mod tests {
     #[test]
     fn what_is_measured_can_fail() {
         assert!(!apart([0, 0, 10, 10], [9, 9, 20, 20]) && apart([0, 0, 10, 10], [10, 0, 20, 10]));
-        assert!(meets(((0, 0), (10, 10)), [4, 4, 6, 6]) && !meets(((0, 0), (10, 10)), [6, 0, 10, 4]));
+        assert!(
+            meets(((0, 0), (10, 10)), [4, 4, 6, 6]) && !meets(((0, 0), (10, 10)), [6, 0, 10, 4])
+        );
     }
 }

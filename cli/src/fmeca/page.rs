@@ -1,4 +1,5 @@
-//! The FMECA as a page of its own: table, diagrams, diagnosability. No script, nothing from the network.
+//! The FMECA as a page of its own: table, diagrams, diagnosability. No script, nothing from the
+//! network.
 
 use super::sheet;
 use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
@@ -98,7 +99,8 @@ fn diagnosability(page: &mut String, it: &Diagnosability) {
     }
     page.push_str("<h3>Probes</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>Probe<th>Who would observe what<th>Shows<th>Needs</tr></thead>\n<tbody>\n");
     for probe in &it.probes {
-        let needs = if probe.needs.is_empty() { "itself".to_owned() } else { probe.needs.join(" ") };
+        let needs =
+            if probe.needs.is_empty() { "itself".to_owned() } else { probe.needs.join(" ") };
         put!(
             page,
             "<tr><th scope=\"row\">{}<td>{}<td>{}<td>{needs}</tr>",
@@ -107,7 +109,9 @@ fn diagnosability(page: &mut String, it: &Diagnosability) {
             links(&probe.shows)
         );
     }
-    page.push_str("</tbody>\n</table></div>\n<h3>The ambiguous case: point 3 of the published run</h3>\n");
+    page.push_str(
+        "</tbody>\n</table></div>\n<h3>The ambiguous case: point 3 of the published run</h3>\n",
+    );
     for paragraph in &it.ambiguous_case.text {
         put!(page, "<p>{}</p>", code(paragraph));
     }
@@ -132,7 +136,8 @@ fn status(page: &mut String, row: &StatusRow) {
     );
     page.push_str("<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags<th>Separated by</tr></thead>\n<tbody>\n");
     for pair in &row.pairs {
-        let probes = if pair.probes.is_empty() { "no probe".to_owned() } else { pair.probes.join(", or ") };
+        let probes =
+            if pair.probes.is_empty() { "no probe".to_owned() } else { pair.probes.join(", or ") };
         put!(
             page,
             "<tr><th scope=\"row\">{}<td>{}<td>{probes}</tr>",

@@ -18,8 +18,8 @@ pub(crate) fn answer() -> FmecaAnswer {
     }
 }
 
-/// The counts. That every row is detected and answered, or declared invisible with a reason, is asserted where the rows are
-/// defined, while compiling.
+/// The counts. That every row is detected and answered, or declared invisible with a reason, is
+/// asserted where the rows are defined, while compiling.
 fn counts() -> CountsRow {
     let all = || FailureMode::ALL.iter();
     let detected = || all().filter(|it| !it.rule().signature.always.is_empty());
@@ -72,7 +72,8 @@ fn row(mode: FailureMode) -> FmecaRow {
 }
 
 fn diagram(function: &'static str) -> DiagramRow {
-    let ribs = ribs(function).map(|rib| RibRow { component: rib.component, modes: modes(rib.modes) });
+    let ribs =
+        ribs(function).map(|rib| RibRow { component: rib.component, modes: modes(rib.modes) });
     DiagramRow { function, ribs: ribs.collect() }
 }
 

@@ -1,4 +1,5 @@
-//! Drawings as data: shapes and texts with their places, so that what is drawn can also be measured.
+//! Drawings as data: shapes and texts with their places, so that what is drawn can also be
+//! measured.
 
 use cotama_verification::export::svg::{bold_width, escape, width};
 use std::fmt::Write;
@@ -55,7 +56,9 @@ impl Face {
     pub(crate) fn width(self, text: &str) -> i64 {
         match self {
             Self::Failure | Self::Quiet => width(text, self.size()),
-            Self::Head | Self::Component | Self::Badge | Self::DarkBadge => bold_width(text, self.size()),
+            Self::Head | Self::Component | Self::Badge | Self::DarkBadge => {
+                bold_width(text, self.size())
+            }
         }
     }
 
@@ -128,7 +131,13 @@ impl Group {
     }
 
     /// Adds a box.
-    pub(crate) fn rect(&mut self, class: impl Into<String>, corner: Place, size: Place, radius: i64) {
+    pub(crate) fn rect(
+        &mut self,
+        class: impl Into<String>,
+        corner: Place,
+        size: Place,
+        radius: i64,
+    ) {
         self.items.push(Item::Rect { class: class.into(), corner, size, radius });
     }
 }
@@ -160,14 +169,22 @@ fn element(out: &mut String, item: &Item) {
             } else {
                 String::new()
             };
-            write!(out, "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>{tip}")
+            write!(
+                out,
+                "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>{tip}"
+            )
         }
         Item::Rect { class, corner: (x, y), size: (width, height), radius } => write!(
             out,
             "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>"
         ),
         Item::Text { face, at: (x, y), text } => {
-            write!(out, "<text class=\"{}\" x=\"{x}\" y=\"{y}\">{}</text>", face.class(), escape(text))
+            write!(
+                out,
+                "<text class=\"{}\" x=\"{x}\" y=\"{y}\">{}</text>",
+                face.class(),
+                escape(text)
+            )
         }
     };
 }

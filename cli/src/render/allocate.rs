@@ -9,8 +9,14 @@ use std::fmt::Write;
 const SHOWN: usize = 200;
 
 /// The screen.
-pub(crate) fn screen(answer: &AllocateAnswer, limits: [u64; 2], objective: &str, width: usize) -> String {
-    let mut text = format!("{}, {} steps\n", status(answer.status), grouped(&answer.steps.to_string()));
+pub(crate) fn screen(
+    answer: &AllocateAnswer,
+    limits: [u64; 2],
+    objective: &str,
+    width: usize,
+) -> String {
+    let mut text =
+        format!("{}, {} steps\n", status(answer.status), grouped(&answer.steps.to_string()));
     if let (Some(quality), Some(duration), Some(energy)) =
         (answer.quality, answer.duration_ms, answer.energy_mj)
     {

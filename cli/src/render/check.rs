@@ -3,12 +3,14 @@
 use super::numbers::grouped;
 use super::style::{BAD, FAINT, GOOD, HEADING, NOTICE};
 use super::{visible, wrapped};
-use crate::answers::check::{Amount, CheckAnswer, EvidenceName, ResponseRow, ResultRow, VerdictName};
+use crate::answers::check::{
+    Amount, CheckAnswer, EvidenceName, ResponseRow, ResultRow, VerdictName,
+};
 use anstyle::Style;
 use std::fmt::Write;
 
-/// The verdicts, and how they came about, as far as there is a text for each. Laws and usual questions have names that
-/// say enough.
+/// The verdicts, and how they came about, as far as there is a text for each. Laws and usual
+/// questions have names that say enough.
 pub(crate) fn screen(
     answer: &CheckAnswer,
     explained: &[Option<String>],
@@ -27,8 +29,11 @@ pub(crate) fn screen(
         if let Some(explained) = explained {
             let _ = write!(text, "\n{}", titled(row, answer.results.len()));
             for line in explained.lines() {
-                let _ =
-                    writeln!(text, "{}", if line.is_empty() { String::new() } else { format!("  {line}") });
+                let _ = writeln!(
+                    text,
+                    "{}",
+                    if line.is_empty() { String::new() } else { format!("  {line}") }
+                );
             }
         }
     }
@@ -40,7 +45,10 @@ pub(crate) fn screen(
     }
     if !answer.left_out.is_empty() {
         text += &wrapped(
-            &format!("\nchecked only while a program is compiled: {}", visible_list(&answer.left_out)),
+            &format!(
+                "\nchecked only while a program is compiled: {}",
+                visible_list(&answer.left_out)
+            ),
             width,
             "",
         );

@@ -10,7 +10,8 @@ use std::fmt::Write;
 /// Narrower screens show the rows one below the other, as cells would be too narrow to read.
 const LEAST: usize = 90;
 
-/// The columns with words: their titles, the least width of each, and its part of what is left, in hundredths.
+/// The columns with words: their titles, the least width of each, and its part of what is left, in
+/// hundredths.
 const WORDS: [(&str, usize, usize); 4] =
     [("component", 9, 15), ("failure", 12, 27), ("seen by", 10, 18), ("reaction", 14, 40)];
 
@@ -22,7 +23,12 @@ pub(crate) fn summary(counts: &CountsRow) -> String {
     format!(
         "{} failure modes of {} functions: {} are detected ({} reported to the contextual supervisor, {} recorded with a \
          reaction of their own), {} are declared undetectable with a reason; none is left out, which is checked while compiling",
-        counts.rows, counts.functions, counts.detected, counts.reported, counts.recorded, counts.undetectable
+        counts.rows,
+        counts.functions,
+        counts.detected,
+        counts.reported,
+        counts.recorded,
+        counts.undetectable
     )
 }
 
@@ -61,7 +67,8 @@ fn severity(name: &'static str) -> Style {
 
 /// The table, and the counts.
 pub(crate) fn screen(answer: &FmecaAnswer, width: usize) -> String {
-    let mut text = if width < LEAST { list(&answer.rows, width) } else { table(&answer.rows, width) };
+    let mut text =
+        if width < LEAST { list(&answer.rows, width) } else { table(&answer.rows, width) };
     text.push('\n');
     text += &wrapped(&summary(&answer.counts), width, "");
     let _ = writeln!(
@@ -92,14 +99,17 @@ fn table(rows: &[FmecaRow], width: usize) -> String {
         table = table.left(column);
     }
     for row in rows {
-        let words = [row.component.to_owned(), row.failure.to_owned(), seen(row), row.reaction.to_owned()];
+        let words =
+            [row.component.to_owned(), row.failure.to_owned(), seen(row), row.reaction.to_owned()];
         let columns: Vec<Vec<String>> =
             words.iter().zip(widths).map(|(text, width)| lines(text, width)).collect();
         let most = columns.iter().map(Vec::len).max().unwrap_or(1);
         for at in 0..most {
-            let word =
-                |column: usize, style| Cell::new(columns[column].get(at).cloned().unwrap_or_default(), style);
-            let first = |text: &'static str, style| Cell::new(if at == 0 { text } else { "" }, style);
+            let word = |column: usize, style| {
+                Cell::new(columns[column].get(at).cloned().unwrap_or_default(), style)
+            };
+            let first =
+                |text: &'static str, style| Cell::new(if at == 0 { text } else { "" }, style);
             table.row(vec![
                 first(row.id, HEADING),
                 word(0, PLAIN),
@@ -187,15 +197,22 @@ pub(crate) fn diagnosability(it: &Diagnosability, width: usize) -> String {
 
 /// Flags that leave something open, in words.
 pub(crate) fn shared(flags: &[&str], optional: &[&str]) -> String {
-    let more =
-        if optional.is_empty() { String::new() } else { format!(" (or with {})", optional.join(", ")) };
+    let more = if optional.is_empty() {
+        String::new()
+    } else {
+        format!(" (or with {})", optional.join(", "))
+    };
     format!("{}{more}", flags.join(" + "))
 }
 
 /// What probes there are against all that is alike, in words.
 pub(crate) fn against(row: &StatusRow) -> String {
-    let open: Vec<_> =
-        row.pairs.iter().filter(|it| it.probes.is_empty()).map(|it| it.shared.modes.join(" and ")).collect();
+    let open: Vec<_> = row
+        .pairs
+        .iter()
+        .filter(|it| it.probes.is_empty())
+        .map(|it| it.shared.modes.join(" and "))
+        .collect();
     let probes = row.least_probes.join(", ");
     match (row.least_probes.len(), open.as_slice()) {
         (0, []) => "nothing is alike".to_owned(),
@@ -230,7 +247,8 @@ fn status(row: &StatusRow, width: usize) -> String {
             probes => format!("separated by {}", probes.join(", or ")),
         };
         let both = pair.shared.modes.join(" ");
-        text += &described(&format!("alike {both}"), 15, NOTICE, &format!("{shared}: {probes}"), width);
+        text +=
+            &described(&format!("alike {both}"), 15, NOTICE, &format!("{shared}: {probes}"), width);
     }
     text += &described("probes", 15, GOOD, &against(row), width);
     for unseen in &row.undetectable {

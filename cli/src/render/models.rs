@@ -18,11 +18,13 @@ const LEAST: usize = 24;
 /// All models, one line each. The entries are those of the rows.
 pub(crate) fn table(answer: &ModelsAnswer, entries: &[Entry], width: usize) -> String {
     let heads = ["", "places", "transitions", "states", "laws", ""];
-    let number =
-        |number: Option<u64>| number.map_or_else(|| "\u{2013}".to_owned(), |it| grouped(&it.to_string()));
+    let number = |number: Option<u64>| {
+        number.map_or_else(|| "\u{2013}".to_owned(), |it| grouped(&it.to_string()))
+    };
     let cells = |(row, entry): (&ModelRow, &Entry)| {
         let laws = (row.kind == ModelKind::Net).then_some(row.laws.len() as u64);
-        let [places, transitions, states, laws] = [row.places, row.transitions, row.states, laws].map(number);
+        let [places, transitions, states, laws] =
+            [row.places, row.transitions, row.states, laws].map(number);
         [entry.shown_name(), places, transitions, states, laws, entry.sentence().to_owned()]
     };
     let rows: Vec<_> = answer.models.iter().zip(entries).map(cells).collect();
@@ -40,7 +42,8 @@ pub(crate) fn table(answer: &ModelsAnswer, entries: &[Entry], width: usize) -> S
         table.row(cells);
     }
     let mut text = format!("{HEADING}models{HEADING:#}\n{}\n", table.render(width));
-    let states = "states are those explored while compiling; a family needs a number, as philosophers:5";
+    let states =
+        "states are those explored while compiling; a family needs a number, as philosophers:5";
     text += &wrapped(states, width, "  ");
     let _ = writeln!(
         text,
@@ -83,11 +86,20 @@ fn size(row: &ModelRow, width: usize) -> String {
             Some(timed @ 1..) => format!(", {timed} with an interval of time"),
             _ => String::new(),
         };
-        let _ = writeln!(text, "  {}, {}{timed}", count(places, "place"), count(transitions, "transition"));
+        let _ = writeln!(
+            text,
+            "  {}, {}{timed}",
+            count(places, "place"),
+            count(transitions, "transition")
+        );
     }
     if let Some(numbers) = row.numbers {
         let (least, most) = (numbers.least, numbers.most);
-        let _ = writeln!(text, "  a net for each number from {least} to {}", grouped(&most.to_string()));
+        let _ = writeln!(
+            text,
+            "  a net for each number from {least} to {}",
+            grouped(&most.to_string())
+        );
     }
     match (row.states, row.firings, row.settle) {
         (Some(states), Some(firings), Some(settle)) => {
@@ -100,7 +112,10 @@ fn size(row: &ModelRow, width: usize) -> String {
             let _ = match settle {
                 0 => writeln!(text, "  no transition fires at once by itself"),
                 1 => writeln!(text, "  at most 1 transition fires at once by itself"),
-                _ => writeln!(text, "  at most {settle} transitions fire at once by themselves, in a row"),
+                _ => writeln!(
+                    text,
+                    "  at most {settle} transitions fire at once by themselves, in a row"
+                ),
             };
         }
         _ if row.kind != ModelKind::Family => text += "  states: not explored while compiling\n",
@@ -108,7 +123,10 @@ fn size(row: &ModelRow, width: usize) -> String {
     }
     if !row.components.is_empty() {
         let column = row.components.iter().map(|it| it.name.len()).max().unwrap_or(0);
-        let _ = writeln!(text, "\n{HEADING}nets{HEADING:#}  {FAINT}in the order of their turns{FAINT:#}");
+        let _ = writeln!(
+            text,
+            "\n{HEADING}nets{HEADING:#}  {FAINT}in the order of their turns{FAINT:#}"
+        );
         for component in &row.components {
             text += &described(&component.name, column, NAME, &component.net, width);
         }
@@ -117,7 +135,8 @@ fn size(row: &ModelRow, width: usize) -> String {
 }
 
 fn places(net: &OwnedNet, width: usize) -> String {
-    let own: Vec<_> = net.places.iter().filter(|it| !matches!(it.role, Role::Complement(_))).collect();
+    let own: Vec<_> =
+        net.places.iter().filter(|it| !matches!(it.role, Role::Complement(_))).collect();
     let hidden = net.places.len() - own.len();
     let told = own.iter().take(SHOWN).map(|place| {
         let kind = match place.role {
@@ -137,14 +156,16 @@ fn places(net: &OwnedNet, width: usize) -> String {
         told.iter().map(|it| of(it).chars().count()).max().unwrap_or(0)
     };
     let (names, tokens) = (widest(|it| &it.0), widest(|it| &it.1));
-    let mut text = format!("\n{HEADING}places{HEADING:#}  {FAINT}with the tokens at the start{FAINT:#}\n");
+    let mut text =
+        format!("\n{HEADING}places{HEADING:#}  {FAINT}with the tokens at the start{FAINT:#}\n");
     for (name, held, doc) in &told {
         text += &described(name, names, NAME, &format!("{held:<tokens$}  {doc}"), width);
     }
     text += &more(own.len());
     if hidden > 0 {
         let complements = count(hidden as u64, "complement");
-        let _ = writeln!(text, "  {FAINT}and {complements}: what a place lacks to its bound{FAINT:#}");
+        let _ =
+            writeln!(text, "  {FAINT}and {complements}: what a place lacks to its bound{FAINT:#}");
     }
     text
 }
@@ -189,8 +210,12 @@ fn next(row: &ModelRow) -> String {
     let name = visible(&crate::mission::quoted(&row.name));
     let commands = match row.kind {
         ModelKind::Net => vec![format!("simulate {name}"), format!("export {name} --format svg")],
-        ModelKind::Family => row.numbers.iter().map(|it| format!("models {name}:{}", it.least)).collect(),
-        ModelKind::System => row.components.iter().take(1).map(|it| format!("models {}", it.net)).collect(),
+        ModelKind::Family => {
+            row.numbers.iter().map(|it| format!("models {name}:{}", it.least)).collect()
+        }
+        ModelKind::System => {
+            row.components.iter().take(1).map(|it| format!("models {}", it.net)).collect()
+        }
     };
     let commands: Vec<_> = commands.iter().map(|it| format!("{NAME}cotama {it}{NAME:#}")).collect();
     format!("\nnext: {}\n", commands.join(", "))

@@ -34,7 +34,8 @@ pub(crate) fn screen(answer: &PlanAnswer, name: &str, width: usize) -> String {
     );
     text += &activities(answer).render(width);
     if answer.activities.len() > SHOWN {
-        let _ = writeln!(text, "  and {} more activities: see --json", answer.activities.len() - SHOWN);
+        let _ =
+            writeln!(text, "  and {} more activities: see --json", answer.activities.len() - SHOWN);
     }
     let who = match (answer.allocator, answer.objective) {
         (Some("panorama"), _) => ", found by the rule of PANORAMA".to_owned(),
@@ -65,7 +66,8 @@ fn activities(answer: &PlanAnswer) -> Table {
         row
     };
     let dash = || Cell::faint("\u{b7}");
-    let mut table = Table::new(vec![line("", shown().map(|it| Cell::new(&it.id, HEADING)).collect())]);
+    let mut table =
+        Table::new(vec![line("", shown().map(|it| Cell::new(&it.id, HEADING)).collect())]);
     table.row(line("objective", shown().map(|it| Cell::plain(&it.objective)).collect()));
     table.row(line("from m", shown().map(|it| Cell::plain(short_metres(it.x_start_mm))).collect()));
     table.row(line("to m", shown().map(|it| Cell::plain(short_metres(it.x_end_mm))).collect()));
@@ -94,8 +96,14 @@ fn activities(answer: &PlanAnswer) -> Table {
         speed => Cell::plain(speed.to_string()),
     });
     table.row(line("mm/s", speeds.collect()));
-    table.row(line("s", plan().map(|row| Cell::plain(milli(row.duration_ms.into(), 1, ""))).collect()));
-    table.row(line("J", plan().map(|row| Cell::plain(milli(row.energy_mj.into(), 0, ""))).collect()));
+    table.row(line(
+        "s",
+        plan().map(|row| Cell::plain(milli(row.duration_ms.into(), 1, ""))).collect(),
+    ));
+    table.row(line(
+        "J",
+        plan().map(|row| Cell::plain(milli(row.energy_mj.into(), 0, ""))).collect(),
+    ));
     table
 }
 
@@ -141,8 +149,11 @@ fn front(rows: &[FrontRow], width: usize) -> String {
         ]);
     }
     let all = count(rows.len() as u64, "plan");
-    let some =
-        if shown < rows.len() { format!(", {shown} of them shown (all: --json)") } else { String::new() };
+    let some = if shown < rows.len() {
+        format!(", {shown} of them shown (all: --json)")
+    } else {
+        String::new()
+    };
     format!(
         "  {all}, none of them worse than another in duration, energy and quality{some}\n\n{}",
         table.render(width)
@@ -152,8 +163,11 @@ fn front(rows: &[FrontRow], width: usize) -> String {
 fn next(answer: &PlanAnswer, name: &str) -> String {
     let advice = match (answer.status, answer.objective) {
         (Status::Infeasible, _) => {
-            let raised =
-                answer.reason.iter().flat_map(|reason| &reason.relaxations).find_map(Relaxation::raised);
+            let raised = answer
+                .reason
+                .iter()
+                .flat_map(|reason| &reason.relaxations)
+                .find_map(Relaxation::raised);
             match raised {
                 Some(flags) => format!("cotama plan {name}{flags}"),
                 None => return String::new(),

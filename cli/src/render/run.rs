@@ -1,4 +1,5 @@
-//! The screen of `cotama run`: the plans as in the paper's Table 7, the margins over the run, what happened.
+//! The screen of `cotama run`: the plans as in the paper's Table 7, the margins over the run, what
+//! happened.
 
 use super::numbers::{count, joules, metres, milli, seconds};
 use super::reason::reason;
@@ -14,7 +15,8 @@ const SHOWN_PLANS: usize = 20;
 const SHOWN_ACTIVITIES: usize = 200;
 const SHOWN_EVENTS: usize = 40;
 
-/// The screen; `name` is the mission and what was changed about it, as on the command line. There is no trace when the robot never left.
+/// The screen; `name` is the mission and what was changed about it, as on the command line. There
+/// is no trace when the robot never left.
 pub(crate) fn screen(body: &RunBody, trace: Option<&Trace>, name: &str, width: usize) -> String {
     let mut text = headline(body, trace);
     if let Some(supervised) = &body.supervised {
@@ -111,7 +113,8 @@ fn plans(body: &RunBody, width: usize) -> String {
 /// What each plan chose for each activity.
 fn choices(body: &RunBody, width: usize) -> String {
     let Some(first) = body.plans.first() else { return String::new() };
-    let ids: Vec<_> = first.plan.iter().map(|row| row.activity.as_str()).take(SHOWN_ACTIVITIES).collect();
+    let ids: Vec<_> =
+        first.plan.iter().map(|row| row.activity.as_str()).take(SHOWN_ACTIVITIES).collect();
     let mut head = vec![Cell::plain("")];
     head.extend(ids.iter().map(|&id| Cell::new(id, HEADING)));
     let mut table = Table::new(vec![head]);
@@ -121,7 +124,11 @@ fn choices(body: &RunBody, width: usize) -> String {
     }
     let mut text = format!("\n{}", table.render(width));
     if first.plan.len() > SHOWN_ACTIVITIES {
-        let _ = writeln!(text, "  and {} more activities: see --json", first.plan.len() - SHOWN_ACTIVITIES);
+        let _ = writeln!(
+            text,
+            "  and {} more activities: see --json",
+            first.plan.len() - SHOWN_ACTIVITIES
+        );
     }
     text
 }
@@ -148,12 +155,13 @@ fn margins(body: &RunBody, trace: &Trace, width: usize) -> String {
         .collect();
     let Some(&(end, _)) = samples.last() else { return String::new() };
     let room = width.saturating_sub(46).clamp(16, 72);
-    let line = |name: &str, values: Vec<(u64, i64)>, left: Option<i64>, words: fn(i64) -> String| {
-        let least = values.iter().map(|&(_, value)| value).min().unwrap_or(0);
-        let drawn = sparkline(&values, end, room, super::style::NAME);
-        let left = words(left.unwrap_or(0));
-        format!("  {name:8}  {drawn}  least {}, left {left}\n", words(least))
-    };
+    let line =
+        |name: &str, values: Vec<(u64, i64)>, left: Option<i64>, words: fn(i64) -> String| {
+            let least = values.iter().map(|&(_, value)| value).min().unwrap_or(0);
+            let drawn = sparkline(&values, end, room, super::style::NAME);
+            let left = words(left.unwrap_or(0));
+            format!("  {name:8}  {drawn}  least {}, left {left}\n", words(least))
+        };
     let duration = samples.iter().map(|&(time, it)| (time, it.duration_ms)).collect();
     let energy = samples.iter().map(|&(time, it)| (time, it.energy_mj)).collect();
     let times: Vec<_> =
@@ -200,8 +208,12 @@ fn ending(body: &RunBody, name: &str) -> String {
         count(body.operator_requests, "operator request"),
     );
     if let (Some(duration), Some(energy)) = (body.duration_margin_ms, body.energy_margin_mj) {
-        let _ =
-            write!(text, "; left {} and {}", milli(duration.into(), 3, " s"), milli(energy.into(), 3, " J"));
+        let _ = write!(
+            text,
+            "; left {} and {}",
+            milli(duration.into(), 3, " s"),
+            milli(energy.into(), 3, " J")
+        );
     }
     text.push('\n');
     if let Some(report) = &body.report {

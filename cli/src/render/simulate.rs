@@ -37,14 +37,16 @@ pub(crate) fn screen(answer: &SimulateAnswer, net: &Net<'_>, width: usize) -> St
     text
 }
 
-/// What happened last, where the net is, and what can be done: what stands before the prompt of a game by hand.
+/// What happened last, where the net is, and what can be done: what stands before the prompt of a
+/// game by hand.
 pub(crate) fn position(answer: &SimulateAnswer, net: &Net<'_>, width: usize) -> String {
     format!("{}\n{}", steps(&answer.steps, net, width), state(answer, net, width, true))
 }
 
 /// All places with their tokens.
 pub(crate) fn whole_marking(answer: &SimulateAnswer, width: usize) -> String {
-    let places = answer.marking.iter().map(|(place, tokens)| format!("{} {tokens}", visible(place)));
+    let places =
+        answer.marking.iter().map(|(place, tokens)| format!("{} {tokens}", visible(place)));
     wrapped(&places.collect::<Vec<_>>().join("  "), width, "  ")
 }
 
@@ -60,14 +62,18 @@ fn steps(steps: &[StepRow], net: &Net<'_>, width: usize) -> String {
     let mut text = String::new();
     let left_out = steps.len().saturating_sub(SHOWN_STEPS);
     if left_out > 0 {
-        let _ =
-            writeln!(text, "  {FAINT}{} before these: see --json{FAINT:#}", count(left_out as u64, "step"));
+        let _ = writeln!(
+            text,
+            "  {FAINT}{} before these: see --json{FAINT:#}",
+            count(left_out as u64, "step")
+        );
     }
     let head = ["time", "event", "fired", "emitted", "marking after"].map(Cell::faint).to_vec();
     let mut table = Table::new(vec![head]).left(1).left(2).left(3).left(4);
     for step in &steps[left_out..] {
         let tokens = |it: &&TokensRow| !complements.contains(it.place.as_str());
-        let changed = step.changed.iter().filter(tokens).map(|it| format!("{} {}", it.place, it.tokens));
+        let changed =
+            step.changed.iter().filter(tokens).map(|it| format!("{} {}", it.place, it.tokens));
         let fired = if step.fired.is_empty() && step.ignored.is_empty() {
             Cell::faint("nothing")
         } else if step.fired.is_empty() {
@@ -77,7 +83,10 @@ fn steps(steps: &[StepRow], net: &Net<'_>, width: usize) -> String {
         };
         table.row(vec![
             Cell::plain(time(step.time_ms)),
-            Cell::new(listed(step.events.iter().cloned()), if step.events.is_empty() { PLAIN } else { NAME }),
+            Cell::new(
+                listed(step.events.iter().cloned()),
+                if step.events.is_empty() { PLAIN } else { NAME },
+            ),
             fired,
             Cell::plain(listed(step.emitted.iter().cloned())),
             Cell::plain(listed(changed)),
@@ -111,8 +120,10 @@ fn listed(names: impl Iterator<Item = String>) -> String {
 /// The marking, and what becomes of each event; with the numbers of the events for a game by hand.
 fn state(answer: &SimulateAnswer, net: &Net<'_>, width: usize, numbered: bool) -> String {
     let complements: BTreeSet<_> = complements(net).collect();
-    let marked =
-        answer.marking.iter().filter(|(place, tokens)| *tokens > 0 && !complements.contains(place.as_str()));
+    let marked = answer
+        .marking
+        .iter()
+        .filter(|(place, tokens)| *tokens > 0 && !complements.contains(place.as_str()));
     let place = |(place, tokens): &(String, u32)| match tokens {
         1 => place.clone(),
         tokens => format!("{place} {tokens}"),
@@ -122,12 +133,15 @@ fn state(answer: &SimulateAnswer, net: &Net<'_>, width: usize, numbered: bool) -
         at.map_or_else(String::new, |at| format!("{} ", at + 1))
     };
     let reason = |wanted: bool| {
-        let refused =
-            answer.unused.iter().filter(move |it| (it.reason == RefusalReason::OnPurpose) == wanted);
+        let refused = answer
+            .unused
+            .iter()
+            .filter(move |it| (it.reason == RefusalReason::OnPurpose) == wanted);
         refused.map(|it| it.event.clone())
     };
     let used = answer.enabled.iter().map(|it| {
-        let by = if it.event == it.transition { String::new() } else { format!(" ({})", it.transition) };
+        let by =
+            if it.event == it.transition { String::new() } else { format!(" ({})", it.transition) };
         format!("{}{}{by}", number(&it.event), it.event)
     });
     let deadline = match &answer.deadline {

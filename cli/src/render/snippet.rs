@@ -1,4 +1,5 @@
-//! Errors of files as people know them from compilers: the line, the place under it, and what to do.
+//! Errors of files as people know them from compilers: the line, the place under it, and what to
+//! do.
 
 use crate::exit::Failure;
 use crate::file_errors::{FileError, FileErrors, Mark};
@@ -46,7 +47,8 @@ fn text(errors: &FileErrors, renderer: &Renderer) -> String {
     said
 }
 
-/// The error with its place, and the place that has to do with it, as far as their lines are short enough.
+/// The error with its place, and the place that has to do with it, as far as their lines are short
+/// enough.
 fn group<'e>(errors: &'e FileErrors, error: &'e FileError) -> Group<'e> {
     let Mark { line, column, .. } = error.at;
     let title = Level::ERROR.primary_title(error.message.as_str());
@@ -54,7 +56,13 @@ fn group<'e>(errors: &'e FileErrors, error: &'e FileError) -> Group<'e> {
     if let Some(related) = related
         && let Some(window) = window(&errors.text, &[&error.at, related])
     {
-        return title.element(snippet(errors, window, line.min(related.line), error, Some(related)));
+        return title.element(snippet(
+            errors,
+            window,
+            line.min(related.line),
+            error,
+            Some(related),
+        ));
     }
     let Some(window) = window(&errors.text, &[&error.at]) else {
         let title = format!("{}:{line}:{column}: {}", errors.source, error.message);
@@ -103,5 +111,9 @@ fn snippet<'e>(
     };
     let own = AnnotationKind::Primary.span(span(&error.at)).label(error.label.as_deref());
     let other = related.map(|mark| AnnotationKind::Context.span(span(mark)).label("see here"));
-    Snippet::source(text).line_start(first).path(errors.source.as_str()).annotation(own).annotations(other)
+    Snippet::source(text)
+        .line_start(first)
+        .path(errors.source.as_str())
+        .annotation(own)
+        .annotations(other)
 }

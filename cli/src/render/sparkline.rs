@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 const LEVELS: [char; 8] = ['▁', '▂', '▃', '▄', '▅', '▆', '▇', '█'];
 
-/// Draws the least value of each of `width` equal parts of the time from 0 to `end`; values below zero are `!`.
-/// `samples` are times with values, in the order of time.
+/// Draws the least value of each of `width` equal parts of the time from 0 to `end`; values below
+/// zero are `!`. `samples` are times with values, in the order of time.
 pub(crate) fn sparkline(samples: &[(u64, i64)], end: u64, width: usize, style: Style) -> String {
     // The least value of each part, and its last one, with which a gap after it goes on.
     let mut parts: Vec<Option<(i64, i64)>> = vec![None; width];

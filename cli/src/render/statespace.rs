@@ -13,9 +13,11 @@ const TERM: usize = 19;
 
 /// How large a model is.
 pub(crate) fn screen(answer: &StatespaceAnswer, width: usize) -> String {
-    let how = if answer.timed { "  with its intervals of time: state classes are counted" } else { "" };
+    let how =
+        if answer.timed { "  with its intervals of time: state classes are counted" } else { "" };
     let mut text = format!("{HEADING}{}{HEADING:#}{FAINT}{how}{FAINT:#}\n", visible(&answer.model));
-    let mut line = |style: Style, term: &str, said: &str| text += &described(term, TERM, style, said, width);
+    let mut line =
+        |style: Style, term: &str, said: &str| text += &described(term, TERM, style, said, width);
     for note in &answer.notes {
         line(NOTICE, "note", note);
     }
@@ -28,7 +30,11 @@ pub(crate) fn screen(answer: &StatespaceAnswer, width: usize) -> String {
         line(FAINT, "rounds", &said);
     }
     let counts = if answer.timed {
-        vec![("state classes", &answer.classes), ("edges", &answer.edges), ("markings", &answer.markings)]
+        vec![
+            ("state classes", &answer.classes),
+            ("edges", &answer.edges),
+            ("markings", &answer.markings),
+        ]
     } else {
         vec![("states", &answer.states), ("arcs", &answer.arcs)]
     };
@@ -53,10 +59,16 @@ pub(crate) fn screen(answer: &StatespaceAnswer, width: usize) -> String {
         line(
             FAINT,
             "tokens grow",
-            &format!("after {}, again and again {}", listed(&growth.first), listed(&growth.repeated)),
+            &format!(
+                "after {}, again and again {}",
+                listed(&growth.first),
+                listed(&growth.repeated)
+            ),
         );
     }
-    for (term, names) in [("never fire", &answer.dead_transitions), ("never marked", &answer.dead_places)] {
+    for (term, names) in
+        [("never fire", &answer.dead_transitions), ("never marked", &answer.dead_places)]
+    {
         if let Some(names) = names.as_ref().filter(|it| !it.is_empty()) {
             line(NOTICE, term, &listed(names));
         }

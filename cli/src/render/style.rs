@@ -27,8 +27,8 @@ const FAMILIES: [AnsiColor; 6] = [
     AnsiColor::Red,
 ];
 
-/// Gives each family of choices a style, by the order in which they come: `M5 L2` and `M5 L1` are of the family
-/// `M5`.
+/// Gives each family of choices a style, by the order in which they come: `M5 L2` and `M5 L1` are
+/// of the family `M5`.
 #[derive(Debug, Default)]
 pub(crate) struct Families(Vec<String>);
 

@@ -11,8 +11,9 @@ const SHOWN_POINTS: usize = 40;
 
 /// The points, in the order of time.
 pub(crate) fn story(run: &Supervised, width: usize) -> String {
-    let mut text =
-        format!("\n{HEADING}what happened{HEADING:#} {FAINT}times are since each failure{FAINT:#}\n");
+    let mut text = format!(
+        "\n{HEADING}what happened{HEADING:#} {FAINT}times are since each failure{FAINT:#}\n"
+    );
     for point in run.points.iter().take(SHOWN_POINTS) {
         text += &told(point, width);
     }
@@ -27,12 +28,15 @@ fn told(point: &Point, width: usize) -> String {
     let head = format!("  {number:>2}  {:>7}  {:>8}  ", metres(point.x_mm), seconds(point.t_ms));
     let indent = " ".repeat(head.chars().count());
     let mut text = format!("{head}{HEADING}{}{HEADING:#}\n", beside(title, width, &indent));
-    for (name, style, words) in
-        [("found", BAD, &point.found), ("decided", NOTICE, &point.decided), ("done", GOOD, &point.done)]
-    {
+    for (name, style, words) in [
+        ("found", BAD, &point.found),
+        ("decided", NOTICE, &point.decided),
+        ("done", GOOD, &point.done),
+    ] {
         let Some(words) = words else { continue };
         let inner = format!("{indent}         ");
-        let _ = writeln!(text, "{indent}{style}{name:7}{style:#}  {}", beside(words, width, &inner));
+        let _ =
+            writeln!(text, "{indent}{style}{name:7}{style:#}  {}", beside(words, width, &inner));
     }
     text
 }

@@ -46,7 +46,8 @@ impl Cell {
 const INDENT: &str = "  ";
 const GAP: &str = "  ";
 
-/// A table: rows of cells. The first column has the names of the rows and is repeated in each block.
+/// A table: rows of cells. The first column has the names of the rows and is repeated in each
+/// block.
 #[derive(Debug, Default)]
 pub(crate) struct Table {
     rows: Vec<Vec<Cell>>,
@@ -73,14 +74,20 @@ impl Table {
         self.rows.push(cells);
     }
 
-    /// The table, in blocks no wider than `width` as far as that can be, with a line break at the end of each line.
+    /// The table, in blocks no wider than `width` as far as that can be, with a line break at the
+    /// end of each line.
     pub(crate) fn render(&self, width: usize) -> String {
         let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let cell =
-            |row: usize, column: usize| self.rows[row].get(column).filter(|cell| !cell.text.is_empty());
+        let cell = |row: usize, column: usize| {
+            self.rows[row].get(column).filter(|cell| !cell.text.is_empty())
+        };
         let widths: Vec<usize> = (0..columns)
             .map(|column| {
-                (0..self.rows.len()).filter_map(|row| cell(row, column)).map(Cell::width).max().unwrap_or(0)
+                (0..self.rows.len())
+                    .filter_map(|row| cell(row, column))
+                    .map(Cell::width)
+                    .max()
+                    .unwrap_or(0)
             })
             .collect();
         let name = widths.first().copied().unwrap_or(0);

@@ -2,8 +2,8 @@
 
 use crate::exit::{Exit, Failure};
 use cotama_core::net::{
-    Defect, EventId, Firing, Loaded, Net, Outcome, OutputId, Packed, Place, Player, Round, TransitionId,
-    clocks, words,
+    Defect, EventId, Firing, Loaded, Net, Outcome, OutputId, Packed, Place, Player, Round,
+    TransitionId, clocks, words,
 };
 use cotama_core::units::Millis;
 
@@ -29,7 +29,12 @@ pub(super) trait Game<'c> {
     /// As [`Player::advance`]; whether there is more to catch up with.
     fn advance(&mut self, to: Millis, fired: &mut Vec<Fired>) -> bool;
     /// As [`Player::offer`].
-    fn offer(&mut self, at: Millis, event: EventId, fired: &mut Vec<Fired>) -> Outcome<TransitionId>;
+    fn offer(
+        &mut self,
+        at: Millis,
+        event: EventId,
+        fired: &mut Vec<Fired>,
+    ) -> Outcome<TransitionId>;
     /// As [`Player::round`].
     fn round(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Round;
     /// The same game, to go on with in another way.
@@ -49,7 +54,12 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Player<Loaded<'c, W>, W, C
         self.advance_with(to, &mut |it: &Seen<'_>| fired.push(it.into())).behind
     }
 
-    fn offer(&mut self, at: Millis, event: EventId, fired: &mut Vec<Fired>) -> Outcome<TransitionId> {
+    fn offer(
+        &mut self,
+        at: Millis,
+        event: EventId,
+        fired: &mut Vec<Fired>,
+    ) -> Outcome<TransitionId> {
         self.offer_with(at, &event, &mut |it: &Seen<'_>| fired.push(it.into()))
     }
 
@@ -83,10 +93,13 @@ pub(super) fn play(net: &Net<'_>, then: &mut Then<'_>) -> Result<Exit, Failure> 
         Some(17..=64) => with_words::<64>(net, then),
         Some(65..=MOST_WORDS) => with_words::<MOST_WORDS>(net, then),
         Some(words) => {
-            let failure =
-                large(&format!("a marking needs {words} machine words, and {MOST_WORDS} are the most"));
+            let failure = large(&format!(
+                "a marking needs {words} machine words, and {MOST_WORDS} are the most"
+            ));
             Err(if net.places.iter().any(|it| it.bound == Place::UNBOUNDED) {
-                failure.help("claim bounds of places: a place without one takes 17 bits, a 1-safe place 2")
+                failure.help(
+                    "claim bounds of places: a place without one takes 17 bits, a 1-safe place 2",
+                )
             } else {
                 failure
             })
@@ -128,10 +141,14 @@ fn refused(net: &Net<'_>, defect: Defect) -> Failure {
     match defect {
         Defect::Place { place } => {
             let name = net.places.get(place).map_or("?", |place| place.name);
-            Failure::new(format!("the net cannot be played: place `{name}` starts with too many tokens"))
-                .help("a place holds at most its bound, and at most 65535 tokens in play")
+            Failure::new(format!(
+                "the net cannot be played: place `{name}` starts with too many tokens"
+            ))
+            .help("a place holds at most its bound, and at most 65535 tokens in play")
         }
         Defect::TooLong => large("it has too many parts"),
-        other => Failure::new(format!("the net cannot be played: its lists do not fit together: {other:?}")),
+        other => Failure::new(format!(
+            "the net cannot be played: its lists do not fit together: {other:?}"
+        )),
     }
 }

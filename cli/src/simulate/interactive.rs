@@ -85,7 +85,9 @@ pub(super) fn run(
 }
 
 fn endless(screen: &Screen) -> Result<(), Failure> {
-    screen.print(&format!("{NOTICE}more than {MOST_FIRINGS} transitions would fire: not done{NOTICE:#}\n"))
+    screen.print(&format!(
+        "{NOTICE}more than {MOST_FIRINGS} transitions would fire: not done{NOTICE:#}\n"
+    ))
 }
 
 /// A line; none when there is no more.

@@ -6,8 +6,8 @@ use std::collections::BTreeMap;
 
 /// The net as it is played, and whether its transitions are fired by name.
 ///
-/// In a plain place/transition net, without events and time, no transition would ever wait for anything. There each
-/// transition gets an event of its own name.
+/// In a plain place/transition net, without events and time, no transition would ever wait for
+/// anything. There each transition gets an event of its own name.
 pub(super) fn playable(mut net: OwnedNet) -> (OwnedNet, bool) {
     if !net.events.is_empty() || net.transitions.iter().any(|it| it.within.is_some()) {
         return (net, false);
@@ -17,7 +17,8 @@ pub(super) fn playable(mut net: OwnedNet) -> (OwnedNet, bool) {
         let next = EventId(net.events.len() as u32);
         let event = *known.entry(transition.name.clone()).or_insert(next);
         if event == next {
-            net.events.push(OwnedSignal { name: transition.name.clone(), doc: transition.doc.clone() });
+            net.events
+                .push(OwnedSignal { name: transition.name.clone(), doc: transition.doc.clone() });
         }
         transition.on = Some(event);
     }

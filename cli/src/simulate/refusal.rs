@@ -1,7 +1,9 @@
 //! Why no transition uses an event, in words.
 
 use crate::answers::model::{RefusalReason, RefusalRow};
-use cotama_core::net::{Arc, EventId, Net, Place, PlaceId, Role, Transition, TransitionId, Why, Within};
+use cotama_core::net::{
+    Arc, EventId, Net, Place, PlaceId, Role, Transition, TransitionId, Why, Within,
+};
 
 /// The most transitions of which it is said what they lack.
 const SHOWN: usize = 2;
@@ -9,7 +11,12 @@ const SHOWN: usize = 2;
 const LARGEST: u32 = 65_535;
 
 /// Why an event is ignored at a marking.
-pub(super) fn refusal(net: &Net<'_>, marking: &[u32], event: EventId, why: Why<TransitionId>) -> RefusalRow {
+pub(super) fn refusal(
+    net: &Net<'_>,
+    marking: &[u32],
+    event: EventId,
+    why: Why<TransitionId>,
+) -> RefusalRow {
     let transition = |TransitionId(id): TransitionId| net.transitions.get(id as usize);
     let name = |id| transition(id).map_or("?", |it| it.name);
     let within = |id| transition(id).and_then(|it| it.within).map_or_else(String::new, interval);
@@ -27,11 +34,15 @@ pub(super) fn refusal(net: &Net<'_>, marking: &[u32], event: EventId, why: Why<T
             let place = transition(id).and_then(|it| overflowing(net, marking, it));
             let text = place.map_or_else(
                 || format!("`{}` would put too many tokens into a place", name(id)),
-                |(place, bound)| format!("`{}` would put more than {bound} tokens into {place}", name(id)),
+                |(place, bound)| {
+                    format!("`{}` would put more than {bound} tokens into {place}", name(id))
+                },
             );
             (RefusalReason::Full, text)
         }
-        Why::NotEnabled | Why::Behind => (RefusalReason::NotEnabled, not_enabled(net, marking, event)),
+        Why::NotEnabled | Why::Behind => {
+            (RefusalReason::NotEnabled, not_enabled(net, marking, event))
+        }
     };
     RefusalRow { event: event_name(net, event), reason, text }
 }
@@ -58,7 +69,8 @@ fn tokens(marking: &[u32], PlaceId(id): PlaceId) -> u32 {
 
 fn on_purpose(net: &Net<'_>, marking: &[u32], event: EventId) -> String {
     let here = net.ignored.iter().filter(|it| it.event == event && tokens(marking, it.place) > 0);
-    let places: Vec<_> = here.map(|it| condition(net, Arc { place: it.place, weight: 1 })).collect();
+    let places: Vec<_> =
+        here.map(|it| condition(net, Arc { place: it.place, weight: 1 })).collect();
     format!("ignored on purpose in {}", places.join(", "))
 }
 
@@ -93,11 +105,16 @@ fn condition(net: &Net<'_>, arc: Arc) -> String {
 }
 
 /// The first place that a firing would fill beyond its bound, and the bound.
-fn overflowing<'n>(net: &Net<'n>, marking: &[u32], transition: &Transition<'_>) -> Option<(&'n str, u32)> {
+fn overflowing<'n>(
+    net: &Net<'n>,
+    marking: &[u32],
+    transition: &Transition<'_>,
+) -> Option<(&'n str, u32)> {
     transition.give.iter().find_map(|give| {
         let place = net.places.get(give.place.0 as usize)?;
         let bound = place.bound.min(LARGEST);
-        let taken = transition.take.iter().filter(|it| it.place == give.place).map(|it| it.weight).sum();
+        let taken =
+            transition.take.iter().filter(|it| it.place == give.place).map(|it| it.weight).sum();
         let after = tokens(marking, give.place).saturating_sub(taken).saturating_add(give.weight);
         (after > bound).then_some((place.name, bound))
     })

@@ -4,8 +4,12 @@ use super::game::{Fired, Game};
 use super::ms;
 use super::refusal::{refusal, round_is_full, taken_by_others};
 use super::step::Step;
-use crate::answers::model::{DeadlineRow, EnabledRow, RefusalRow, SimulateAnswer, StepRow, TokensRow};
-use cotama_core::net::{Arc, EventId, Net, Outcome, OutputId, PlaceId, Round, Transition, TransitionId, Why};
+use crate::answers::model::{
+    DeadlineRow, EnabledRow, RefusalRow, SimulateAnswer, StepRow, TokensRow,
+};
+use cotama_core::net::{
+    Arc, EventId, Net, Outcome, OutputId, PlaceId, Round, Transition, TransitionId, Why,
+};
 use cotama_core::units::Millis;
 use std::collections::BTreeMap;
 
@@ -87,7 +91,8 @@ impl<'n, 'c> Session<'n, 'c> {
         let round = self.game.round(step.at, &step.events, &mut fired);
         let used = |event| fired.iter().any(|it| self.is_on(it, event));
         let unused = step.events.iter().filter(|&&event| !used(event));
-        let ignored = unused.map(|&event| self.refused_round(&*before, step.at, round, event)).collect();
+        let ignored =
+            unused.map(|&event| self.refused_round(&*before, step.at, round, event)).collect();
         self.push(step.at, &step.events, &fired, ignored);
         if self.firings > MOST_FIRINGS { Err(Endless) } else { Ok(()) }
     }
@@ -112,7 +117,8 @@ impl<'n, 'c> Session<'n, 'c> {
         if fired.iter().any(|it| self.is_on(it, event)) {
             return taken_by_others(self.net, event);
         }
-        // Offered alone, it is the marking and the clocks that refuse it; what settles before that is for later rounds.
+        // Offered alone, it is the marking and the clocks that refuse it; what settles before that
+        // is for later rounds.
         let why = match before.fork().offer(at, event, &mut vec![]) {
             Outcome::Ignored { why } => why,
             Outcome::Fired { .. } => Why::NotEnabled,
@@ -124,19 +130,22 @@ impl<'n, 'c> Session<'n, 'c> {
     fn record(&mut self, fired: &[Fired]) {
         let net = self.net;
         let settles = |it: &Fired| {
-            let timed = net.transitions.get(it.transition.0 as usize).is_some_and(|it| it.within.is_some());
+            let timed =
+                net.transitions.get(it.transition.0 as usize).is_some_and(|it| it.within.is_some());
             !it.offered && !timed
         };
         for group in fired.chunk_by(|_, next| settles(next)) {
             let Some(first) = group.first() else { continue };
-            let event = self.transition(first.transition).and_then(|it| it.on).filter(|_| first.offered);
+            let event =
+                self.transition(first.transition).and_then(|it| it.on).filter(|_| first.offered);
             self.push(first.at, event.as_slice(), group, vec![]);
         }
     }
 
     fn push(&mut self, at: Millis, events: &[EventId], fired: &[Fired], ignored: Vec<RefusalRow>) {
         let net = self.net;
-        let transitions = || fired.iter().filter_map(|it| net.transitions.get(it.transition.0 as usize));
+        let transitions =
+            || fired.iter().filter_map(|it| net.transitions.get(it.transition.0 as usize));
         let mut before = BTreeMap::new();
         for transition in transitions() {
             let mut change = |arc: &Arc, change: fn(u32, u32) -> u32| {

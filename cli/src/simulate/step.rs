@@ -15,7 +15,8 @@ pub(super) struct Step {
 
 /// The events in the lines of a text; what begins with `#` is left out.
 pub(super) fn lines(text: &str) -> Vec<String> {
-    let lines = text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let lines =
+        text.lines().map(str::trim).filter(|line| !line.is_empty() && !line.starts_with('#'));
     lines.map(str::to_owned).collect()
 }
 
@@ -34,8 +35,15 @@ impl<'n> Words<'n> {
     pub(super) fn new(net: &Net<'n>, by_name: bool, rounds: bool) -> Self {
         let list: Vec<_> = net.events.iter().map(|it| it.name).collect();
         // Of several events of one name, which a file can have, the first is meant.
-        let names = list.iter().enumerate().rev().map(|(id, &name)| (name, EventId(id as u32))).collect();
-        Self { names, list, what: if by_name { "transition" } else { "event" }, rounds, loose: false }
+        let names =
+            list.iter().enumerate().rev().map(|(id, &name)| (name, EventId(id as u32))).collect();
+        Self {
+            names,
+            list,
+            what: if by_name { "transition" } else { "event" },
+            rounds,
+            loose: false,
+        }
     }
 
     /// The same, where the number of an event and the beginning of its name stand for it.
@@ -70,8 +78,11 @@ impl<'n> Words<'n> {
             Some((events, at)) if at.bytes().all(|it| it.is_ascii_digit()) => {
                 let time = at.parse().map(Millis).map_err(|_| no_time(word, at))?;
                 if time < now {
-                    let message = format!("{word}: it is {} ms already, and time does not go back", now.0);
-                    return Err(Failure::new(message).help("times count from the start, in milliseconds"));
+                    let message =
+                        format!("{word}: it is {} ms already, and time does not go back", now.0);
+                    return Err(
+                        Failure::new(message).help("times count from the start, in milliseconds")
+                    );
                 }
                 Ok(Step { at: time, events: self.events(events)? })
             }
@@ -91,7 +102,8 @@ impl<'n> Words<'n> {
             return Ok(event);
         }
         if self.loose {
-            let numbered = word.parse::<usize>().ok().filter(|it| (1..=self.list.len()).contains(it));
+            let numbered =
+                word.parse::<usize>().ok().filter(|it| (1..=self.list.len()).contains(it));
             if let Some(number) = numbered {
                 return Ok(EventId(number as u32 - 1));
             }
@@ -173,8 +185,12 @@ mod tests {
 
     #[test]
     fn a_name_is_a_name_whatever_is_in_it() {
-        let steps = said(&["+1", "a@2", "a,b", "a"], true, &["+1", "a@2", "a,b", "a,b@3", "a,+1"]).unwrap();
-        assert_eq!(steps, [(0, vec![0]), (0, vec![1]), (0, vec![2]), (3, vec![2]), (3, vec![3, 0])]);
+        let steps =
+            said(&["+1", "a@2", "a,b", "a"], true, &["+1", "a@2", "a,b", "a,b@3", "a,+1"]).unwrap();
+        assert_eq!(
+            steps,
+            [(0, vec![0]), (0, vec![1]), (0, vec![2]), (3, vec![2]), (3, vec![3, 0])]
+        );
     }
 
     #[test]

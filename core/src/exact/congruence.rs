@@ -1,10 +1,11 @@
 //! A bound from remainders, for problems where many activities share a ratio of value to cost.
 //!
-//! Choices that lose next to nothing at the dual prices often change the value by multiples of one number only: nine
-//! per 100 mm, say. Then every plan near the bound has the remainder of the best items, unless activities are
-//! changed at a real loss. The least loss for each remainder is a shortest path over as many nodes as there are
-//! remainders (the group relaxation of Gomory 1965, with the value as its one row); the bound falls to the next
-//! value whose remainder can be paid for.
+//! Choices that lose next to nothing at the dual prices often change the value by multiples of one
+//! number only: nine per 100 mm, say. Then every plan near the bound has the remainder of the best
+//! items, unless activities are changed at a real loss. The least loss for each remainder is a
+//! shortest path over as many nodes as there are remainders (the group relaxation of Gomory 1965,
+//! with the value as its one row); the bound falls to the next value whose remainder can be paid
+//! for.
 
 use super::dual::Price;
 use super::load::Frame;
@@ -28,9 +29,13 @@ impl Remainders {
     /// No remainders: every value can be reached.
     pub(super) const NONE: Self = Self { modulus: 1, least: [0; REMAINDERS] };
 
-    /// The remainders of no activity at all, modulo the number that choices near the bound have in common. Needs
-    /// losses, and each activity's best item first.
-    pub(super) fn of<const A: usize>(frame: &Frame<A>, items: &[Item<A>], stages: &[Stage<A>]) -> Self {
+    /// The remainders of no activity at all, modulo the number that choices near the bound have in
+    /// common. Needs losses, and each activity's best item first.
+    pub(super) fn of<const A: usize>(
+        frame: &Frame<A>,
+        items: &[Item<A>],
+        stages: &[Stage<A>],
+    ) -> Self {
         let small = (1i64 << frame.fraction) >> NEXT_TO_NONE;
         let mut divisor = 0;
         for own in stages.iter().map(|stage| stage.items(items)) {
@@ -38,7 +43,8 @@ impl Remainders {
                 divisor = gcd(divisor, item.value.abs_diff(own[0].value));
             }
         }
-        let common = (2..=REMAINDERS as u32).rev().find(|&m| divisor > 0 && divisor.is_multiple_of(m));
+        let common =
+            (2..=REMAINDERS as u32).rev().find(|&m| divisor > 0 && divisor.is_multiple_of(m));
         let mut least = [NEVER; REMAINDERS];
         least[0] = 0;
         common.map_or(Self::NONE, |modulus| Self { modulus: i64::from(modulus), least })
@@ -61,7 +67,9 @@ impl Remainders {
             if step == 0 {
                 continue;
             }
-            for (from, &loss) in self.least[..self.modulus.unsigned_abs() as usize].iter().enumerate() {
+            for (from, &loss) in
+                self.least[..self.modulus.unsigned_abs() as usize].iter().enumerate()
+            {
                 let to = if from + step < self.modulus.unsigned_abs() as usize {
                     from + step
                 } else {
@@ -73,8 +81,9 @@ impl Remainders {
         next
     }
 
-    /// Whether a plan worth `worth` can be changed by these activities into one worth `target` or more, when a plan
-    /// worth `target` may lose `allowance` in all. Each unit of value has `fraction` bits.
+    /// Whether a plan worth `worth` can be changed by these activities into one worth `target` or
+    /// more, when a plan worth `target` may lose `allowance` in all. Each unit of value has
+    /// `fraction` bits.
     pub(super) fn reach(&self, worth: i64, target: i64, mut allowance: i64, fraction: u32) -> bool {
         let mut place = self.place(target - worth);
         for _ in 0..self.modulus {
@@ -111,7 +120,8 @@ pub(super) fn bound<const A: usize>(
         base += i64::from(own[0].value);
         all = all.with(own, most);
     }
-    let paid = |value: &i64| all.least[all.place(value - base)] <= price.bound - (value << frame.fraction);
+    let paid =
+        |value: &i64| all.least[all.place(value - base)] <= price.bound - (value << frame.fraction);
     (bound - all.modulus..=bound).rev().find(paid).unwrap_or(bound - all.modulus)
 }
 

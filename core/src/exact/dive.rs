@@ -1,8 +1,9 @@
 //! Depth-first search for a plan that is worth a target.
 //!
-//! At the dual prices a plan is worth *bound - sum of losses - price of its slack*. To be worth at least the
-//! target, losses and slack together may use up to *allowance = bound - target*; items whose own loss exceeds
-//! it cannot be in such a plan (reduced-cost fixing), and activities with one item left need no level.
+//! At the dual prices a plan is worth *bound - sum of losses - price of its slack*. To be worth at
+//! least the target, losses and slack together may use up to *allowance = bound - target*; items
+//! whose own loss exceeds it cannot be in such a plan (reduced-cost fixing), and activities with
+//! one item left need no level.
 
 use super::congruence::Remainders;
 use super::dual::Price;
@@ -85,8 +86,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         }
     }
 
-    /// Notes nodes from now on, in room for those of a turn of this many steps: clearing more would cost more than
-    /// it saves, and easy problems end before any pays.
+    /// Notes nodes from now on, in room for those of a turn of this many steps: clearing more would
+    /// cost more than it saves, and easy problems end before any pays.
     pub(super) fn remember(&mut self, steps: u64) {
         let room = usize::try_from(steps).unwrap_or(usize::MAX).min(self.seen.len());
         if room > self.noted {
@@ -122,8 +123,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.prepare();
     }
 
-    /// Puts every activity at the item of the best plan; returns what that plan leaves, and the activity that
-    /// loses most in it.
+    /// Puts every activity at the item of the best plan; returns what that plan leaves, and the
+    /// activity that loses most in it.
     pub(super) fn settle(&mut self) -> (Point<A>, usize) {
         let mut home = Point { slack: self.frame.room, loss: 0 };
         let (mut worst, mut most) = (0, 0);
@@ -139,7 +140,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         (home, worst)
     }
 
-    /// Frees an activity and a few more, drawn by `round`; the others keep the best plan, which leaves `home`.
+    /// Frees an activity and a few more, drawn by `round`; the others keep the best plan, which
+    /// leaves `home`.
     pub(super) fn free_some(&mut self, home: Point<A>, first: usize, count: usize, round: u64) {
         let allowance = self.allowance();
         self.levels = 0;
@@ -169,8 +171,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         }
     }
 
-    /// Sorts the levels, the costliest to change first, since a change there leaves little for the others, and
-    /// fills their bounds from the last one back.
+    /// Sorts the levels, the costliest to change first, since a change there leaves little for the
+    /// others, and fills their bounds from the last one back.
     fn prepare(&mut self) {
         self.number += 1;
         let allowance = self.allowance();
@@ -195,7 +197,8 @@ impl<'d, const A: usize> Dive<'d, A> {
             for item in own.iter().take_while(|item| item.loss <= allowance) {
                 most = most.zip(&best.rows().minus(&item.rows()), i64::max);
                 for (gained, multiplier) in gained.iter_mut().zip(self.multipliers) {
-                    let more = item.reduced(multiplier, fraction) - best.reduced(multiplier, fraction);
+                    let more =
+                        item.reduced(multiplier, fraction) - best.reduced(multiplier, fraction);
                     *gained = (*gained).max(more);
                 }
             }
@@ -225,7 +228,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.stages[b].level.stage = first;
     }
 
-    /// One sift of a heap sort with the least change on top, which leaves the levels in falling order.
+    /// One sift of a heap sort with the least change on top, which leaves the levels in falling
+    /// order.
     fn sift(&mut self, mut top: usize, end: usize) {
         loop {
             let mut least = top;
@@ -257,7 +261,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         if !point.slack.plus(&level.saving).none_negative() {
             return false;
         }
-        // value + multiplier * slack + gain >= target, with value = bound - loss - best multiplier * slack
+        // value + multiplier * slack + gain >= target, with value = bound - loss - best multiplier
+        // * slack
         let needed = point.loss - allowance;
         let priced = self
             .dearer
@@ -271,16 +276,19 @@ impl<'d, const A: usize> Dive<'d, A> {
         priced && (!level.remainders.matter() || reach(level))
     }
 
-    /// The value of the plan that has the open activities at their best items, within its limits or not.
+    /// The value of the plan that has the open activities at their best items, within its limits or
+    /// not.
     #[inline]
     fn worth(&self, point: &Point<A>) -> i64 {
-        (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack)) >> self.frame.fraction
+        (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack))
+            >> self.frame.fraction
     }
 
     /// Whether a node at least as good was searched at this level before; if not, notes this one.
     ///
-    /// The dynamic programme over the limits, as far as memory allows: of two partial plans over the same
-    /// activities that are worth the same, the one with less slack in every row is not needed.
+    /// The dynamic programme over the limits, as far as memory allows: of two partial plans over
+    /// the same activities that are worth the same, the one with less slack in every row is not
+    /// needed.
     #[inline]
     fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
         if self.noted == 0 || depth + NOT_KEPT > self.levels {
@@ -289,7 +297,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         let worth = self.worth(point);
         let mixed = worth.cast_unsigned().wrapping_mul(0x9E37_79B9_7F4A_7C15)
             ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let place = (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.noted as u128) >> 64;
+        let place =
+            (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.noted as u128) >> 64;
         let seen = &mut self.seen[place as usize];
         let same = seen.dive == self.number && seen.depth == depth as u32 && seen.worth == worth;
         if same && seen.slack.minus(&point.slack).none_negative() {
@@ -299,7 +308,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         false
     }
 
-    /// Visits every promising node and keeps each better plan; whether that was completed within these steps.
+    /// Visits every promising node and keeps each better plan; whether that was completed within
+    /// these steps.
     pub(super) fn run(&mut self, budget: &mut Budget, steps: u64) -> bool {
         let mut left = steps.min(budget.left);
         budget.left -= left;
@@ -331,7 +341,8 @@ impl<'d, const A: usize> Dive<'d, A> {
             } else {
                 level.cursor += 1;
             }
-            let (at, cursor, base, before) = (level.stage as usize, level.cursor, level.base, level.point);
+            let (at, cursor, base, before) =
+                (level.stage as usize, level.cursor, level.base, level.point);
             let (first, count) = (self.stages[at].first as usize, self.stages[at].count);
             entering = false;
             if cursor >= count {
@@ -372,7 +383,10 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// Keeps the plan under work as the best and raises the target above it.
     fn keep(&mut self, point: &Point<A>) {
         let worth = self.price.bound - point.loss - self.price.multiplier.dot(&point.slack);
-        debug_assert!(worth & ((1 << self.frame.fraction) - 1) == 0, "a plan is worth a whole number");
+        debug_assert!(
+            worth & ((1 << self.frame.fraction) - 1) == 0,
+            "a plan is worth a whole number"
+        );
         self.target = (worth >> self.frame.fraction) + 1;
         for stage in self.stages.iter_mut() {
             stage.best = stage.current;

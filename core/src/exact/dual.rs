@@ -1,9 +1,10 @@
 //! The Lagrangian dual: prices for the limits that make the bound least.
 //!
-//! For multipliers *u >= 0* (value per unit of a row) every feasible plan is worth at most
-//! *L(u) = sum over activities of max(value - u * cost) + u * room*, a convex function of *u*. Each row is
-//! minimised by a search between two tangents (the secant step of Kelley 1960 in one dimension), the rows
-//! nested in one another. Any *u* gives a valid bound, so rounding costs tightness only, never truth.
+//! For multipliers *u >= 0* (value per unit of a row) every feasible plan is worth at most *L(u) =
+//! sum over activities of max(value - u * cost) + u * room*, a convex function of *u*. Each row is
+//! minimised by a search between two tangents (the secant step of Kelley 1960 in one dimension),
+//! the rows nested in one another. Any *u* gives a valid bound, so rounding costs tightness only,
+//! never truth.
 
 use super::load::Frame;
 use super::rows::Rows;
@@ -32,7 +33,8 @@ pub(super) struct Dual<'d, const A: usize> {
 const SECANTS: u32 = 32;
 
 impl<const A: usize> Dual<'_, A> {
-    /// The multipliers of the least bound found; `None` when the budget does not allow one evaluation.
+    /// The multipliers of the least bound found; `None` when the budget does not allow one
+    /// evaluation.
     pub(super) fn minimise(&mut self) -> Option<Price<A>> {
         self.descend(Rows::<A>::COUNT, Rows::ZERO)
     }
@@ -60,7 +62,8 @@ impl<const A: usize> Dual<'_, A> {
         Some(Price { multiplier, bound, slope })
     }
 
-    /// The least bound over the multipliers of the first `rows` rows, the others as they stand in `from`.
+    /// The least bound over the multipliers of the first `rows` rows, the others as they stand in
+    /// `from`.
     fn descend(&mut self, rows: usize, from: Rows<A>) -> Option<Price<A>> {
         let Some(row) = rows.checked_sub(1) else { return self.price(from) };
         let most = self.frame.most_multiplier.get(row);
@@ -97,8 +100,8 @@ impl<const A: usize> Dual<'_, A> {
             }
             // Where the tangents meet, and how low the bound could be there.
             let gap = i128::from(high.bound) - i128::from(low.bound);
-            let step =
-                (i128::from(up) * i128::from(right - left) - gap) / (i128::from(up) - i128::from(down));
+            let step = (i128::from(up) * i128::from(right - left) - gap)
+                / (i128::from(up) - i128::from(down));
             let floor = i128::from(low.bound) + i128::from(down) * step;
             let best = i128::from(low.bound.min(high.bound));
             if best - floor <= (1i128 << self.frame.fraction) >> 7 {
@@ -116,7 +119,8 @@ impl<const A: usize> Dual<'_, A> {
         Some(meet(&low, &high, row))
     }
 
-    /// The least bound over the rows before `row`, with `row`'s multiplier set and the search begun near `near`.
+    /// The least bound over the rows before `row`, with `row`'s multiplier set and the search begun
+    /// near `near`.
     fn at(&mut self, row: usize, multiplier: i64, near: &Price<A>) -> Option<Price<A>> {
         let mut from = near.multiplier;
         from.set(row, multiplier);
@@ -124,8 +128,8 @@ impl<const A: usize> Dual<'_, A> {
     }
 }
 
-/// The better of two points, with the combination of their slopes that is level in `row`: the subgradient at
-/// the minimum between them, which the rows further out need.
+/// The better of two points, with the combination of their slopes that is level in `row`: the
+/// subgradient at the minimum between them, which the rows further out need.
 fn meet<const A: usize>(low: &Price<A>, high: &Price<A>, row: usize) -> Price<A> {
     let (down, up) = (-i128::from(low.slope.get(row)), i128::from(high.slope.get(row)));
     let better = if low.bound < high.bound { low } else { high };

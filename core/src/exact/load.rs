@@ -1,10 +1,12 @@
-//! The problem as the search sees it: costs above the least, values above the least, dominated candidates gone.
+//! The problem as the search sees it: costs above the least, values above the least, dominated
+//! candidates gone.
 
 use super::rows::Rows;
 use super::{Item, Objective, Stage};
 use crate::problem::{Candidate, Problem};
 
-/// A stage of a lexicographic order: one objective (none: any plan will do), and what the stages before have fixed.
+/// A stage of a lexicographic order: one objective (none: any plan will do), and what the stages
+/// before have fixed.
 pub(super) struct Aim<const A: usize> {
     pub(super) objective: Option<Objective>,
     pub(super) limits: [u64; A],
@@ -22,8 +24,8 @@ pub(super) struct Frame<const A: usize> {
     pub(super) most: i64,
     /// Fraction bits of multipliers and priced values.
     pub(super) fraction: u32,
-    /// The largest multiplier of each row for which no priced sum overflows; zero for a row that has room
-    /// for anything and so never binds.
+    /// The largest multiplier of each row for which no priced sum overflows; zero for a row that
+    /// has room for anything and so never binds.
     pub(super) most_multiplier: Rows<A>,
 }
 
@@ -38,15 +40,16 @@ fn value<const A: usize>(candidate: &Candidate<A>, objective: Option<Objective>)
     }
 }
 
-/// Fills `items` and `stages` from a problem; `None` when some activity has no candidate that fits beside the
-/// cheapest of the others.
+/// Fills `items` and `stages` from a problem; `None` when some activity has no candidate that fits
+/// beside the cheapest of the others.
 pub(super) fn load<const A: usize>(
     problem: &Problem<'_, A>,
     aim: &Aim<A>,
     items: &mut [Item<A>],
     stages: &mut [Stage<A>],
 ) -> Option<Frame<A>> {
-    let mut room = Rows { axes: aim.limits.map(|limit| limit.min(1 << 62).cast_signed()), quality: 0 };
+    let mut room =
+        Rows { axes: aim.limits.map(|limit| limit.min(1 << 62).cast_signed()), quality: 0 };
     let mut deficit_room = -i128::from(aim.quality_floor);
     let mut largest = Rows::<A>::ZERO;
     let (mut least_value, mut most) = (0i128, 0i64);
@@ -115,11 +118,12 @@ pub(super) fn load<const A: usize>(
     Some(frame)
 }
 
-/// How many kept items a new one is compared with; a bound on the work for very long candidate lists.
+/// How many kept items a new one is compared with; a bound on the work for very long candidate
+/// lists.
 const COMPARED: usize = 1024;
 
-/// Sorts the items canonically (best value, then cheapest, then first written) and moves those that no other
-/// dominates to the front; returns their number.
+/// Sorts the items canonically (best value, then cheapest, then first written) and moves those that
+/// no other dominates to the front; returns their number.
 fn undominated<const A: usize>(items: &mut [Item<A>]) -> usize {
     items.sort_unstable_by_key(|i| (core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
     let mut kept = 0;

@@ -2,21 +2,26 @@
 //!
 //! The problem is a multiple-choice knapsack with several limits. The search uses what that gives:
 //!
-//! 1. *Dominance*: a candidate that another of its activity beats on every axis and in value is dropped.
-//! 2. *Lagrangian bound* (`dual`): prices for the limits, minimised; at these prices every candidate has a *loss*
-//!    against the best of its activity, and a plan is worth the bound less its losses less the priced slack.
+//! 1. *Dominance*: a candidate that another of its activity beats on every axis and in value is
+//!    dropped.
+//! 2. *Lagrangian bound* (`dual`): prices for the limits, minimised; at these prices every
+//!    candidate has a *loss* against the best of its activity, and a plan is worth the bound less
+//!    its losses less the priced slack.
 //! 3. *A first plan* (`primal`): the best candidates at these prices, repaired and improved.
-//! 4. *Remainders* (`congruence`): where many activities share a ratio of value to cost, plans near the bound are
-//!    worth the same modulo a small number, and the bound falls to the next value that can be reached.
-//! 5. *Search by rising loss* (`search`): is there a plan within a given loss of the bound? For a small loss few
-//!    candidates qualify, and the answer takes few nodes. Each "no" lowers the proven bound, the first "yes"
-//!    raises the plan, until both meet. At every node the rest is priced anew with several multipliers.
+//! 4. *Remainders* (`congruence`): where many activities share a ratio of value to cost, plans near
+//!    the bound are worth the same modulo a small number, and the bound falls to the next value
+//!    that can be reached.
+//! 5. *Search by rising loss* (`search`): is there a plan within a given loss of the bound? For a
+//!    small loss few candidates qualify, and the answer takes few nodes. Each "no" lowers the
+//!    proven bound, the first "yes" raises the plan, until both meet. At every node the rest is
+//!    priced anew with several multipliers.
 //!
 //! It is anytime: a step budget goes in, the best plan so far and a proven bound come out.
 //!
-//! *Tie rule.* Candidates are put in an order that depends on their numbers alone, and the search is
-//! deterministic, so the plan does not depend on the order in which candidates are written; of candidates equal
-//! in every number the first written is taken. A lexicographic order of objectives settles the rest.
+//! *Tie rule.* Candidates are put in an order that depends on their numbers alone, and the search
+//! is deterministic, so the plan does not depend on the order in which candidates are written; of
+//! candidates equal in every number the first written is taken. A lexicographic order of objectives
+//! settles the rest.
 //!
 //! ```
 //! use cotama_core::allocation::{Allocator, Answer};
@@ -57,8 +62,8 @@ pub enum Objective {
     MostQuality,
     /// The least total cost on this axis; an axis that the problem does not have costs nothing.
     Least(usize),
-    /// The most total cost on this axis, within its limit: use what there is. It is not a limit for objectives
-    /// after it, so these are not treated.
+    /// The most total cost on this axis, within its limit: use what there is. It is not a limit for
+    /// objectives after it, so these are not treated.
     Most(usize),
 }
 
@@ -135,7 +140,8 @@ struct Level<const A: usize> {
     saving: Rows<A>,
     /// What the levels from here on can gain over their best items at each other multiplier.
     gain: [i64; REPRICINGS],
-    /// By how much the levels from here on can change the value, modulo what is common, and at which loss.
+    /// By how much the levels from here on can change the value, modulo what is common, and at
+    /// which loss.
     remainders: Remainders,
 }
 
@@ -168,7 +174,8 @@ impl<const A: usize> Stage<A> {
     }
 }
 
-/// Working memory for one node of the search that need not be searched twice. Optional: see [`Exact::with_memory`].
+/// Working memory for one node of the search that need not be searched twice. Optional: see
+/// [`Exact::with_memory`].
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<const A: usize> {
     dive: u32,
@@ -182,7 +189,8 @@ impl<const A: usize> Seen<A> {
     pub const EMPTY: Self = Self { dive: 0, depth: 0, worth: 0, slack: Rows::ZERO };
 }
 
-/// A number of steps that may still be taken. A step is one activity priced, or one node of the search.
+/// A number of steps that may still be taken. A step is one activity priced, or one node of the
+/// search.
 #[derive(Clone, Copy, Debug)]
 struct Budget {
     left: u64,
@@ -220,8 +228,9 @@ enum Ended {
 }
 
 impl<'m, const A: usize> Exact<'m, A> {
-    /// An allocator for `objectives` in lexicographic order (none: any plan within the limits), that takes at
-    /// most `steps` steps; `items` and `stages` hold one element a candidate and one an activity.
+    /// An allocator for `objectives` in lexicographic order (none: any plan within the limits),
+    /// that takes at most `steps` steps; `items` and `stages` hold one element a candidate and one
+    /// an activity.
     pub const fn new(
         objectives: &'m [Objective],
         steps: u64,
@@ -231,8 +240,9 @@ impl<'m, const A: usize> Exact<'m, A> {
         Self { objectives, steps, items, stages, seen: &mut [] }
     }
 
-    /// The same with memory for nodes that need not be searched twice, as many as there is room for. It pays
-    /// where many activities share a ratio of value to cost; elsewhere it costs a little time.
+    /// The same with memory for nodes that need not be searched twice, as many as there is room
+    /// for. It pays where many activities share a ratio of value to cost; elsewhere it costs a
+    /// little time.
     #[must_use]
     pub fn with_memory(self, seen: &'m mut [Seen<A>]) -> Self {
         Self { seen, ..self }
@@ -241,7 +251,9 @@ impl<'m, const A: usize> Exact<'m, A> {
     /// The search for one objective; the plan is left in [`Stage::best`].
     fn pursue(&mut self, problem: &Problem<'_, A>, aim: &Aim<A>, budget: &mut Budget) -> Ended {
         let stages = &mut self.stages[..problem.activities().len()];
-        let Some(frame) = load::load(problem, aim, self.items, stages) else { return Ended::Infeasible };
+        let Some(frame) = load::load(problem, aim, self.items, stages) else {
+            return Ended::Infeasible;
+        };
         let value = |above: i64| frame.least_value + i128::from(above);
         let mut dual = dual::Dual { frame: &frame, items: self.items, stages, budget };
         let Some(price) = dual.minimise() else { return Ended::Unknown(value(frame.most)) };
@@ -281,7 +293,8 @@ impl<'m, const A: usize> Exact<'m, A> {
         }
     }
 
-    /// Which limit cannot be met, and the least total on its axis within the limits treated before it.
+    /// Which limit cannot be met, and the least total on its axis within the limits treated before
+    /// it.
     fn blame(&mut self, problem: &Problem<'_, A>, budget: &mut Budget) -> (usize, u64) {
         let mut limits = [u64::MAX; A];
         for axis in problem.order() {
@@ -309,7 +322,11 @@ impl<'m, const A: usize> Exact<'m, A> {
 }
 
 impl<const A: usize> Allocator<A> for Exact<'_, A> {
-    fn allocate(&mut self, problem: &Problem<'_, A>, plan: &mut [u16]) -> Result<Answer<A>, MemoryError> {
+    fn allocate(
+        &mut self,
+        problem: &Problem<'_, A>,
+        plan: &mut [u16],
+    ) -> Result<Answer<A>, MemoryError> {
         let candidates = problem.activities().iter().map(|candidates| candidates.len()).sum();
         enough("plan", problem.activities().len(), plan.len())?;
         enough("items of the exact allocator", candidates, self.items.len())?;
@@ -344,7 +361,8 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
             let (cost, quality) = problem.totals(plan).unwrap_or(([0; A], 0));
             let amount = aim.objective.map(|objective| objective.amount(&cost, quality));
             let first_bound = found.and_then(|planned: Planned<A>| planned.bound);
-            let own_bound = bound.map_or(amount, |b| Some(u64::try_from(b.abs()).unwrap_or(u64::MAX)));
+            let own_bound =
+                bound.map_or(amount, |b| Some(u64::try_from(b.abs()).unwrap_or(u64::MAX)));
             found = Some(Planned {
                 cost,
                 quality,

@@ -5,8 +5,9 @@ use super::load::Frame;
 use super::rows::Rows;
 use super::{Budget, Item, Stage};
 
-/// Sets every item's loss at these prices, sorts each activity's items by it (equal ones keep the canonical
-/// order) and looks for a plan near the best items. Returns its value, the plan in [`Stage::best`].
+/// Sets every item's loss at these prices, sorts each activity's items by it (equal ones keep the
+/// canonical order) and looks for a plan near the best items. Returns its value, the plan in
+/// [`Stage::best`].
 pub(super) fn first_plan<const A: usize>(
     frame: &Frame<A>,
     price: &Price<A>,
@@ -17,16 +18,20 @@ pub(super) fn first_plan<const A: usize>(
     let mut slack = frame.room;
     for stage in stages.iter_mut() {
         let own = &mut items[stage.first as usize..(stage.first + stage.count) as usize];
-        let best = own.iter().map(|i| i.reduced(&price.multiplier, frame.fraction)).max().unwrap_or(0);
+        let best =
+            own.iter().map(|i| i.reduced(&price.multiplier, frame.fraction)).max().unwrap_or(0);
         for item in own.iter_mut() {
             item.loss = best - item.reduced(&price.multiplier, frame.fraction);
         }
         // The canonical order, as a key: items of equal loss come out as dominance sorted them.
-        own.sort_unstable_by_key(|i| (i.loss, core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
+        own.sort_unstable_by_key(|i| {
+            (i.loss, core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice)
+        });
         stage.current = 0;
         slack = slack.minus(&own[0].rows());
     }
-    // Each switch scans all activities; a plan that needs more switches than this is left to the search.
+    // Each switch scans all activities; a plan that needs more switches than this is left to the
+    // search.
     for _ in 0..stages.len() + 8 {
         if slack.none_negative() {
             break;
@@ -55,15 +60,22 @@ pub(super) fn first_plan<const A: usize>(
 fn violation<const A: usize>(slack: &Rows<A>, worst: &Rows<A>) -> i64 {
     (0..Rows::<A>::COUNT)
         .map(|row| match (slack.get(row), worst.get(row)) {
-            (over, least) if over < 0 && least < 0 => ((i128::from(over) << 20) / i128::from(least)) as i64,
+            (over, least) if over < 0 && least < 0 => {
+                ((i128::from(over) << 20) / i128::from(least)) as i64
+            }
             (over, _) if over < 0 => 1 << 20,
             _ => 0,
         })
         .sum()
 }
 
-/// Makes the one switch that costs the least loss for the violation it removes; `None` when none removes any.
-fn repair<const A: usize>(items: &[Item<A>], stages: &mut [Stage<A>], slack: &Rows<A>) -> Option<Rows<A>> {
+/// Makes the one switch that costs the least loss for the violation it removes; `None` when none
+/// removes any.
+fn repair<const A: usize>(
+    items: &[Item<A>],
+    stages: &mut [Stage<A>],
+    slack: &Rows<A>,
+) -> Option<Rows<A>> {
     let before = violation(slack, slack);
     let mut best: Option<(i64, i64, usize, u32, Rows<A>)> = None;
     for (at, stage) in stages.iter().enumerate() {
@@ -90,7 +102,11 @@ fn repair<const A: usize>(items: &[Item<A>], stages: &mut [Stage<A>], slack: &Ro
 }
 
 /// Makes the one switch within the slack that gains the most value; `None` when none gains.
-fn improve<const A: usize>(items: &[Item<A>], stages: &mut [Stage<A>], slack: &Rows<A>) -> Option<Rows<A>> {
+fn improve<const A: usize>(
+    items: &[Item<A>],
+    stages: &mut [Stage<A>],
+    slack: &Rows<A>,
+) -> Option<Rows<A>> {
     let mut best: Option<(u32, usize, u32, Rows<A>)> = None;
     for (at, stage) in stages.iter().enumerate() {
         let current = stage.item(items, stage.current);

@@ -1,8 +1,9 @@
 //! The search by rising loss, and the neighbourhood of the best plan.
 //!
-//! A dive that asks for the bound itself allows the fewest items; each "no" lowers the bound and allows more.
-//! Where activities share the same ratio of value to cost, very many plans lie near the bound and a dive need
-//! not end. Then the best plan is improved by freeing a few activities at a time, in turns with the dive.
+//! A dive that asks for the bound itself allows the fewest items; each "no" lowers the bound and
+//! allows more. Where activities share the same ratio of value to cost, very many plans lie near
+//! the bound and a dive need not end. Then the best plan is improved by freeing a few activities at
+//! a time, in turns with the dive.
 
 use super::congruence::Remainders;
 use super::dive::Dive;
@@ -20,9 +21,9 @@ const NEIGHBOURHOOD: u64 = 10_000;
 /// Neighbourhoods without a better plan after which the dive has its turn again.
 const FRUITLESS: u64 = 200;
 
-/// Searches until the best plan meets the bound, nothing is left, or the budget is spent. Takes the value of the
-/// plan in [`Stage::best`], if there is one, and returns the new one and whether the search was complete.
-/// `bound` is lowered to what is proven.
+/// Searches until the best plan meets the bound, nothing is left, or the budget is spent. Takes the
+/// value of the plan in [`Stage::best`], if there is one, and returns the new one and whether the
+/// search was complete. `bound` is lowered to what is proven.
 #[allow(clippy::too_many_arguments)] // the parts of one search, taken apart by the borrow checker
 pub(super) fn search<const A: usize>(
     frame: &Frame<A>,
@@ -69,8 +70,8 @@ pub(super) fn search<const A: usize>(
     }
 }
 
-/// Looks for better plans that differ from the best one in a few activities, round after round, until the turn
-/// ends, a plan meets the bound, or nothing better turns up any more.
+/// Looks for better plans that differ from the best one in a few activities, round after round,
+/// until the turn ends, a plan meets the bound, or nothing better turns up any more.
 fn neighbours<const A: usize>(
     dive: &mut Dive<'_, A>,
     bound: i64,
@@ -102,8 +103,9 @@ fn neighbours<const A: usize>(
     }
 }
 
-/// The multipliers that price nodes anew: the best ones with one row dearer or cheaper. A node that has run
-/// short of a row is excluded by the dearer one, a node that has left too much of it by the cheaper one.
+/// The multipliers that price nodes anew: the best ones with one row dearer or cheaper. A node that
+/// has run short of a row is excluded by the dearer one, a node that has left too much of it by the
+/// cheaper one.
 fn repricings<const A: usize>(frame: &Frame<A>, price: &Price<A>) -> [Rows<A>; REPRICINGS] {
     let mut multipliers = [price.multiplier; REPRICINGS];
     let binding = (0..Rows::<A>::COUNT).filter(|&row| frame.most_multiplier.get(row) > 0);

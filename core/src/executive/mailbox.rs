@@ -2,8 +2,8 @@
 
 use crate::units::Micros;
 
-/// The right to publish what a job made: only a job that is done gives one ([`Happening::publication`](super::Happening::publication)),
-/// so a skipped job publishes nothing.
+/// The right to publish what a job made: only a job that is done gives one
+/// ([`Happening::publication`](super::Happening::publication)), so a skipped job publishes nothing.
 #[derive(Debug, PartialEq, Eq)]
 #[must_use = "a job that is done publishes"]
 pub struct Publication {

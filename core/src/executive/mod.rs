@@ -1,7 +1,8 @@
 //! The executive level: periodic modules on one processor, watched by their scheduler.
 //!
-//! COTAMA (Durand, Godary-Dejean, Lapierre, Passama, Crestani, TAROS 2010) runs the modules of a robot under a scheduler that
-//! is also the observer of real-time faults. What of its model is theirs and what is ours:
+//! COTAMA (Durand, Godary-Dejean, Lapierre, Passama, Crestani, TAROS 2010) runs the modules of a
+//! robot under a scheduler that is also the observer of real-time faults. What of its model is
+//! theirs and what is ours:
 //!
 //! | what | whose |
 //! | --- | --- |
@@ -14,8 +15,8 @@
 //! | a job gets at most *cost + extra* of the processor; then it waits, without the processor, to be skipped | assumed |
 //! | a release that finds the last job at work, or the module in fault, is refused: the module sits out one period | assumed |
 //!
-//! The limit of processor time is what isolates modules from each other: one that hangs takes, in each of its periods, its
-//! extra time more than it may, and no more.
+//! The limit of processor time is what isolates modules from each other: one that hangs takes, in
+//! each of its periods, its extra time more than it may, and no more.
 //!
 //! | type | what it is |
 //! | --- | --- |
@@ -25,9 +26,10 @@
 //! | [`Executive`] | the scheduler and its watchdogs, driven by time as an argument |
 //! | [`Mailbox`] | data between modules, with its age |
 //!
-//! **Instants.** A job at work from *a* to *b* has the processor in the half-open interval *[a, b)*, so one that ends when its
-//! deadline comes is in time. At one instant jobs end first, then deadlines pass, then extra times end, then jobs are
-//! released; within each of these the most urgent task goes first.
+//! **Instants.** A job at work from *a* to *b* has the processor in the half-open interval *[a,
+//! b)*, so one that ends when its deadline comes is in time. At one instant jobs end first, then
+//! deadlines pass, then extra times end, then jobs are released; within each of these the most
+//! urgent task goes first.
 //!
 //! ```
 //! use cotama_core::executive::{Overruns, Task, TaskSet};

@@ -3,8 +3,8 @@
 use super::task::{Task, TaskSet};
 use crate::units::Micros;
 
-/// The most iterations for one response time, where nothing else is said. Each lengthens it by at least one microsecond, most
-/// by a whole job; a set of twenty tasks rarely needs fifty.
+/// The most iterations for one response time, where nothing else is said. Each lengthens it by at
+/// least one microsecond, most by a whole job; a set of twenty tasks rarely needs fifty.
 pub const ITERATIONS: u32 = 10_000;
 
 /// Which modules run into their extra time, in each of their periods.
@@ -45,7 +45,10 @@ impl core::fmt::Display for Unschedulable {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Late { task, at_least, deadline } => {
-                write!(f, "task {task} can miss its deadline, {deadline}: it may take {at_least} or more")
+                write!(
+                    f,
+                    "task {task} can miss its deadline, {deadline}: it may take {at_least} or more"
+                )
             }
             Self::Unknown { task, at_least } => {
                 write!(f, "task {task} may take {at_least} or more; allow more iterations to know")
@@ -59,15 +62,20 @@ impl core::error::Error for Unschedulable {}
 impl TaskSet<'_> {
     /// The worst response time of each task, the most urgent first; or that it can be late.
     ///
-    /// The least *R* with *R = `C_i` + sum over the more urgent j of ceil(R / `T_j`) `C_j`* (Joseph and Pandya, "Finding response times
-    /// in a real-time system", 1986; Audsley et al., "Applying new scheduling theory to static priority pre-emptive scheduling",
-    /// 1993), where a task that overruns has its [budget](Task::budget) in place of its cost. It is the time from release to
-    /// end of a job released together with one of each more urgent task, the worst of all cases, so it is exact whatever the
-    /// offsets may be; of given offsets it is a bound from above. With overruns it is exact if the overrunning
-    /// module can use all its extra time before that ends, else a bound from above.
+    /// The least *R* with *R = `C_i` + sum over the more urgent j of ceil(R / `T_j`) `C_j`* (Joseph
+    /// and Pandya, "Finding response times in a real-time system", 1986; Audsley et al., "Applying
+    /// new scheduling theory to static priority pre-emptive scheduling", 1993), where a task that
+    /// overruns has its [budget](Task::budget) in place of its cost. It is the time from release to
+    /// end of a job released together with one of each more urgent task, the worst of all cases, so
+    /// it is exact whatever the offsets may be; of given offsets it is a bound from above. With
+    /// overruns it is exact if the overrunning module can use all its extra time before that ends,
+    /// else a bound from above.
     ///
     /// Cost: iterations times tasks each, for [`Overruns::One`] times tasks again.
-    pub fn response_times(&self, overruns: Overruns) -> impl Iterator<Item = Result<Micros, Unschedulable>> {
+    pub fn response_times(
+        &self,
+        overruns: Overruns,
+    ) -> impl Iterator<Item = Result<Micros, Unschedulable>> {
         (0..self.tasks().len()).map(move |task| self.worst(task, overruns, None))
     }
 
@@ -79,14 +87,19 @@ impl TaskSet<'_> {
         self.response_times(overruns).try_for_each(|response| response.map(drop))
     }
 
-    /// The largest cost of a task at which every task is in time; `None` when there is none, or no such task.
+    /// The largest cost of a task at which every task is in time; `None` when there is none, or no
+    /// such task.
     ///
-    /// Exact, as more cost never makes a response time shorter: the interval from one microsecond to the deadline is halved
-    /// until one is left.
+    /// Exact, as more cost never makes a response time shorter: the interval from one microsecond
+    /// to the deadline is halved until one is left.
     ///
     /// # Errors
     /// [`Unschedulable::Unknown`] when the limit of iterations was reached on the way.
-    pub fn most_cost(&self, task: usize, overruns: Overruns) -> Result<Option<Micros>, Unschedulable> {
+    pub fn most_cost(
+        &self,
+        task: usize,
+        overruns: Overruns,
+    ) -> Result<Option<Micros>, Unschedulable> {
         let Some(of) = self.tasks().get(task) else { return Ok(None) };
         // Invariant: in time with `good`, zero standing for none; not in time with `bad`.
         let (mut good, mut bad) = (0, of.deadline.0.saturating_add(1));
@@ -102,8 +115,13 @@ impl TaskSet<'_> {
     }
 
     /// Whether every task is in time when one has another cost.
-    fn schedulable_at(&self, overruns: Overruns, changed: (usize, Micros)) -> Result<(), Unschedulable> {
-        (0..self.tasks().len()).try_for_each(|task| self.worst(task, overruns, Some(changed)).map(drop))
+    fn schedulable_at(
+        &self,
+        overruns: Overruns,
+        changed: (usize, Micros),
+    ) -> Result<(), Unschedulable> {
+        (0..self.tasks().len())
+            .try_for_each(|task| self.worst(task, overruns, Some(changed)).map(drop))
     }
 
     /// The worst response time of a task over all choices of overruns.
@@ -121,16 +139,17 @@ impl TaskSet<'_> {
         match overruns {
             Overruns::None => self.response(task, |at, of| Some(plain(at, of))),
             Overruns::All => {
-                self.response(task, |at, of| if at == task { Some(plain(at, of)) } else { full(at, of) })
+                self.response(
+                    task,
+                    |at, of| if at == task { Some(plain(at, of)) } else { full(at, of) },
+                )
             }
             Overruns::One => {
                 let mut worst = self.response(task, |at, of| Some(plain(at, of)))?;
                 for one in 0..task {
-                    let with_one =
-                        self.response(
-                            task,
-                            |at, of| if at == one { full(at, of) } else { Some(plain(at, of)) },
-                        )?;
+                    let with_one = self.response(task, |at, of| {
+                        if at == one { full(at, of) } else { Some(plain(at, of)) }
+                    })?;
                     worst = worst.max(with_one);
                 }
                 Ok(worst)

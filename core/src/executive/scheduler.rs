@@ -83,9 +83,13 @@ pub enum NotRunning {
 impl core::fmt::Display for NotRunning {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
-            Self::Running(Some(task)) => write!(f, "not this task has the processor, task {task} has it"),
+            Self::Running(Some(task)) => {
+                write!(f, "not this task has the processor, task {task} has it")
+            }
             Self::Running(None) => f.write_str("no task has the processor"),
-            Self::Behind(due) => write!(f, "something is due at {due} already; step until then first"),
+            Self::Behind(due) => {
+                write!(f, "something is due at {due} already; step until then first")
+            }
         }
     }
 }
@@ -108,9 +112,10 @@ struct Module {
 
 /// The scheduler of `N` periodic modules and their watchdogs.
 ///
-/// It is told the time: [`step`](Self::step) hands out what has happened up to it, one happening after the other, and
-/// [`wake_at`](Self::wake_at) says when it wants to be told. [`running`](Self::running) says which task has the processor, and
-/// [`complete`](Self::complete) that its job is done. The same machine schedules a robot and, with execution times as an
+/// It is told the time: [`step`](Self::step) hands out what has happened up to it, one happening
+/// after the other, and [`wake_at`](Self::wake_at) says when it wants to be told.
+/// [`running`](Self::running) says which task has the processor, and [`complete`](Self::complete)
+/// that its job is done. The same machine schedules a robot and, with execution times as an
 /// argument, a simulation ([`simulate`](Self::simulate)).
 ///
 /// ```
@@ -178,7 +183,8 @@ impl<const N: usize> Executive<N> {
         self.modules.get(task).filter(|module| module.is_at_work()).map(|module| module.used)
     }
 
-    /// The task that has the processor: the most urgent one with a job under way and processor time left.
+    /// The task that has the processor: the most urgent one with a job under way and processor time
+    /// left.
     pub fn running(&self) -> Option<usize> {
         let wants = |of: &(usize, &Task, &Module)| of.2.wants_processor(of.1);
         self.numbered().find(wants).map(|(at, ..)| at)
@@ -189,8 +195,8 @@ impl<const N: usize> Executive<N> {
         self.due().map(|(at, ..)| at)
     }
 
-    /// What happened next, if that was at `now` or before; `None` when all has, and the time is `now`. A time before the last
-    /// one counts as the last one.
+    /// What happened next, if that was at `now` or before; `None` when all has, and the time is
+    /// `now`. A time before the last one counts as the last one.
     pub fn step(&mut self, now: Micros) -> Option<Happening> {
         match self.due() {
             Some((at, task, due)) if at <= now => {
@@ -204,10 +210,12 @@ impl<const N: usize> Executive<N> {
         }
     }
 
-    /// The job of this task is done. The instant belongs to the job, so its deadline, when it is now, is met.
+    /// The job of this task is done. The instant belongs to the job, so its deadline, when it is
+    /// now, is met.
     ///
     /// # Errors
-    /// [`NotRunning`] when the task does not have the processor, or the executive was not told the time so far.
+    /// [`NotRunning`] when the task does not have the processor, or the executive was not told the
+    /// time so far.
     pub fn complete(&mut self, task: usize, now: Micros) -> Result<Happening, NotRunning> {
         if let Some((due, ..)) = self.due()
             && due < now
@@ -232,8 +240,8 @@ impl<const N: usize> Executive<N> {
         Ok(Happening { at, task, what })
     }
 
-    /// As [`step`](Self::step), with jobs that are done when they have had so much of the processor, the one under way of each
-    /// task: for simulations.
+    /// As [`step`](Self::step), with jobs that are done when they have had so much of the
+    /// processor, the one under way of each task: for simulations.
     pub fn simulate(&mut self, now: Micros, needs: &[Micros; N]) -> Option<Happening> {
         if let Some(task) = self.running()
             && let (Some(need), Some(module)) = (needs.get(task), self.modules.get(task))
@@ -246,8 +254,8 @@ impl<const N: usize> Executive<N> {
         self.step(now)
     }
 
-    /// The supervisor has reacted to the fault of a module; `None`, and nothing changes, when it has none now, or something
-    /// was due before.
+    /// The supervisor has reacted to the fault of a module; `None`, and nothing changes, when it
+    /// has none now, or something was due before.
     pub fn acknowledge(&mut self, task: usize, now: Micros) -> Option<Happening> {
         if self.wake_at().is_some_and(|due| due < now) {
             return None;
@@ -258,7 +266,8 @@ impl<const N: usize> Executive<N> {
         Some(Happening { at: self.now, task, what: What::Acknowledged })
     }
 
-    /// All tasks and their modules, by number. A range, as the compiler sees that it does not overflow.
+    /// All tasks and their modules, by number. A range, as the compiler sees that it does not
+    /// overflow.
     fn numbered(&self) -> impl Iterator<Item = (usize, &Task, &Module)> {
         (0..N).zip(&self.tasks).zip(&self.modules).map(|((at, task), module)| (at, task, module))
     }
@@ -269,12 +278,16 @@ impl<const N: usize> Executive<N> {
         let mut first: Option<(Micros, usize, Due)> = None;
         for (at, task, module) in self.numbered() {
             let exhausted = (running == Some(at))
-                .then(|| self.now.checked_add(Micros(task.budget().0.saturating_sub(module.used.0))))
+                .then(|| {
+                    self.now.checked_add(Micros(task.budget().0.saturating_sub(module.used.0)))
+                })
                 .flatten();
-            let deadline =
-                (module.stage == Stage::Run).then(|| module.released.checked_add(task.deadline)).flatten();
+            let deadline = (module.stage == Stage::Run)
+                .then(|| module.released.checked_add(task.deadline))
+                .flatten();
             let end = Micros(task.deadline.0.saturating_add(task.extra.0)); // fits, in a task that makes sense
-            let extra = (module.stage == Stage::Extra).then(|| module.released.checked_add(end)).flatten();
+            let extra =
+                (module.stage == Stage::Extra).then(|| module.released.checked_add(end)).flatten();
             let dues = [
                 (Due::Exhausted, exhausted),
                 (Due::Deadline, deadline),
@@ -309,7 +322,12 @@ impl<const N: usize> Executive<N> {
                 Due::Release => {
                     module.release = module.release.and_then(|at| at.checked_add(of.period));
                     if module.stage == Stage::Idle {
-                        *module = Module { stage: Stage::Run, released: now, used: Micros::ZERO, ..*module };
+                        *module = Module {
+                            stage: Stage::Run,
+                            released: now,
+                            used: Micros::ZERO,
+                            ..*module
+                        };
                         What::Released
                     } else {
                         What::Refused

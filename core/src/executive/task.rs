@@ -14,17 +14,20 @@ pub struct Task {
     pub offset: Micros,
     /// The most processor time that a job needs: its worst-case execution time.
     pub cost: Micros,
-    /// How long after its deadline a late job may still go on, and how much processor time beyond its cost a job gets.
+    /// How long after its deadline a late job may still go on, and how much processor time beyond
+    /// its cost a job gets.
     pub extra: Micros,
     /// So many misses in a row are a fault; at least one.
     pub patience: u8,
 }
 
 impl Task {
-    /// Misses in a row that are a fault, where nothing else is said; assumed, COTAMA's paper says "several".
+    /// Misses in a row that are a fault, where nothing else is said; assumed, COTAMA's paper says
+    /// "several".
     pub const PATIENCE: u8 = 3;
 
-    /// A task that must be done before its next release, first released at the start, without extra time.
+    /// A task that must be done before its next release, first released at the start, without extra
+    /// time.
     #[must_use]
     pub const fn new(period: Micros, cost: Micros) -> Self {
         Self {
@@ -37,7 +40,8 @@ impl Task {
         }
     }
 
-    /// The most processor time that a job gets: cost and extra time. It fits in a task that makes sense.
+    /// The most processor time that a job gets: cost and extra time. It fits in a task that makes
+    /// sense.
     #[must_use]
     pub const fn budget(&self) -> Micros {
         Micros(self.cost.0.saturating_add(self.extra.0))
@@ -45,7 +49,9 @@ impl Task {
 
     /// Why it makes no sense, if it does not.
     const fn flaw(&self) -> Option<Senseless> {
-        let Some(end) = self.deadline.checked_add(self.extra) else { return Some(Senseless::TooLong) };
+        let Some(end) = self.deadline.checked_add(self.extra) else {
+            return Some(Senseless::TooLong);
+        };
         if self.period.0 == 0 {
             Some(Senseless::NoPeriod)
         } else if self.cost.0 == 0 {
@@ -80,7 +86,8 @@ pub enum Senseless {
         /// The period.
         period: Micros,
     },
-    /// A job with the processor for itself would be skipped: its cost is beyond deadline and extra time.
+    /// A job with the processor for itself would be skipped: its cost is beyond deadline and extra
+    /// time.
     NeverDone {
         /// The cost.
         cost: Micros,
@@ -104,9 +111,15 @@ impl core::fmt::Display for TaskError {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         write!(f, "task {}: ", self.task)?;
         match self.why {
-            Senseless::NoPeriod => f.write_str("its period is zero; give the time from release to release"),
-            Senseless::NoCost => f.write_str("its cost is zero; give its worst-case execution time"),
-            Senseless::NoPatience => f.write_str("zero misses in a row are no fault; give at least one"),
+            Senseless::NoPeriod => {
+                f.write_str("its period is zero; give the time from release to release")
+            }
+            Senseless::NoCost => {
+                f.write_str("its cost is zero; give its worst-case execution time")
+            }
+            Senseless::NoPatience => {
+                f.write_str("zero misses in a row are no fault; give at least one")
+            }
             Senseless::DeadlineAfterPeriod { deadline, period } => {
                 write!(
                     f,
@@ -119,9 +132,9 @@ impl core::fmt::Display for TaskError {
                     "its cost, {cost}, is above deadline and extra time, {end}; no job would ever be done"
                 )
             }
-            Senseless::TooLong => {
-                f.write_str("deadline or cost, with the extra time, does not fit 64 bits of microseconds")
-            }
+            Senseless::TooLong => f.write_str(
+                "deadline or cost, with the extra time, does not fit 64 bits of microseconds",
+            ),
         }
     }
 }

@@ -1,8 +1,10 @@
-//! A net packed for execution: a marking is a few machine words, a transition a comparison and a sum.
+//! A net packed for execution: a marking is a few machine words, a transition a comparison and a
+//! sum.
 //!
-//! Every place is a field of a word, wide enough for its bound, with one guard bit above it. A transition is enabled
-//! when `((marking | guards) - need) & guards == guards`: one subtraction compares all fields of a word at once, and a
-//! field that holds too little borrows its own guard bit and nothing else's. Firing adds a word.
+//! Every place is a field of a word, wide enough for its bound, with one guard bit above it. A
+//! transition is enabled when `((marking | guards) - need) & guards == guards`: one subtraction
+//! compares all fields of a word at once, and a field that holds too little borrows its own guard
+//! bit and nothing else's. Firing adds a word.
 
 mod arrays;
 mod field;
@@ -59,11 +61,13 @@ impl<const W: usize> Clock<W> {
 /// A net packed for execution. Lists are borrowed: from flash, or from the heap.
 #[derive(Clone, Copy, Debug)]
 pub struct Code<'c, const W: usize> {
-    /// Transitions by event, then by the state that they need, then in the order in which they are tried.
+    /// Transitions by event, then by the state that they need, then in the order in which they are
+    /// tried.
     pub entries: &'c [Entry<W>],
-    /// Where the transitions of an event that a state enables begin and end in `entries`: two numbers, at
-    /// `2 * (event * states + state)`; a row without any begins at [`NO_ROW`]. After those of the last event come those
-    /// that fire at once by themselves, then those that fire by themselves in an interval.
+    /// Where the transitions of an event that a state enables begin and end in `entries`: two
+    /// numbers, at `2 * (event * states + state)`; a row without any begins at [`NO_ROW`]. After
+    /// those of the last event come those that fire at once by themselves, then those that fire by
+    /// themselves in an interval.
     pub rows: &'c [u16],
     /// What each transition takes, by its position in the net.
     pub takes: &'c [[u64; W]],
@@ -81,7 +85,8 @@ pub struct Code<'c, const W: usize> {
     pub initial: [u64; W],
     /// For each event the places that ignore it on purpose.
     pub ignored: &'c [[u64; W]],
-    /// The bits of the places of which exactly one is marked at any time; zero when the net has none such.
+    /// The bits of the places of which exactly one is marked at any time; zero when the net has
+    /// none such.
     pub control: u64,
     /// How many such places; one when there is none.
     pub states: u16,
@@ -89,8 +94,8 @@ pub struct Code<'c, const W: usize> {
     pub events: u16,
     /// The most transitions that fire at once by themselves one after another.
     pub settle: u32,
-    /// Where nothing of this is marked, no transition fires at once by itself: a place of each of them, or the guard bit
-    /// of one that needs no place.
+    /// Where nothing of this is marked, no transition fires at once by itself: a place of each of
+    /// them, or the guard bit of one that needs no place.
     pub restless: [u64; W],
     /// Whether it is known that no bound is ever exceeded.
     pub bounded: bool,
@@ -164,7 +169,8 @@ pub struct Words<const W: usize> {
     pub fingerprint: u64,
 }
 
-/// See [`Code::restless`]: the first place that each transition needs which fires at once by itself.
+/// See [`Code::restless`]: the first place that each transition needs which fires at once by
+/// itself.
 const fn restless<const W: usize>(lists: &Borrowed<'_, W>, words: &Words<W>) -> [u64; W] {
     let mut restless = [0; W];
     let (kind, states) = (2 * lists.ignored.len() * words.states as usize, words.states as usize);
@@ -216,7 +222,8 @@ impl<'c, const W: usize> Code<'c, W> {
         }
     }
 
-    /// The first transition of an event, or of a kind beyond the events, that may be enabled in this marking and `can`.
+    /// The first transition of an event, or of a kind beyond the events, that may be enabled in
+    /// this marking and `can`.
     #[inline]
     pub fn first(
         &self,
@@ -238,15 +245,16 @@ impl<'c, const W: usize> Code<'c, W> {
         }
     }
 
-    /// The transitions of an event, or of a kind beyond the events, that may be enabled in this marking; `None` when it
-    /// has none.
+    /// The transitions of an event, or of a kind beyond the events, that may be enabled in this
+    /// marking; `None` when it has none.
     #[inline]
     pub fn row(&self, kind: usize, marking: &[u64; W]) -> Option<&'c [Entry<W>]> {
         let (start, end) = self.row_bounds(kind, marking)?;
         self.entries.get(usize::from(start)..usize::from(end))
     }
 
-    /// Where the transitions of a kind that the state enables begin in `entries`, and where they end.
+    /// Where the transitions of a kind that the state enables begin in `entries`, and where they
+    /// end.
     #[inline]
     fn row_bounds(&self, kind: usize, marking: &[u64; W]) -> Option<(u16, u16)> {
         let of_kind = kind.checked_mul(2 * usize::from(self.states))?;
@@ -254,16 +262,16 @@ impl<'c, const W: usize> Code<'c, W> {
         Some((*self.rows.get(row)?, *self.rows.get(row.checked_add(1)?)?))
     }
 
-    /// All transitions of an event, or of the kind after the events: those that fire at once by themselves, or of the
-    /// kind after that: those that do in an interval.
+    /// All transitions of an event, or of the kind after the events: those that fire at once by
+    /// themselves, or of the kind after that: those that do in an interval.
     pub fn kind(&self, kind: usize) -> &'c [Entry<W>] {
         // Where the last row of a kind ends the first one of the next begins.
         let end = |kinds: usize| {
             let row = kinds.checked_mul(2 * usize::from(self.states))?.checked_sub(1)?;
             Some(usize::from(*self.rows.get(row)?))
         };
-        let entries =
-            end(kind.saturating_add(1)).and_then(|last| self.entries.get(end(kind).unwrap_or(0)..last));
+        let entries = end(kind.saturating_add(1))
+            .and_then(|last| self.entries.get(end(kind).unwrap_or(0)..last));
         entries.unwrap_or(&[])
     }
 
@@ -273,11 +281,13 @@ impl<'c, const W: usize> Code<'c, W> {
         self.control_bit(marking) / 2
     }
 
-    /// The bit of the marked place of a state machine: twice its position. Zero for a net that is none.
+    /// The bit of the marked place of a state machine: twice its position. Zero for a net that is
+    /// none.
     #[inline]
     fn control_bit(&self, marking: &[u64; W]) -> usize {
         let marked = marking.first().map_or(0, |word| word & self.control);
-        // Most have up to sixteen states: half a word, for which small processors need half the instructions.
+        // Most have up to sixteen states: half a word, for which small processors need half the
+        // instructions.
         let bit = if self.control == 0 {
             0
         } else if u32::try_from(self.control).is_ok() {
@@ -290,7 +300,11 @@ impl<'c, const W: usize> Code<'c, W> {
 
     /// The transition that fires next at once by itself, if it `can`.
     #[inline]
-    pub fn urgent(&self, marking: &[u64; W], can: impl Fn(&Entry<W>) -> bool) -> Option<&'c Entry<W>> {
+    pub fn urgent(
+        &self,
+        marking: &[u64; W],
+        can: impl Fn(&Entry<W>) -> bool,
+    ) -> Option<&'c Entry<W>> {
         let mut word = 0;
         let mut resting = true;
         while word < W {
@@ -312,7 +326,8 @@ impl<'c, const W: usize> Code<'c, W> {
         lacking == 0
     }
 
-    /// The marking after firing, whatever the bounds; a field that exceeds its bound does not disturb others.
+    /// The marking after firing, whatever the bounds; a field that exceeds its bound does not
+    /// disturb others.
     #[inline]
     pub const fn after(&self, marking: &[u64; W], delta: &[u64; W]) -> [u64; W] {
         let mut after = *marking;

@@ -1,7 +1,8 @@
 //! A net as plain data: what every other part of the crate reads.
 //!
-//! Ids are positions in the lists of the same [`Net`]. The lists are public, so a net can also be written by hand,
-//! read from a file or made by a function; [`Net::defect`] says whether they fit together.
+//! Ids are positions in the lists of the same [`Net`]. The lists are public, so a net can also be
+//! written by hand, read from a file or made by a function; [`Net::defect`] says whether they fit
+//! together.
 
 /// A place of a net: its position in [`Net::places`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -73,7 +74,8 @@ pub enum Role {
     State,
     /// Data that guards read: a boolean, or a counter up to the bound of the place.
     Data,
-    /// What a [`Role::Data`] or [`Role::Shared`] place lacks to its bound: the two sum to the bound.
+    /// What a [`Role::Data`] or [`Role::Shared`] place lacks to its bound: the two sum to the
+    /// bound.
     Complement(PlaceId),
     /// A condition that another net of a system owns.
     Shared,
@@ -97,8 +99,8 @@ pub struct Transition<'n> {
     pub name: &'n str,
     /// What it is for.
     pub doc: &'n str,
-    /// Which line of the definition it comes from; one line can stand for several transitions (from any place of
-    /// a group, for either value of a flag).
+    /// Which line of the definition it comes from; one line can stand for several transitions (from
+    /// any place of a group, for either value of a flag).
     pub line: u32,
     /// The event it needs; without one it fires by itself.
     pub on: Option<EventId>,
@@ -110,8 +112,8 @@ pub struct Transition<'n> {
     pub give: &'n [Arc],
     /// What it says, in this order.
     pub emits: &'n [OutputId],
-    /// When it may fire, counted from the moment it became enabled. Without it: at any time when it needs an event,
-    /// at once when it does not.
+    /// When it may fire, counted from the moment it became enabled. Without it: at any time when it
+    /// needs an event, at once when it does not.
     pub within: Option<Within>,
     /// Of several enabled transitions the one of the highest priority fires.
     pub priority: i16,
@@ -157,8 +159,9 @@ pub struct Ignored {
     pub place: PlaceId,
 }
 
-/// What is claimed of a net. All but [`Law::Deterministic`] speak about the net without time and priorities, that
-/// is of every order in which enabled transitions can fire; what they forbid is then forbidden in every execution.
+/// What is claimed of a net. All but [`Law::Deterministic`] speak about the net without time and
+/// priorities, that is of every order in which enabled transitions can fire; what they forbid is
+/// then forbidden in every execution.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law<'n> {
     /// A weighted sum of tokens stays the same: a place invariant.
@@ -184,7 +187,7 @@ pub enum Law<'n> {
         /// Where to stop is meant.
         end: Option<PlaceId>,
     },
-    /// No two transitions of the same event, or two that fire at once by themselves, are ever enabled together:
-    /// priorities and the order of lines decide nothing.
+    /// No two transitions of the same event, or two that fire at once by themselves, are ever
+    /// enabled together: priorities and the order of lines decide nothing.
     Deterministic,
 }

@@ -120,7 +120,9 @@ impl Source<'_> {
                     Found::Data(..) => {
                         text.name(name).with(" is data, not a place; test it in guards").stop()
                     }
-                    Found::Group(_) => text.name(name).with(" is a group itself; name its places").stop(),
+                    Found::Group(_) => {
+                        text.name(name).with(" is a group itself; name its places").stop()
+                    }
                     Found::Nothing => self.nothing(text, name, Meant::Place),
                 }
                 let mut other = 0;

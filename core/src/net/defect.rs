@@ -22,7 +22,8 @@ pub enum Defect {
         /// The position of the transition.
         transition: usize,
     },
-    /// A place has more tokens at the start than its bound, or the complement of a place is not one.
+    /// A place has more tokens at the start than its bound, or the complement of a place is not
+    /// one.
     Place {
         /// The position of the place.
         place: usize,
@@ -34,7 +35,8 @@ pub enum Defect {
 impl Net<'_> {
     /// What is wrong with its lists, if anything.
     pub fn defect(&self) -> Option<Defect> {
-        let lists = [self.places.len(), self.events.len(), self.outputs.len(), self.transitions.len()];
+        let lists =
+            [self.places.len(), self.events.len(), self.outputs.len(), self.transitions.len()];
         if lists.iter().any(|&length| u32::try_from(length).is_err()) {
             return Some(Defect::TooLong);
         }
@@ -50,10 +52,12 @@ impl Net<'_> {
             let complements = |of: PlaceId| {
                 let of = self.places.get(of.0 as usize);
                 of.is_some_and(|of| {
-                    of.bound == place.bound && of.initial.checked_add(place.initial) == Some(of.bound)
+                    of.bound == place.bound
+                        && of.initial.checked_add(place.initial) == Some(of.bound)
                 })
             };
-            place.initial > place.bound || matches!(place.role, Role::Complement(of) if !complements(of))
+            place.initial > place.bound
+                || matches!(place.role, Role::Complement(of) if !complements(of))
         };
         self.places.iter().position(bad).map(|place| Defect::Place { place })
     }
@@ -76,9 +80,12 @@ impl Net<'_> {
     }
 
     fn law_defect(&self) -> Option<Defect> {
-        let ignored = |it: &super::Ignored| (it.event.0 as usize) < self.events.len() && self.has(it.place);
+        let ignored =
+            |it: &super::Ignored| (it.event.0 as usize) < self.events.len() && self.has(it.place);
         let law = |law: &Law<'_>| match *law {
-            Law::Invariant { sum, .. } => sum.iter().all(|arc| self.has(arc.place)) && once([sum, &[]]),
+            Law::Invariant { sum, .. } => {
+                sum.iter().all(|arc| self.has(arc.place)) && once([sum, &[]])
+            }
             Law::NeverBoth(a, b) => self.has(a) && self.has(b),
             Law::Reachable(place) | Law::AlwaysCan(place) => self.has(place),
             Law::DeadlockFree { end } => end.is_none_or(|end| self.has(end)),
@@ -95,5 +102,7 @@ fn once(lists: [&[Arc]; 2]) -> bool {
     let sorted = arcs().zip(arcs().skip(1)).all(|(before, arc)| before.place < arc.place);
     arcs().all(|arc| arc.weight > 0)
         && (sorted
-            || arcs().enumerate().all(|(at, arc)| arcs().skip(at + 1).all(|other| other.place != arc.place)))
+            || arcs()
+                .enumerate()
+                .all(|(at, arc)| arcs().skip(at + 1).all(|other| other.place != arc.place)))
 }

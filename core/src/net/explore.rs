@@ -1,8 +1,8 @@
 //! Every reachable marking of a small net, while compiling.
 //!
-//! Explored is the net without time and priorities: from each marking every enabled transition. The places that a net
-//! shares with others change as those others please. Breadth first, transitions in their order, so the way to a
-//! marking is a shortest one.
+//! Explored is the net without time and priorities: from each marking every enabled transition. The
+//! places that a net shares with others change as those others please. Breadth first, transitions
+//! in their order, so the way to a marking is a shortest one.
 
 use super::code::Code;
 use super::data::{Net, Role};
@@ -66,7 +66,8 @@ struct Moves {
 }
 
 impl Moves {
-    /// The transitions in the order of the net, then for each shared place that it gains or loses a token.
+    /// The transitions in the order of the net, then for each shared place that it gains or loses a
+    /// token.
     const fn of<const W: usize>(net: &Net<'_>, code: &Code<'_, W>) -> Self {
         let entries = code.entries.len();
         let mut moves = Self { by: [0; FIRINGS], kind: [SHARED; FIRINGS], count: entries };
@@ -137,11 +138,13 @@ impl<const W: usize> Graph<W> {
                         None => continue,
                     }
                 } else {
-                    // As `Code::holds` and `Code::after`: no field borrows from another, so nothing wraps.
+                    // As `Code::holds` and `Code::after`: no field borrows from another, so nothing
+                    // wraps.
                     let entry = &code.entries[by as usize];
                     let mut word = 0;
                     while word < W
-                        && ((marking[word] | code.guards[word]) - entry.need[word]) & code.guards[word]
+                        && ((marking[word] | code.guards[word]) - entry.need[word])
+                            & code.guards[word]
                             == code.guards[word]
                     {
                         word += 1;
@@ -155,7 +158,8 @@ impl<const W: usize> Graph<W> {
                     while word < W {
                         after[word] = (marking[word] as u128 + entry.delta[word] as u128) as u64;
                         let guards = code.guards[word];
-                        fits = fits && ((code.bounds[word] | guards) - after[word]) & guards == guards;
+                        fits =
+                            fits && ((code.bounds[word] | guards) - after[word]) & guards == guards;
                         word += 1;
                     }
                     if !fits {
@@ -222,7 +226,13 @@ impl<const W: usize> Graph<W> {
     }
 
     /// Adds the shortest way to a marking to a text, as "a, b on Event, c".
-    pub(super) const fn way(&self, net: &Net<'_>, code: &Code<'_, W>, text: Text, to: usize) -> Text {
+    pub(super) const fn way(
+        &self,
+        net: &Net<'_>,
+        code: &Code<'_, W>,
+        text: Text,
+        to: usize,
+    ) -> Text {
         let mut path = [0_u16; MARKINGS];
         let mut length = 0;
         let mut at = to;
@@ -251,8 +261,8 @@ impl<const W: usize> Graph<W> {
         text
     }
 
-    /// Whether a marking that is covered by this one, and has less in one place, led to it; then the same way can be
-    /// gone again and again.
+    /// Whether a marking that is covered by this one, and has less in one place, led to it; then
+    /// the same way can be gone again and again.
     pub(super) const fn grows(&self, last: usize, marking: &[u64; W], code: &Code<'_, W>) -> bool {
         let mut at = last;
         loop {
@@ -274,17 +284,28 @@ impl<const W: usize> Graph<W> {
 }
 
 /// What a field holds, beyond its bound if need be: its guard bit counts.
-pub(super) const fn held<const W: usize>(code: &Code<'_, W>, marking: &[u64; W], place: usize) -> u64 {
+pub(super) const fn held<const W: usize>(
+    code: &Code<'_, W>,
+    marking: &[u64; W],
+    place: usize,
+) -> u64 {
     let field = code.fields[place];
     (marking[field.word as usize] >> field.shift) & ((2 << field.width) - 1)
 }
 
 /// Adds what a move is called to a text.
-pub(super) const fn said<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, text: Text, by: usize) -> Text {
+pub(super) const fn said<const W: usize>(
+    net: &Net<'_>,
+    code: &Code<'_, W>,
+    text: Text,
+    by: usize,
+) -> Text {
     if by < code.entries.len() {
         let transition = &net.transitions[code.entries[by].transition as usize];
         return match transition.on {
-            Some(event) => text.with(transition.name).with(" on ").with(net.events[event.0 as usize].name),
+            Some(event) => {
+                text.with(transition.name).with(" on ").with(net.events[event.0 as usize].name)
+            }
             None => text.with(transition.name),
         };
     }
@@ -293,7 +314,9 @@ pub(super) const fn said<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, text
         Role::Complement(of) => net.places[of.0 as usize].name,
         _ => "",
     };
-    text.with(if gains { "(another net raises " } else { "(another net lowers " }).with(name).with(")")
+    text.with(if gains { "(another net raises " } else { "(another net lowers " })
+        .with(name)
+        .with(")")
 }
 
 /// The complement of a shared place that a move changes, and whether the place gains a token.
@@ -356,7 +379,9 @@ pub(super) const fn marked<const W: usize>(
     let mut first = true;
     let mut at = 0;
     while at < net.places.len() {
-        if code.fields[at].of(marking) == 0 && matches!(net.places[at].role, Role::Data | Role::Shared) {
+        if code.fields[at].of(marking) == 0
+            && matches!(net.places[at].role, Role::Data | Role::Shared)
+        {
             text = text.with(if first { "; false or 0: " } else { ", " }).name(net.places[at].name);
             first = false;
         }

@@ -1,6 +1,8 @@
 //! Nets made at run time, packed on the heap so that a [`Player`](super::Player) plays them.
 
-use super::code::{Borrowed, Clock, Code, Entry, Field, LARGEST, Lists, NO_CLOCK, Words, pack, size};
+use super::code::{
+    Borrowed, Clock, Code, Entry, Field, LARGEST, Lists, NO_CLOCK, Words, pack, size,
+};
 use super::data::Net;
 use super::defect::Defect;
 use super::program::Loaded;
@@ -42,8 +44,8 @@ pub struct Packed<const W: usize> {
     words: Words<W>,
 }
 
-/// How many machine words a marking of this net needs; `None` when it has too many places, events or transitions to be
-/// played.
+/// How many machine words a marking of this net needs; `None` when it has too many places, events
+/// or transitions to be played.
 pub fn words(net: &Net<'_>) -> Option<usize> {
     size(net).map(|size| size.words)
 }
@@ -57,7 +59,8 @@ impl<const W: usize> Packed<W> {
     /// Packs a net. Places of which no bound is claimed hold up to [`LARGEST`] tokens.
     ///
     /// # Errors
-    /// The defect of the net; [`Defect::Place`] when a place starts with more than that; [`Defect::TooLong`] when it has too many parts, or `W` is less than [`words`].
+    /// The defect of the net; [`Defect::Place`] when a place starts with more than that;
+    /// [`Defect::TooLong`] when it has too many parts, or `W` is less than [`words`].
     pub fn of(net: &Net<'_>) -> Result<Self, Defect> {
         if let Some(defect) = net.defect() {
             return Err(defect);
@@ -67,14 +70,23 @@ impl<const W: usize> Packed<W> {
         }
         let size = size(net).filter(|size| size.words <= W).ok_or(Defect::TooLong)?;
         let entry = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NO_CLOCK };
-        let words =
-            Words { guards: [0; W], bounds: [0; W], initial: [0; W], control: 0, states: 1, fingerprint: 0 };
+        let words = Words {
+            guards: [0; W],
+            bounds: [0; W],
+            initial: [0; W],
+            control: 0,
+            states: 1,
+            fingerprint: 0,
+        };
         let mut it = Self {
             entries: vec![entry; size.entries],
             takes: vec![[0; W]; size.entries],
             order: vec![0; size.entries],
             rows: vec![0; size.rows],
-            clocks: vec![Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 }; size.clocks],
+            clocks: vec![
+                Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 };
+                size.clocks
+            ],
             fields: vec![Field { word: 0, shift: 0, width: 1 }; size.fields],
             ignored: vec![[0; W]; size.events],
             words,
@@ -95,7 +107,12 @@ impl<const W: usize> Packed<W> {
     /// The packed net.
     pub fn code(&self) -> Code<'_, W> {
         let Self { entries, takes, order, rows, clocks, fields, ignored, words } = self;
-        Code::new(Borrowed { entries, takes, order, rows, clocks, fields, ignored }, words, SETTLE, false)
+        Code::new(
+            Borrowed { entries, takes, order, rows, clocks, fields, ignored },
+            words,
+            SETTLE,
+            false,
+        )
     }
 
     /// What a player plays; `net` is the net that was packed.

@@ -1,5 +1,5 @@
-//! The laws of a small net, checked while compiling; one that does not hold is a compile error that names the culprit
-//! and the shortest way there.
+//! The laws of a small net, checked while compiling; one that does not hold is a compile error that
+//! names the culprit and the shortest way there.
 
 use super::code::Code;
 use super::data::{Law, Net, PlaceId, Role};
@@ -37,10 +37,14 @@ impl Known {
     }
 }
 
-/// Checks bounds, settling and the laws of a net. Ends the compilation with an explanation when one does not hold, or
-/// when the net is too large and does not say that it is left to the checker.
+/// Checks bounds, settling and the laws of a net. Ends the compilation with an explanation when one
+/// does not hold, or when the net is too large and does not say that it is left to the checker.
 #[must_use]
-pub const fn check<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, left_to_checker: bool) -> Known {
+pub const fn check<const W: usize>(
+    net: &Net<'_>,
+    code: &Code<'_, W>,
+    left_to_checker: bool,
+) -> Known {
     if left_to_checker {
         return Known::LeftToChecker;
     }
@@ -87,7 +91,8 @@ impl<const W: usize> Check<'_, W> {
 
     const fn tokens(&self, place: PlaceId, marking: usize) -> u32 {
         let field = &self.code.fields[place.0 as usize];
-        (self.graph.markings[marking][field.word as usize] >> field.shift) as u32 & ((1 << field.width) - 1)
+        (self.graph.markings[marking][field.word as usize] >> field.shift) as u32
+            & ((1 << field.width) - 1)
     }
 
     /// Adds where it is so: the way to a marking, and what is marked there.
@@ -188,7 +193,8 @@ impl<const W: usize> Check<'_, W> {
         let mut marking = 0;
         while marking < self.graph.count {
             if self.tokens(a, marking) > 0 && self.tokens(b, marking) > 0 {
-                let text = self.says("law `never_both(").with(self.name(a)).with(", ").with(self.name(b));
+                let text =
+                    self.says("law `never_both(").with(self.name(a)).with(", ").with(self.name(b));
                 self.refuted(text.with(")` does not hold: both are marked"), marking);
             }
             marking += 1;
@@ -263,10 +269,13 @@ impl<const W: usize> Check<'_, W> {
             };
             if !meant && !self.any_transition(marking) {
                 let text = match end {
-                    Some(end) => self.says("law `deadlock_free_except(").with(self.name(end)).with(")"),
+                    Some(end) => {
+                        self.says("law `deadlock_free_except(").with(self.name(end)).with(")")
+                    }
                     None => self.says("law `deadlock_free"),
                 };
-                let text = self.found(text.with("` does not hold: no transition is enabled"), marking);
+                let text =
+                    self.found(text.with("` does not hold: no transition is enabled"), marking);
                 match (end, self.first_marked(marking)) {
                     (None, Some(place)) => text
                         .with("\n  if it is meant to end there, say `deadlock_free_except(")
@@ -317,9 +326,11 @@ impl<const W: usize> Check<'_, W> {
         }
     }
 
-    /// The first event before `most` that nothing answers in a marking where the net has settled; `most` if there is none.
+    /// The first event before `most` that nothing answers in a marking where the net has settled;
+    /// `most` if there is none.
     const fn forgotten(&self, marking: usize, most: usize) -> usize {
-        let (start, end) = (self.graph.starts[marking] as usize, self.graph.starts[marking + 1] as usize);
+        let (start, end) =
+            (self.graph.starts[marking] as usize, self.graph.starts[marking + 1] as usize);
         let mut first = 0;
         while first < most {
             // 64 events at a time.
@@ -338,7 +349,9 @@ impl<const W: usize> Check<'_, W> {
             let mut event = first;
             while event < most && event < first + 64 {
                 let mut word = if answered >> (event - first) & 1 == 0 { 0 } else { W + 1 };
-                while word < W && self.code.ignored[event][word] & self.graph.markings[marking][word] == 0 {
+                while word < W
+                    && self.code.ignored[event][word] & self.graph.markings[marking][word] == 0
+                {
                     word += 1;
                 }
                 if word == W {
@@ -367,7 +380,8 @@ impl<const W: usize> Check<'_, W> {
     const fn deterministic(&self) {
         let mut marking = 0;
         while marking < self.graph.count {
-            let (start, end) = (self.graph.starts[marking] as usize, self.graph.starts[marking + 1] as usize);
+            let (start, end) =
+                (self.graph.starts[marking] as usize, self.graph.starts[marking + 1] as usize);
             // Before the net has settled, it is not offered events.
             let mut at_once = 0;
             let mut at = start;
@@ -410,6 +424,8 @@ impl<const W: usize> Check<'_, W> {
         } else {
             text.with("on ").name(self.net.events[a.kind as usize].name)
         };
-        self.found(text, marking).with("\n  tell them apart by their guards or the places they need").stop()
+        self.found(text, marking)
+            .with("\n  tell them apart by their guards or the places they need")
+            .stop()
     }
 }

@@ -71,7 +71,11 @@ impl Source<'_> {
             while at < length {
                 if same(lists[list][at].name, name) {
                     let place = before + at;
-                    return if list == 0 { Found::Place(place) } else { Found::Data(place, place - places) };
+                    return if list == 0 {
+                        Found::Place(place)
+                    } else {
+                        Found::Data(place, place - places)
+                    };
                 }
                 at += 1;
             }

@@ -1,6 +1,8 @@
 //! From what was written to a [`Net`](super::Net): names are looked up, lines become transitions.
 
-use super::data::{Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Signal, Transition, Within};
+use super::data::{
+    Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Signal, Transition, Within,
+};
 use super::lookup::{Found, Meant};
 use super::source::{Claim, Line, Source};
 use super::text::{Text, as_str, same};
@@ -48,7 +50,8 @@ struct Row<'n> {
     priority: i16,
 }
 
-/// The lists of a net, its lengths known when compiling: what `net!` keeps behind a [`Net`](super::Net).
+/// The lists of a net, its lengths known when compiling: what `net!` keeps behind a
+/// [`Net`](super::Net).
 #[derive(Clone, Copy, Debug)]
 pub struct Lowered<
     'n,
@@ -96,7 +99,8 @@ impl<'n> Source<'n> {
                     let mut touched = 0;
                     while touched < variant.len() {
                         let (_, take, read, give) = variant.arcs(touched);
-                        size.arcs += (take > 0) as usize + (read > 0) as usize + (give > 0) as usize;
+                        size.arcs +=
+                            (take > 0) as usize + (read > 0) as usize + (give > 0) as usize;
                         touched += 1;
                     }
                 }
@@ -240,7 +244,8 @@ impl<'n> Source<'n> {
     }
 }
 
-const SIZE_ZERO: Size = Size { places: 0, transitions: 0, arcs: 0, emits: 0, text: 0, ignored: 0, laws: 0 };
+const SIZE_ZERO: Size =
+    Size { places: 0, transitions: 0, arcs: 0, emits: 0, text: 0, ignored: 0, laws: 0 };
 
 /// What the name of a complement adds to that of its flag (before it) or counter (after it).
 const fn complement_affix(source: &Source<'_>, at: usize) -> &'static str {
@@ -296,7 +301,11 @@ impl<
         let source = self.source;
         let line = &source.lines[at];
         let emits = self.outputs(line);
-        let on = if line.on.is_empty() { None } else { Some(source.event(source.at_line(line), line.on)) };
+        let on = if line.on.is_empty() {
+            None
+        } else {
+            Some(source.event(source.at_line(line), line.on))
+        };
         let variants = source.variants(line);
         let mut several = 0;
         let mut number = 0;
@@ -327,7 +336,9 @@ impl<
                         Some((earliest, Some(latest))) => {
                             Some(Within { earliest: earliest as u32, latest: Some(latest as u32) })
                         }
-                        Some((earliest, None)) => Some(Within { earliest: earliest as u32, latest: None }),
+                        Some((earliest, None)) => {
+                            Some(Within { earliest: earliest as u32, latest: None })
+                        }
                         None => None,
                     },
                     priority: line.priority as i16,
@@ -343,7 +354,8 @@ impl<
         let mut at = 0;
         while at < line.emits.len() {
             let text = self.source.at_line(line);
-            self.emits[start + at] = OutputId(signal(text, "output", self.source.outputs, line.emits[at]));
+            self.emits[start + at] =
+                OutputId(signal(text, "output", self.source.outputs, line.emits[at]));
             at += 1;
         }
         self.size.emits += line.emits.len();
@@ -377,7 +389,8 @@ impl<
             if let Found::Group(group) = source.find(place) {
                 let mut member = 0;
                 while member < source.groups[group].members.len() {
-                    let place = source.place(text, source.groups[group].members[member], Meant::Place);
+                    let place =
+                        source.place(text, source.groups[group].members[member], Meant::Place);
                     self.ignored[self.size.ignored] = Ignored { event, place };
                     self.size.ignored += 1;
                     member += 1;
@@ -422,8 +435,10 @@ impl<
                                 .with(" is not from 1 to 65,535")
                                 .stop();
                         }
-                        self.arcs[self.size.arcs] =
-                            Arc { place: source.place(text, name, Meant::Any), weight: weight as u32 };
+                        self.arcs[self.size.arcs] = Arc {
+                            place: source.place(text, name, Meant::Any),
+                            weight: weight as u32,
+                        };
                         self.size.arcs += 1;
                         term += 1;
                     }
@@ -446,7 +461,8 @@ impl<
 
     /// Its places.
     pub const fn places(&self) -> [Place<'_>; PLACES] {
-        let mut places = [Place { name: "", doc: "", initial: 0, bound: 0, role: Role::State }; PLACES];
+        let mut places =
+            [Place { name: "", doc: "", initial: 0, bound: 0, role: Role::State }; PLACES];
         let (states, own) = (self.source.places.len(), self.source.own_places());
         let shared = own - self.source.shared.len();
         let mut at = 0;
@@ -465,7 +481,13 @@ impl<
                 Place { name: it.name, doc: it.doc, initial, bound, role }
             } else {
                 let role = Role::Complement(PlaceId(of as u32));
-                Place { name: self.text(self.names[at]), doc: "", initial: bound - initial, bound, role }
+                Place {
+                    name: self.text(self.names[at]),
+                    doc: "",
+                    initial: bound - initial,
+                    bound,
+                    role,
+                }
             };
             at += 1;
         }
@@ -522,7 +544,10 @@ impl<
             laws[at] = match self.source.laws[claim] {
                 Claim::Invariant(_, equals) => {
                     if equals > u32::MAX as u64 {
-                        text.with("the sum ").number(equals).with(" of an invariant is too large").stop();
+                        text.with("the sum ")
+                            .number(equals)
+                            .with(" of an invariant is too large")
+                            .stop();
                     }
                     Law::Invariant { sum: self.arcs(span), equals: equals as u32 }
                 }
@@ -530,8 +555,12 @@ impl<
                     self.source.place(text, a, Meant::Any),
                     self.source.place(text, b, Meant::Any),
                 ),
-                Claim::Reachable(place) => Law::Reachable(self.source.place(text, place, Meant::Any)),
-                Claim::AlwaysCan(place) => Law::AlwaysCan(self.source.place(text, place, Meant::Any)),
+                Claim::Reachable(place) => {
+                    Law::Reachable(self.source.place(text, place, Meant::Any))
+                }
+                Claim::AlwaysCan(place) => {
+                    Law::AlwaysCan(self.source.place(text, place, Meant::Any))
+                }
                 Claim::HandlesAll => Law::HandlesAll,
                 Claim::Settles | Claim::LeftToChecker => Law::Settles,
                 Claim::DeadlockFree(end) if end.is_empty() => Law::DeadlockFree { end: None },

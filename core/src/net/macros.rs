@@ -34,7 +34,8 @@
 ///
 /// # The sections
 ///
-/// They come in this order; `places` and `transitions` must be there. Every item can have a documentation.
+/// They come in this order; `places` and `transitions` must be there. Every item can have a
+/// documentation.
 ///
 /// | section | item | meaning |
 /// | --- | --- | --- |
@@ -56,19 +57,21 @@
 ///     emit Output & Another within 500..=2_000 ms priority 1;
 /// ```
 ///
-/// All but `name: Taken => Given` can be left out; `_` stands for no place. Without an event a transition fires by
-/// itself: at once, or in its interval; `after 500 ms` is an interval without end. A guard is a conjunction of
-/// `flag`, `!flag`, `counter < 3` (also `<=`, `==`, `>=`, `>`); places can be tested as well, for presence. A group among the
-/// places that are taken or read stands for each of its members: one line is then several transitions.
+/// All but `name: Taken => Given` can be left out; `_` stands for no place. Without an event a
+/// transition fires by itself: at once, or in its interval; `after 500 ms` is an interval without
+/// end. A guard is a conjunction of `flag`, `!flag`, `counter < 3` (also `<=`, `==`, `>=`, `>`);
+/// places can be tested as well, for presence. A group among the places that are taken or read
+/// stands for each of its members: one line is then several transitions.
 ///
-/// Flags, counters and shared ones become places with a complement each, so a guard is nothing but arcs that read, and
-/// nothing that decides is hidden from whoever looks at the net. `counter += 1` waits until there is room, `counter = 0`
-/// is one transition for each old value.
+/// Flags, counters and shared ones become places with a complement each, so a guard is nothing but
+/// arcs that read, and nothing that decides is hidden from whoever looks at the net. `counter += 1`
+/// waits until there is room, `counter = 0` is one transition for each old value.
 ///
 /// # Laws
 ///
-/// Compile errors where they do not hold, with the culprit and the shortest way there. They speak of the net without time
-/// and priorities (see [`Law`](crate::net::Law)), with shared places changing as they please.
+/// Compile errors where they do not hold, with the culprit and the shortest way there. They speak
+/// of the net without time and priorities (see [`Law`](crate::net::Law)), with shared places
+/// changing as they please.
 ///
 /// | law | says |
 /// | --- | --- |
@@ -84,12 +87,13 @@
 ///
 /// Bounds of places are always checked.
 ///
-/// A payload type that is called like something the module makes (`Place`, `State`, `Event`, ...) is written with its path.
+/// A payload type that is called like something the module makes (`Place`, `State`, `Event`, ...)
+/// is written with its path.
 ///
 /// # What it makes
 ///
-/// A module with `NET` (the plain data), `KNOWN` (how it was checked), the enums `Place`, `State`, `Event`, `Output` and
-/// `Transition`, the type `Program`, and the type `Player`.
+/// A module with `NET` (the plain data), `KNOWN` (how it was checked), the enums `Place`, `State`,
+/// `Event`, `Output` and `Transition`, the type `Program`, and the type `Player`.
 #[macro_export]
 macro_rules! net {
     (

@@ -1,8 +1,9 @@
-//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while compiling, played anywhere.
+//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while
+//! compiling, played anywhere.
 //!
-//! A net is plain data ([`Net`]). A state machine is a net with one token. `net!` makes it and checks its laws; a
-//! [`Player`] executes it, one event after the other or in synchronous [rounds](Round). With the feature `alloc`, nets
-//! are also made at run time (`owned`).
+//! A net is plain data ([`Net`]). A state machine is a net with one token. `net!` makes it and
+//! checks its laws; a [`Player`] executes it, one event after the other or in synchronous
+//! [rounds](Round). With the feature `alloc`, nets are also made at run time (`owned`).
 //!
 //! ```text
 //! net! { .. } -> Source -> Net -> Code (packed) -> Known (its laws hold)
@@ -43,7 +44,8 @@ pub(crate) mod text;
 mod variant;
 
 pub use data::{
-    Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition, TransitionId, Within,
+    Arc, EventId, Ignored, Law, Net, OutputId, Place, PlaceId, Role, Signal, Transition,
+    TransitionId, Within,
 };
 pub use defect::Defect;
 pub use explore::{Graph, MARKINGS};

@@ -98,7 +98,8 @@ pub struct OwnedTransition {
     pub name: String,
     /// What it is for.
     pub doc: String,
-    /// Which line of the definition it comes from; [`OwnedNet::transition`] sets it to the position.
+    /// Which line of the definition it comes from; [`OwnedNet::transition`] sets it to the
+    /// position.
     pub line: u32,
     /// The event it needs.
     pub on: Option<EventId>,
@@ -221,7 +222,8 @@ impl OwnedNet {
     /// # Errors
     /// [`Defect::TooLong`] when ids cannot count it.
     pub fn event(&mut self, name: &str, doc: &str) -> Result<EventId, Defect> {
-        push(&mut self.events, OwnedSignal { name: name.to_owned(), doc: doc.to_owned() }).map(EventId)
+        push(&mut self.events, OwnedSignal { name: name.to_owned(), doc: doc.to_owned() })
+            .map(EventId)
     }
 
     /// Adds a signal that it emits.
@@ -229,14 +231,18 @@ impl OwnedNet {
     /// # Errors
     /// [`Defect::TooLong`] when ids cannot count it.
     pub fn output(&mut self, name: &str, doc: &str) -> Result<OutputId, Defect> {
-        push(&mut self.outputs, OwnedSignal { name: name.to_owned(), doc: doc.to_owned() }).map(OutputId)
+        push(&mut self.outputs, OwnedSignal { name: name.to_owned(), doc: doc.to_owned() })
+            .map(OutputId)
     }
 
     /// Adds a transition, a line of its own.
     ///
     /// # Errors
     /// [`Defect::TooLong`] when ids cannot count it.
-    pub fn transition(&mut self, transition: OwnedTransition) -> Result<super::TransitionId, Defect> {
+    pub fn transition(
+        &mut self,
+        transition: OwnedTransition,
+    ) -> Result<super::TransitionId, Defect> {
         let line = u32::try_from(self.transitions.len()).map_err(|_| Defect::TooLong)?;
         push(&mut self.transitions, OwnedTransition { line, ..transition }).map(super::TransitionId)
     }
@@ -262,7 +268,13 @@ fn push<T>(list: &mut Vec<T>, item: T) -> Result<u32, Defect> {
 
 impl OwnedPlace {
     fn view(&self) -> Place<'_> {
-        Place { name: &self.name, doc: &self.doc, initial: self.initial, bound: self.bound, role: self.role }
+        Place {
+            name: &self.name,
+            doc: &self.doc,
+            initial: self.initial,
+            bound: self.bound,
+            role: self.role,
+        }
     }
 }
 
@@ -323,7 +335,8 @@ impl View<'_> {
 impl From<&Net<'_>> for OwnedNet {
     fn from(net: &Net<'_>) -> Self {
         let signals = |from: &[Signal<'_>]| {
-            let owned = |it: &Signal<'_>| OwnedSignal { name: it.name.to_owned(), doc: it.doc.to_owned() };
+            let owned =
+                |it: &Signal<'_>| OwnedSignal { name: it.name.to_owned(), doc: it.doc.to_owned() };
             from.iter().map(owned).collect()
         };
         let place = |it: &Place<'_>| OwnedPlace {

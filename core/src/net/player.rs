@@ -1,21 +1,24 @@
 //! Plays a net: events go in, transitions fire, and what happened comes out.
 //!
-//! Time comes in as an argument and the next deadline goes out ([`Player::wake_at`]), so the same player serves firmware,
-//! a simulator and proofs. At every instant, in this order:
+//! Time comes in as an argument and the next deadline goes out ([`Player::wake_at`]), so the same
+//! player serves firmware, a simulator and proofs. At every instant, in this order:
 //!
-//! 1. Transitions without event fire as soon as their interval allows, the one due first going first; of several due at
-//!    the same instant the one of the highest priority, then the earlier line. After each of them the net *settles*:
-//!    transitions without event and interval fire until none is enabled.
-//! 2. An event is *offered*: the first enabled transition on it fires (by priority, then by line), and the net settles;
-//!    or the event is ignored, and the player says why. Nothing waits inside the player.
+//! 1. Transitions without event fire as soon as their interval allows, the one due first going
+//!    first; of several due at the same instant the one of the highest priority, then the earlier
+//!    line. After each of them the net *settles*: transitions without event and interval fire until
+//!    none is enabled.
+//! 2. An event is *offered*: the first enabled transition on it fires (by priority, then by line),
+//!    and the net settles; or the event is ignored, and the player says why. Nothing waits inside
+//!    the player.
 //!
-//! **Time.** The clock of a transition starts when the marking enables it, and starts anew whenever a firing disturbs it:
-//! when it fires itself, or when what the firing takes leaves it disabled, even if what is given back enables it again
-//! (Merlin's time Petri nets, with single-server clocks). Reading disturbs no clock. The semantics is *strong* for
-//! transitions without event: time does not pass their last instant. They fire at their first, so a later last instant
-//! only tells the checker what to allow for. For a transition on an event it is *weak*: when its last instant has
-//! passed, it is not enabled any more until its clock starts anew. A player that is told the time late catches up: what
-//! was due fires at the time when it was due, in order.
+//! **Time.** The clock of a transition starts when the marking enables it, and starts anew whenever
+//! a firing disturbs it: when it fires itself, or when what the firing takes leaves it disabled,
+//! even if what is given back enables it again (Merlin's time Petri nets, with single-server
+//! clocks). Reading disturbs no clock. The semantics is *strong* for transitions without event:
+//! time does not pass their last instant. They fire at their first, so a later last instant only
+//! tells the checker what to allow for. For a transition on an event it is *weak*: when its last
+//! instant has passed, it is not enabled any more until its clock starts anew. A player that is
+//! told the time late catches up: what was due fires at the time when it was due, in order.
 
 use super::code::{Code, Entry, NO_CLOCK};
 use super::data::{PlaceId, TransitionId};
@@ -50,8 +53,8 @@ impl<T> Outcome<T> {
     }
 }
 
-/// Why an event is ignored. When a transition on it has its tokens: what else the first such one lacks, even where the
-/// event is ignored on purpose.
+/// Why an event is ignored. When a transition on it has its tokens: what else the first such one
+/// lacks, even where the event is ignored on purpose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why<T> {
     /// A marked place ignores it on purpose.
@@ -80,13 +83,14 @@ pub struct Advanced {
 
 /// A marking of a net, its clocks, and the time.
 ///
-/// `W` is the number of words of the marking, `C` that of transitions with an interval; `net!` names the type with
-/// both as `Player` in the module that it makes.
+/// `W` is the number of words of the marking, `C` that of transitions with an interval; `net!`
+/// names the type with both as `Player` in the module that it makes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Player<P, const W: usize, const C: usize> {
     pub(super) program: P,
     pub(super) marking: [u64; W],
-    /// How long each transition with an interval has been enabled, up to [`Clock::cap`]; zero when it is not.
+    /// How long each transition with an interval has been enabled, up to [`Clock::cap`]; zero when
+    /// it is not.
     pub(super) clocks: [u32; C],
     pub(super) now: Millis,
 }
@@ -110,8 +114,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         self.offer_with(now, event, &mut ())
     }
 
-    /// Lets time pass up to `now`, then offers an event, then settles. Every transition that fires is shown to the
-    /// observer.
+    /// Lets time pass up to `now`, then offers an event, then settles. Every transition that fires
+    /// is shown to the observer.
     #[inline]
     pub fn offer_with(
         &mut self,
@@ -124,7 +128,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
                 return Outcome::Ignored { why: Why::Behind };
             }
         } else {
-            // Nothing waits for an instant, and settling ends: only a round can have left something to fire.
+            // Nothing waits for an instant, and settling ends: only a round can have left something
+            // to fire.
             self.settle(observer);
             self.now = self.now.max(now);
         }
@@ -143,8 +148,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         self.advance_with(now, &mut ())
     }
 
-    /// Lets time pass up to `now`: transitions without event fire when they are due. A time before the last one counts
-    /// as the last one.
+    /// Lets time pass up to `now`: transitions without event fire when they are due. A time before
+    /// the last one counts as the last one.
     pub fn advance_with(
         &mut self,
         now: Millis,
@@ -175,7 +180,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         advanced
     }
 
-    /// When it wants to be told the time: the instant at which the next transition is due by itself.
+    /// When it wants to be told the time: the instant at which the next transition is due by
+    /// itself.
     pub fn wake_at(&self) -> Option<Millis> {
         if !self.settled() {
             return Some(self.now); // after a round
@@ -209,7 +215,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     pub fn enabled(&self, transition: TransitionId) -> bool {
         let code = self.program.code();
         let mut entries = code.entries.iter();
-        entries.find(|entry| entry.id() == transition).is_some_and(|it| self.can(&code, it) && self.open(it))
+        entries
+            .find(|entry| entry.id() == transition)
+            .is_some_and(|it| self.can(&code, it) && self.open(it))
     }
 
     /// Whether no transition fires at once by itself.
@@ -229,7 +237,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         let mut fired = 0;
         while fired < self.program.code().settle {
             let code = self.program.code();
-            let Some(entry) = code.urgent(&self.marking, |it| self.can(&code, it)).copied() else { break };
+            let Some(entry) = code.urgent(&self.marking, |it| self.can(&code, it)).copied() else {
+                break;
+            };
             self.fire(&entry, None, observer);
             fired += 1;
         }
@@ -289,7 +299,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         // In their order, so that of several due at one instant the first one goes first.
         for entry in code.row(usize::from(code.events) + 1, &self.marking)? {
             let number = usize::from(entry.clock);
-            let (Some(clock), Some(elapsed)) = (code.clocks.get(number), self.clocks.get(number)) else {
+            let (Some(clock), Some(elapsed)) = (code.clocks.get(number), self.clocks.get(number))
+            else {
                 continue;
             };
             let waits = clock.earliest.saturating_sub(*elapsed);
@@ -300,7 +311,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         first.map(|(waits, entry)| (waits, *entry))
     }
 
-    /// Whether the tokens that a transition needs are there, and there is room for those that it gives.
+    /// Whether the tokens that a transition needs are there, and there is room for those that it
+    /// gives.
     #[inline]
     pub(super) fn can(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
         code.holds(&self.marking, &entry.need)
@@ -342,7 +354,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
                 let transition = self.program.transition(entry.id());
                 let number = usize::from(entry.clock);
                 return match (code.clocks.get(number), self.clocks.get(number)) {
-                    (Some(clock), Some(&elapsed)) if elapsed < clock.earliest => Why::TooEarly(transition),
+                    (Some(clock), Some(&elapsed)) if elapsed < clock.earliest => {
+                        Why::TooEarly(transition)
+                    }
                     (Some(_), Some(_)) if !self.open(entry) => Why::TooLate(transition),
                     _ => Why::Full(transition),
                 };
@@ -366,7 +380,8 @@ impl<P: Program<W> + Default, const W: usize, const C: usize> Default for Player
 }
 
 impl<P: Program<W> + StateMachine, const W: usize, const C: usize> Player<P, W, C> {
-    /// The marked place of a state machine, to be matched on. Of a net that is none this does not compile.
+    /// The marked place of a state machine, to be matched on. Of a net that is none this does not
+    /// compile.
     #[inline]
     pub fn state(&self) -> P::State {
         const {

@@ -17,7 +17,8 @@ impl Kind for EventId {
     }
 }
 
-/// A net that can be played. `net!` makes one without any bytes; [`Loaded`] is one of a net made at run time.
+/// A net that can be played. `net!` makes one without any bytes; [`Loaded`] is one of a net made at
+/// run time.
 ///
 /// `W` is the number of words of a marking.
 pub trait Program<const W: usize> {
@@ -131,7 +132,8 @@ pub struct Firing<'f, E, T, O> {
     pub event: Option<&'f E>,
     /// What it says, in this order.
     pub outputs: &'f [O],
-    /// When it fired. A transition that was due earlier than the player was told so fired when it was due.
+    /// When it fired. A transition that was due earlier than the player was told so fired when it
+    /// was due.
     pub at: crate::units::Millis,
 }
 
@@ -139,8 +141,8 @@ pub struct Firing<'f, E, T, O> {
 pub type FiringOf<'f, P, const W: usize> =
     Firing<'f, <P as Program<W>>::Event, <P as Program<W>>::Transition, <P as Program<W>>::Output>;
 
-/// Is told every transition that fires: where actions, logs and recorders hang on. `()` observes nothing and costs
-/// nothing; any closure that takes a [`Firing`] is one.
+/// Is told every transition that fires: where actions, logs and recorders hang on. `()` observes
+/// nothing and costs nothing; any closure that takes a [`Firing`] is one.
 pub trait Observer<E, T, O> {
     /// A transition has fired.
     fn on_fire(&mut self, firing: &Firing<'_, E, T, O>);

@@ -1,12 +1,14 @@
 //! Synchronous rounds: the other meaning of a net.
 //!
-//! [`Player::offer`] *interleaves*: one transition after another, each seeing what the one before it did. In a *round*
-//! all transitions see the same marking, as hardware does at a clock edge (interpreted Petri nets, Andreu, Souquet and
-//! Gil 2008): in the order of priority, then of the net, each transition whose event is among those offered, or that
-//! needs none, fires if what the ones before it left of the marking enables it; all that is given arrives at the end.
-//! A round is always one of the possible interleavings, so what the laws forbid no round does.
+//! [`Player::offer`] *interleaves*: one transition after another, each seeing what the one before
+//! it did. In a *round* all transitions see the same marking, as hardware does at a clock edge
+//! (interpreted Petri nets, Andreu, Souquet and Gil 2008): in the order of priority, then of the
+//! net, each transition whose event is among those offered, or that needs none, fires if what the
+//! ones before it left of the marking enables it; all that is given arrives at the end. A round is
+//! always one of the possible interleavings, so what the laws forbid no round does.
 //!
-//! They differ where one transition enables the next: it fires in the same `offer`, but only in the next round.
+//! They differ where one transition enables the next: it fires in the same `offer`, but only in the
+//! next round.
 //!
 //! ```
 //! use cotama_core::{net, units::Millis};
@@ -45,8 +47,8 @@ pub struct Round {
     pub fired: u32,
     /// Bit `i` is set when no transition on the `i`-th of the events fired; of the first 64.
     pub ignored: u64,
-    /// Whether nothing happened because a place would have held more than its bound. Not in a net whose bounds are
-    /// proven.
+    /// Whether nothing happened because a place would have held more than its bound. Not in a net
+    /// whose bounds are proven.
     pub full: bool,
 }
 
@@ -56,8 +58,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
         self.round_with(now, events, &mut ())
     }
 
-    /// One synchronous round at `now` with these events, of which a transition can use any number. Time passes before
-    /// it, and nothing fires meanwhile. Afterwards the net does not settle: that is for the next rounds.
+    /// One synchronous round at `now` with these events, of which a transition can use any number.
+    /// Time passes before it, and nothing fires meanwhile. Afterwards the net does not settle: that
+    /// is for the next rounds.
     pub fn round_with(
         &mut self,
         now: Millis,
@@ -66,14 +69,16 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     ) -> Round {
         self.pass(now.0.saturating_sub(self.now.0));
         let code = self.program.code();
-        // First what fires, then whether it fits, then it happens: a round that does not fit leaves no trace.
+        // First what fires, then whether it fits, then it happens: a round that does not fit leaves
+        // no trace.
         let (mut left, mut given) = (self.marking, [0; W]);
         let mut round = Round { ignored: ones(events.len()), ..Round::default() };
         for &at in code.order {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
             if self.takes_part(entry, &left, events) {
                 (left, given) = self.applied(entry, &left, &given);
-                // Tested one by one: the sum of many gifts could outgrow a field and disturb others.
+                // Tested one by one: the sum of many gifts could outgrow a field and disturb
+                // others.
                 if !code.holds(&code.bounds, &given) {
                     return Round { full: true, ..round };
                 }
@@ -95,7 +100,8 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             }
             round.fired = round.fired.saturating_add(1);
             let id = entry.id();
-            for (event, bit) in events.iter().zip((0..u64::BITS).map(|bit| 1_u64.wrapping_shl(bit))) {
+            for (event, bit) in events.iter().zip((0..u64::BITS).map(|bit| 1_u64.wrapping_shl(bit)))
+            {
                 if self.is_on(entry, event) {
                     round.ignored &= !bit;
                 }
@@ -134,7 +140,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     /// What is left and what is given after one more transition.
     fn applied(&self, entry: &Entry<W>, left: &[u64; W], given: &[u64; W]) -> ([u64; W], [u64; W]) {
         let code = self.program.code();
-        let Some(take) = code.takes.get(usize::from(entry.transition)) else { return (*left, *given) };
+        let Some(take) = code.takes.get(usize::from(entry.transition)) else {
+            return (*left, *given);
+        };
         let (mut more, mut word) = (code.after(given, &entry.delta), 0);
         while word < W {
             more[word] = more[word].wrapping_add(take[word]);

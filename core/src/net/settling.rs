@@ -4,7 +4,8 @@ use super::explore::{AT_ONCE, MARKINGS, NONE, said};
 use super::laws::Check;
 
 impl<const W: usize> Check<'_, W> {
-    /// Checks that transitions which fire at once by themselves come to an end; gives back after how many.
+    /// Checks that transitions which fire at once by themselves come to an end; gives back after
+    /// how many.
     pub(super) const fn settles(&self) -> u32 {
         // How many such firings leave a marking to one that is not known to settle.
         let mut open = [0_u16; MARKINGS];
@@ -80,9 +81,11 @@ impl<const W: usize> Check<'_, W> {
                 break;
             }
         }
-        let text =
-            self.says("law `settles` does not hold: transitions without event and interval fire for ever");
-        let mut text = self.graph.way(self.net, self.code, text.with("\n  "), start).with("\n  for ever: ");
+        let text = self.says(
+            "law `settles` does not hold: transitions without event and interval fire for ever",
+        );
+        let mut text =
+            self.graph.way(self.net, self.code, text.with("\n  "), start).with("\n  for ever: ");
         at = start;
         loop {
             let firing = &self.graph.firings[self.onwards(at, open)];
@@ -98,7 +101,8 @@ impl<const W: usize> Check<'_, W> {
     /// The first firing that stays among the open markings.
     const fn onwards(&self, marking: usize, open: &[u16; MARKINGS]) -> usize {
         let mut firing = self.graph.starts[marking] as usize;
-        while self.graph.firings[firing].kind != AT_ONCE || open[self.graph.firings[firing].to as usize] == 0
+        while self.graph.firings[firing].kind != AT_ONCE
+            || open[self.graph.firings[firing].to as usize] == 0
         {
             firing += 1;
         }

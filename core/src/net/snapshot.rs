@@ -45,7 +45,9 @@ impl core::fmt::Display for RestoreError {
             ),
             Self::Marking => f.write_str("the stored marking holds more tokens than a place can"),
             Self::Law(law) => write!(f, "the stored marking breaks law {law} of the net"),
-            Self::Clock(transition) => write!(f, "the stored clock of transition {} cannot be", transition.0),
+            Self::Clock(transition) => {
+                write!(f, "the stored clock of transition {} cannot be", transition.0)
+            }
             Self::NotSettled => f.write_str("the stored marking is not settled"),
         }
     }
@@ -98,13 +100,17 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
     /// A player that goes on at `now` where a stored one was.
     ///
     /// # Errors
-    /// When the marking is not one of this version of this net, breaks a law that can be told from a marking alone
-    /// (invariants, `never_both`, bounds, flags and their complements), is not settled, or has clocks that cannot be.
+    /// When the marking is not one of this version of this net, breaks a law that can be told from
+    /// a marking alone (invariants, `never_both`, bounds, flags and their complements), is not
+    /// settled, or has clocks that cannot be.
     pub fn restore(program: P, now: Millis, from: &Snapshot<W, C>) -> Result<Self, RestoreError> {
         let player = Self { program, marking: from.marking, clocks: from.clocks, now };
         let code = player.program.code();
         if code.fingerprint != from.fingerprint {
-            return Err(RestoreError::OtherNet { expected: code.fingerprint, found: from.fingerprint });
+            return Err(RestoreError::OtherNet {
+                expected: code.fingerprint,
+                found: from.fingerprint,
+            });
         }
         let mut fields = [0_u64; W];
         for field in code.fields {
@@ -113,9 +119,10 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             }
         }
         let stray = fields.iter().zip(&from.marking).any(|(field, word)| word & !field != 0);
-        let one =
-            code.control == 0 || from.marking.first().is_some_and(|it| (it & code.control).is_power_of_two());
-        let stray = stray || from.clocks.iter().skip(code.clocks.len()).any(|&elapsed| elapsed != 0);
+        let one = code.control == 0
+            || from.marking.first().is_some_and(|it| (it & code.control).is_power_of_two());
+        let stray =
+            stray || from.clocks.iter().skip(code.clocks.len()).any(|&elapsed| elapsed != 0);
         if stray || !one || !code.holds(&code.bounds, &from.marking) || !player.complements() {
             return Err(RestoreError::Marking);
         }
@@ -130,7 +137,9 @@ impl<P: Program<W>, const W: usize, const C: usize> Player<P, W, C> {
             Law::NeverBoth(a, b) => tokens(a) > 0 && tokens(b) > 0,
             _ => false,
         };
-        if let Some((law, _)) = player.program.laws().iter().enumerate().find(|(_, law)| is_broken(law)) {
+        if let Some((law, _)) =
+            player.program.laws().iter().enumerate().find(|(_, law)| is_broken(law))
+        {
             return Err(RestoreError::Law(law));
         }
         for (clock, &elapsed) in code.clocks.iter().zip(&from.clocks) {

@@ -1,4 +1,5 @@
-//! What `net!` read, before names are looked up: the left end of the walk from text to [`Net`](super::Net).
+//! What `net!` read, before names are looked up: the left end of the walk from text to
+//! [`Net`](super::Net).
 
 use super::data::Signal;
 use super::text::Text;
@@ -175,7 +176,11 @@ pub const fn first(numbers: &[u64]) -> u64 {
 }
 
 /// The interval that was written for a transition of a net.
-pub const fn interval(net: &str, line: &str, written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
+pub const fn interval(
+    net: &str,
+    line: &str,
+    written: &[(u64, Option<u64>)],
+) -> Option<(u64, Option<u64>)> {
     match written {
         [] => None,
         [interval] => Some(*interval),

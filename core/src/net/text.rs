@@ -88,7 +88,8 @@ impl Text {
         if !best.is_empty() {
             text.with("; did you mean ").name(best).with("?").stop()
         }
-        let mut text = text.with(if known.is_empty() { "; none is declared" } else { "; there are: " });
+        let mut text =
+            text.with(if known.is_empty() { "; none is declared" } else { "; there are: " });
         let mut at = 0;
         while at < known.len() && at < LISTED {
             text = text.with(if at > 0 { ", " } else { "" }).name(known[at]);
@@ -129,8 +130,8 @@ pub(crate) const fn same(a: &str, b: &str) -> bool {
     at == length
 }
 
-/// How many letters must be inserted, removed or exchanged to get from one name to the other (Levenshtein), for
-/// names of up to 63 bytes; many for longer ones.
+/// How many letters must be inserted, removed or exchanged to get from one name to the other
+/// (Levenshtein), for names of up to 63 bytes; many for longer ones.
 pub(crate) const fn distance(a: &str, b: &str) -> usize {
     let (a, b) = (a.as_bytes(), b.as_bytes());
     if a.len() > 63 || b.len() > 63 {

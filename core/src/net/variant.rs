@@ -1,5 +1,5 @@
-//! One line of `transitions` stands for one transition or several: from each place of a group, for each old value of
-//! what it sets. Here a line and the number of a variant become arcs.
+//! One line of `transitions` stands for one transition or several: from each place of a group, for
+//! each old value of what it sets. Here a line and the number of a variant become arcs.
 
 use super::data::PlaceId;
 use super::lookup::{Found, Meant};
@@ -40,7 +40,11 @@ impl Source<'_> {
         let mut group = None;
         let mut at = 0;
         while at < line.take.len() + line.read.len() {
-            let name = if at < line.take.len() { line.take[at].0 } else { line.read[at - line.take.len()].0 };
+            let name = if at < line.take.len() {
+                line.take[at].0
+            } else {
+                line.read[at - line.take.len()].0
+            };
             if let Found::Group(found) = self.find(name) {
                 if group.is_some() {
                     self.at_line(line)
@@ -80,7 +84,8 @@ impl Source<'_> {
         variants
     }
 
-    /// The name of the group member that a variant takes, and what is left of its number for old values.
+    /// The name of the group member that a variant takes, and what is left of its number for old
+    /// values.
     pub(super) const fn member(&self, line: &Line<'_>, variant: usize) -> (Option<&str>, usize) {
         match self.group(line) {
             Some(group) => {
@@ -98,7 +103,9 @@ impl Source<'_> {
 
         let mut at = 0;
         while at < line.take.len() {
-            if let Some((place, weight)) = self.arc(line, line.take[at], member, Meant::PlaceOrGroup) {
+            if let Some((place, weight)) =
+                self.arc(line, line.take[at], member, Meant::PlaceOrGroup)
+            {
                 let touch = variant.touch(self, line, place);
                 if touch.take > 0 {
                     self.at_line(line)
@@ -115,7 +122,9 @@ impl Source<'_> {
         }
         let mut at = 0;
         while at < line.read.len() {
-            if let Some((place, weight)) = self.arc(line, line.read[at], member, Meant::PlaceOrGroup) {
+            if let Some((place, weight)) =
+                self.arc(line, line.read[at], member, Meant::PlaceOrGroup)
+            {
                 variant.needs(self, line, place, weight);
             }
             at += 1;
@@ -301,7 +310,13 @@ impl Variant {
     }
 
     /// Adds a change; gives back the number of the variant less what this change used of it.
-    const fn change(&mut self, source: &Source<'_>, line: &Line<'_>, at: usize, old: usize) -> usize {
+    const fn change(
+        &mut self,
+        source: &Source<'_>,
+        line: &Line<'_>,
+        at: usize,
+        old: usize,
+    ) -> usize {
         let change = line.changes[at];
         let (place, complement) = match source.find(change.name) {
             Found::Data(place, data) => (place, source.complement(data)),
@@ -403,8 +418,8 @@ impl Variant {
         self.length
     }
 
-    /// What it does to a place: tokens removed, read and added. A place of which more must be there than is removed
-    /// has the rest removed and put back.
+    /// What it does to a place: tokens removed, read and added. A place of which more must be there
+    /// than is removed has the rest removed and put back.
     pub(super) const fn arcs(&self, at: usize) -> (PlaceId, u64, u64, u64) {
         let touch = self.touched[at];
         if touch.take == 0 {

@@ -145,14 +145,15 @@ impl<const W: usize> Packed<W> {
     /// Packs a system.
     ///
     /// # Errors
-    /// The defect of the system; [`TooLong`](super::SystemDefect::TooLong) when it needs more than `W` words or is too
-    /// large. Its nets are taken to be [sound](crate::net::Net::defect).
+    /// The defect of the system; [`TooLong`](super::SystemDefect::TooLong) when it needs more than
+    /// `W` words or is too large. Its nets are taken to be [sound](crate::net::Net::defect).
     pub fn of(system: &System<'_>) -> Result<Self, super::SystemDefect> {
         use alloc::vec;
         if let Some(defect) = system.defect() {
             return Err(defect);
         }
-        let size = size(system).filter(|size| size.words <= W).ok_or(super::SystemDefect::TooLong)?;
+        let size =
+            size(system).filter(|size| size.words <= W).ok_or(super::SystemDefect::TooLong)?;
         let mut it = Self {
             entries: vec![entry(); size.entries],
             takes: vec![[0; W]; size.takes],

@@ -1,7 +1,8 @@
 //! A system packed for execution: one marking for all its nets and mailboxes.
 //!
-//! Places, shared ones counted once, then the complements that only the system needs, then a pair of fields for each
-//! mailbox (what waits, and the room that is left) are fields of one packed marking, as in [`net::code`](crate::net::code).
+//! Places, shared ones counted once, then the complements that only the system needs, then a pair
+//! of fields for each mailbox (what waits, and the room that is left) are fields of one packed
+//! marking, as in [`net::code`](crate::net::code).
 
 pub use super::arrays::{Arrays, size_of};
 pub use super::pack::{pack, size};
@@ -69,10 +70,11 @@ pub struct Mailbox {
 pub struct Code<'c, const W: usize> {
     /// Transitions by row.
     pub entries: &'c [Entry<W>],
-    /// Tokens that each of them removes: clocks ask what is there in between. Nothing is listed without clocks.
+    /// Tokens that each of them removes: clocks ask what is there in between. Nothing is listed
+    /// without clocks.
     pub takes: &'c [[u64; W]],
-    /// Where rows begin in `entries`: events counted over all nets, then for each net what fires at once by itself,
-    /// then all that fires by itself in an interval.
+    /// Where rows begin in `entries`: events counted over all nets, then for each net what fires at
+    /// once by itself, then all that fires by itself in an interval.
     pub rows: &'c [u16],
     /// Where the outputs of all entries go.
     pub routes: &'c [Route],
@@ -82,7 +84,8 @@ pub struct Code<'c, const W: usize> {
     pub turns: &'c [u16],
     /// For each component the number of its first event, and at the end how many there are.
     pub events: &'c [u16],
-    /// For each component the position of its first place in `fields`, and at the end how many there are.
+    /// For each component the position of its first place in `fields`, and at the end how many
+    /// there are.
     pub places: &'c [u16],
     /// Where each place of each net lies.
     pub fields: &'c [Field],

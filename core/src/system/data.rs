@@ -4,10 +4,10 @@ use crate::net::{EventId, Net, OutputId, PlaceId};
 
 /// Nets in the order in which they take their turns, and what connects them.
 ///
-/// An output of one net and an event of another are joined by a [`Link`]; several links from one output are a
-/// broadcast. Events that no link leads to come from outside: from the robot, the operator, or, when a system is closed
-/// for checking, from environment nets, which are nets like any other. A [`Binding`] makes a shared place of one net the
-/// place of another.
+/// An output of one net and an event of another are joined by a [`Link`]; several links from one
+/// output are a broadcast. Events that no link leads to come from outside: from the robot, the
+/// operator, or, when a system is closed for checking, from environment nets, which are nets like
+/// any other. A [`Binding`] makes a shared place of one net the place of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct System<'s> {
     /// Its name.
@@ -58,8 +58,8 @@ pub struct Link {
 pub enum Delivery {
     /// In the very step that emits it: a rendezvous. The receiver fires or ignores it.
     Now,
-    /// When the receiver takes its turn: it waits in a mailbox with room for so many. While the mailbox of an event
-    /// is full, a transition that emits it cannot fire; nothing is lost.
+    /// When the receiver takes its turn: it waits in a mailbox with room for so many. While the
+    /// mailbox of an event is full, a transition that emits it cannot fire; nothing is lost.
     Mail {
         /// At least one. Links to the same event share its mailbox, so they say the same.
         capacity: u16,
@@ -117,7 +117,8 @@ pub enum SystemDefect {
         /// The position of the link.
         at: usize,
     },
-    /// A net would receive its own rendezvous, directly or through others, or through more than [`DEPTH`] of them.
+    /// A net would receive its own rendezvous, directly or through others, or through more than
+    /// [`DEPTH`] of them.
     Circle {
         /// The component where it begins.
         component: u16,
@@ -174,14 +175,14 @@ impl<'s> System<'s> {
 
     /// What is wrong with it, if anything. Its nets are taken to be sound.
     pub const fn defect(&self) -> Option<SystemDefect> {
-        if self.components.len() > u16::MAX as usize - 1 || self.links.len() > u16::MAX as usize - 1 {
+        if self.components.len() > u16::MAX as usize - 1 || self.links.len() > u16::MAX as usize - 1
+        {
             return Some(SystemDefect::TooLong);
         }
         let mut at = 0;
         while at < self.links.len() {
             let Link { from, to, delivery } = self.links[at];
-            let known =
-                matches!(self.net(from.component), Some(net) if (from.id.0 as usize) < net.outputs.len());
+            let known = matches!(self.net(from.component), Some(net) if (from.id.0 as usize) < net.outputs.len());
             if !known || !self.has_event(to) {
                 return Some(SystemDefect::UnknownId { list: "links", at });
             }
@@ -201,7 +202,8 @@ impl<'s> System<'s> {
         while at < self.clears.len() {
             let Clear { on, mailbox } = self.clears[at];
             let mailbox = Of { component: on.component, id: mailbox };
-            if !self.has_event(on) || !matches!(self.delivery(mailbox), Some(Delivery::Mail { .. })) {
+            if !self.has_event(on) || !matches!(self.delivery(mailbox), Some(Delivery::Mail { .. }))
+            {
                 return Some(SystemDefect::UnknownId { list: "clears", at });
             }
             at += 1;
@@ -222,15 +224,23 @@ impl<'s> System<'s> {
                 let mut arc = 0;
                 let (take, give) = (net.transitions[at].take, net.transitions[at].give);
                 while arc < take.len() + give.len() {
-                    let place = if arc < take.len() { take[arc].place } else { give[arc - take.len()].place };
+                    let place = if arc < take.len() {
+                        take[arc].place
+                    } else {
+                        give[arc - take.len()].place
+                    };
                     let of = match net.places[place.0 as usize].role {
                         crate::net::Role::Complement(of) => of,
                         _ => place,
                     };
-                    if let Some(Target::Mailbox(_)) = self.target(Of { component: component as u16, id: of })
+                    if let Some(Target::Mailbox(_)) =
+                        self.target(Of { component: component as u16, id: of })
                     {
                         let id = crate::net::TransitionId(at as u32);
-                        return Some(SystemDefect::ChangesMailbox(Of { component: component as u16, id }));
+                        return Some(SystemDefect::ChangesMailbox(Of {
+                            component: component as u16,
+                            id,
+                        }));
                     }
                     arc += 1;
                 }
@@ -248,11 +258,16 @@ impl<'s> System<'s> {
             if !self.has_place(shared) {
                 return Some(SystemDefect::UnknownId { list: "bindings", at });
             }
-            let place = &self.components[shared.component as usize].net.places[shared.id.0 as usize];
+            let place =
+                &self.components[shared.component as usize].net.places[shared.id.0 as usize];
             let bound = match target {
                 Target::Place(owner) if self.has_place(owner) => {
-                    let owner = &self.components[owner.component as usize].net.places[owner.id.0 as usize];
-                    if matches!(owner.role, crate::net::Role::Shared | crate::net::Role::Complement(_)) {
+                    let owner =
+                        &self.components[owner.component as usize].net.places[owner.id.0 as usize];
+                    if matches!(
+                        owner.role,
+                        crate::net::Role::Shared | crate::net::Role::Complement(_)
+                    ) {
                         0
                     } else {
                         owner.bound
@@ -283,7 +298,9 @@ impl<'s> System<'s> {
             let mut place = 0;
             while place < net.places.len() {
                 let of = Of { component: component as u16, id: PlaceId(place as u32) };
-                if matches!(net.places[place].role, crate::net::Role::Shared) && self.target(of).is_none() {
+                if matches!(net.places[place].role, crate::net::Role::Shared)
+                    && self.target(of).is_none()
+                {
                     return Some(SystemDefect::Unbound(of));
                 }
                 place += 1;

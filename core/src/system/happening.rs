@@ -12,7 +12,8 @@ pub enum Offered {
     Fired(Of<TransitionId>),
     /// None did; the event is gone.
     Ignored,
-    /// A transition could not fire because this mailbox, of this event, is full; nothing has happened.
+    /// A transition could not fire because this mailbox, of this event, is full; nothing has
+    /// happened.
     Refused {
         /// The event whose mailbox is full.
         full: Of<EventId>,
@@ -58,7 +59,8 @@ pub enum Happening<M> {
     },
 }
 
-/// Is told what happens inside. `()` observes nothing; any closure that takes a [`Happening`] is one.
+/// Is told what happens inside. `()` observes nothing; any closure that takes a [`Happening`] is
+/// one.
 pub trait Witness<M> {
     /// Something has happened.
     fn see(&mut self, happening: &Happening<M>);

@@ -60,8 +60,9 @@
 /// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
 /// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
 ///
-/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the functions `on::NET` (an event of a net) and `at::NET` (a place), the type
-/// `Program`, and the type `Player<M>`, where `M` is what events carry along.
+/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the functions `on::NET` (an event of a
+/// net) and `at::NET` (a place), the type `Program`, and the type `Player<M>`, where `M` is what
+/// events carry along.
 #[macro_export]
 macro_rules! system {
     (

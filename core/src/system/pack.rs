@@ -38,7 +38,8 @@ pub(super) const fn complement(net: &crate::net::Net<'_>, of: PlaceId) -> Option
     None
 }
 
-/// Whether a place is bound by some shared place and has no complement in its own net: the system makes one.
+/// Whether a place is bound by some shared place and has no complement in its own net: the system
+/// makes one.
 const fn lacks_complement(system: &System<'_>, component: usize, at: usize) -> bool {
     let mut binding = 0;
     while binding < system.bindings.len() {
@@ -109,7 +110,11 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
     it.takes = if it.clocks == 0 { 0 } else { it.entries };
     it.rows = events + system.components.len() + 2;
     let most = u16::MAX as usize - 1;
-    let long = it.entries > most || it.rows > most || it.routes > most || it.slots > most || it.fields > most;
+    let long = it.entries > most
+        || it.rows > most
+        || it.routes > most
+        || it.slots > most
+        || it.fields > most;
     if long { None } else { Some(it) }
 }
 
@@ -129,8 +134,8 @@ const fn routes(system: &System<'_>, component: usize, emits: &[crate::net::Outp
     count
 }
 
-/// Packs a system. The lists are as long as [`size`] says, `W` is [`Size::words`] or more, and the system has no
-/// [`defect`](System::defect).
+/// Packs a system. The lists are as long as [`size`] says, `W` is [`Size::words`] or more, and the
+/// system has no [`defect`](System::defect).
 pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) -> Words<W> {
     let mut words = Words { guards: [0; W], bounds: [0; W], initial: [0; W] };
     let mut extra = [Field { word: 0, shift: 0, width: 0 }; EXTRA];
@@ -138,7 +143,8 @@ pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>)
     layout(system, lists, &mut words, &mut extra);
     let (mut row, mut entry, mut clock, mut route) = (0, 0, 0, 0);
     let mut kind = 0;
-    // Three passes: what is on events, by net and event; what fires at once, by net; what fires in an interval.
+    // Three passes: what is on events, by net and event; what fires at once, by net; what fires in
+    // an interval.
     while kind < 3 {
         let mut component = 0;
         while component < system.components.len() {
@@ -197,15 +203,20 @@ pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>)
             lists.takes[at] = moved.take;
         }
         let it = &mut lists.entries[at];
-        let transition = &system.components[it.component as usize].net.transitions[it.transition as usize];
+        let transition =
+            &system.components[it.component as usize].net.transitions[it.transition as usize];
         if let Some(within) = transition.within {
             let latest = match within.latest {
                 Some(latest) => latest,
                 None => u32::MAX,
             };
             it.clock = clock as u16;
-            lists.clocks[clock] =
-                Clock { entry: at as u16, event: transition.on.is_some(), earliest: within.earliest, latest };
+            lists.clocks[clock] = Clock {
+                entry: at as u16,
+                event: transition.on.is_some(),
+                earliest: within.earliest,
+                latest,
+            };
             clock += 1;
         }
         at += 1;
@@ -278,8 +289,13 @@ const fn layout<const W: usize>(
                 let (waiting, room) = (place(&mut used, width), place(&mut used, width));
                 fill(words, waiting, 0, capacity as u32);
                 fill(words, room, capacity as u32, capacity as u32);
-                lists.mailboxes[box_] =
-                    Mailbox { event: lists.events[component] + at as u16, waiting, room, slot, capacity };
+                lists.mailboxes[box_] = Mailbox {
+                    event: lists.events[component] + at as u16,
+                    waiting,
+                    room,
+                    slot,
+                    capacity,
+                };
                 box_ += 1;
                 slot += capacity;
             }
@@ -299,7 +315,11 @@ const fn fill<const W: usize>(words: &mut Words<W>, field: Field, initial: u32, 
 }
 
 /// Shared places, and their complements, lie where the places lie that they are bound to.
-const fn shared<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>, extra: &[Field; EXTRA]) {
+const fn shared<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    extra: &[Field; EXTRA],
+) {
     let mut at = 0;
     while at < system.bindings.len() {
         let binding = system.bindings[at];
@@ -340,8 +360,8 @@ const fn extra_of(system: &System<'_>, owner: Of<PlaceId>) -> usize {
             if component == owner.component as usize && at == owner.id.0 as usize {
                 return made;
             }
-            made +=
-                (own(net.places[at].role, net.places) && lacks_complement(system, component, at)) as usize;
+            made += (own(net.places[at].role, net.places)
+                && lacks_complement(system, component, at)) as usize;
             at += 1;
         }
         component += 1;
@@ -410,7 +430,8 @@ const fn moved<const W: usize>(
     let mut take = need;
     add(&mut need, fields, first, it.read);
     add(&mut give, fields, first, it.give);
-    // Complements that the system makes follow their places, by what a transition changes in the end.
+    // Complements that the system makes follow their places, by what a transition changes in the
+    // end.
     let mut arc = 0;
     while arc < it.take.len() + it.give.len() {
         let taken = arc < it.take.len();
@@ -459,9 +480,14 @@ const fn mirrored(
     let net = system.components[component].net;
     let mut arc = 0;
     while arc < it.take.len() + it.give.len() {
-        let place = if arc < it.take.len() { it.take[arc].place } else { it.give[arc - it.take.len()].place };
+        let place = if arc < it.take.len() {
+            it.take[arc].place
+        } else {
+            it.give[arc - it.take.len()].place
+        };
         if let Role::Complement(of) = net.places[place.0 as usize].role
-            && let Some(Target::Place(target)) = system.target(Of { component: component as u16, id: of })
+            && let Some(Target::Place(target)) =
+                system.target(Of { component: component as u16, id: of })
             && target.component == owner.component
             && target.id.0 == owner.id.0
         {
@@ -496,7 +522,12 @@ const fn add<const W: usize>(sum: &mut [u64; W], fields: &[Field], first: usize,
 }
 
 /// Moves the last entry of a row to where its priority belongs.
-const fn insert<const W: usize>(system: &System<'_>, entries: &mut [Entry<W>], first: usize, last: usize) {
+const fn insert<const W: usize>(
+    system: &System<'_>,
+    entries: &mut [Entry<W>],
+    first: usize,
+    last: usize,
+) {
     let mut at = last;
     while at > first && priority(system, &entries[at - 1]) < priority(system, &entries[at]) {
         let before = entries[at - 1];

@@ -1,13 +1,14 @@
 //! Runs a system.
 //!
-//! **An offered event** from outside reaches its net at once. A transition fires; what it emits *now* makes the receivers
-//! fire in the same step, one after the other and depth first; what it *mails* waits. Then the net settles. All of it
-//! happens or nothing: when a mailbox on the way is full, the event is [refused](Offered::Refused) and the system is as
-//! it was.
+//! **An offered event** from outside reaches its net at once. A transition fires; what it emits
+//! *now* makes the receivers fire in the same step, one after the other and depth first; what it
+//! *mails* waits. Then the net settles. All of it happens or nothing: when a mailbox on the way is
+//! full, the event is [refused](Offered::Refused) and the system is as it was.
 //!
-//! **A round** gives each net its turn, in the order of the system. At its turn a net settles, then reads its mailboxes in
-//! the order in which its events are listed, each as far as it was filled when the turn began. What it reads makes a
-//! transition fire, or is ignored for good, or, when a mailbox is full, goes on waiting.
+//! **A round** gives each net its turn, in the order of the system. At its turn a net settles, then
+//! reads its mailboxes in the order in which its events are listed, each as far as it was filled
+//! when the turn began. What it reads makes a transition fire, or is ignored for good, or, when a
+//! mailbox is full, goes on waiting.
 //!
 //! **Time** is as in [`net::Player`](crate::net::Player), over the transitions of all nets.
 //!
@@ -38,8 +39,9 @@ impl<const W: usize> Program<W> for Code<'_, W> {
 
 /// A marking of all nets and mailboxes of a system, its clocks, and the time.
 ///
-/// `W` is the number of words of the marking, `C` that of transitions with an interval, `S` that of all that can wait in
-/// mailboxes, and `M` is what events carry along; `system!` names the type with these as `Player`.
+/// `W` is the number of words of the marking, `C` that of transitions with an interval, `S` that of
+/// all that can wait in mailboxes, and `M` is what events carry along; `system!` names the type
+/// with these as `Player`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Player<P, M, const W: usize, const C: usize, const S: usize> {
     program: P,
@@ -52,7 +54,9 @@ pub struct Player<P, M, const W: usize, const C: usize, const S: usize> {
 /// A mailbox on the way is full.
 struct Full(u16);
 
-impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: usize> Player<P, M, W, C, S> {
+impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: usize>
+    Player<P, M, W, C, S>
+{
     /// The system as it starts, at this time, settled.
     pub fn start(program: P, now: Millis, witness: &mut impl Witness<M>) -> Self {
         let marking = program.code().initial;
@@ -98,7 +102,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         let code = self.program.code();
         let boxes = bounds(code.turns, component);
         for at in boxes {
-            let waiting = self.program.code().mailboxes.get(at).map_or(0, |it| it.waiting.of(&self.marking));
+            let waiting =
+                self.program.code().mailboxes.get(at).map_or(0, |it| it.waiting.of(&self.marking));
             for _ in 0..waiting {
                 let before = (self.marking, self.clocks, self.slots);
                 let Some((event, carries)) = self.read(at) else { break };
@@ -116,8 +121,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         }
     }
 
-    /// Lets time pass up to `now`: transitions without event fire when they are due. One that is due while a mailbox
-    /// that it mails to is full waits until there is room.
+    /// Lets time pass up to `now`: transitions without event fire when they are due. One that is
+    /// due while a mailbox that it mails to is full waits until there is room.
     pub fn advance(&mut self, now: Millis, witness: &mut impl Witness<M>) -> crate::net::Advanced {
         let mut advanced = crate::net::Advanced::default();
         let mut refused = [false; C];
@@ -135,13 +140,18 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
                 return advanced;
             }
             self.pass(u64::from(wait));
-            let fired = self.whole(witness, |player, witness| player.fire(at, None, M::default(), witness));
+            let fired =
+                self.whole(witness, |player, witness| player.fire(at, None, M::default(), witness));
             if fired.is_ok() {
                 advanced.fired += 1;
                 refused = [false; C];
             } else {
-                let entry =
-                    self.program.code().entries.get(usize::from(at)).map_or(NONE, |entry| entry.clock);
+                let entry = self
+                    .program
+                    .code()
+                    .entries
+                    .get(usize::from(at))
+                    .map_or(NONE, |entry| entry.clock);
                 if let Some(refused) = refused.get_mut(usize::from(entry)) {
                     *refused = true;
                 }
@@ -149,7 +159,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         }
     }
 
-    /// When it wants to be told the time: the instant at which the next transition is due by itself.
+    /// When it wants to be told the time: the instant at which the next transition is due by
+    /// itself.
     pub fn wake_at(&self) -> Option<Millis> {
         let (wait, _) = self.due(&[false; C])?;
         Some(Millis(self.now.0.saturating_add(u64::from(wait))))
@@ -185,7 +196,9 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
 
     /// The number of an event, counted over all nets.
     fn number(&self, event: Of<EventId>) -> Option<u16> {
-        bounds(self.program.code().events, event.component).nth(event.id.0 as usize).map(|it| it as u16)
+        bounds(self.program.code().events, event.component)
+            .nth(event.id.0 as usize)
+            .map(|it| it as u16)
     }
 
     /// The component and event of a number.
@@ -222,7 +235,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
             Ok(entry.map_or(Offered::NotNow, |entry| Offered::Fired(entry.id())))
         });
         result.unwrap_or_else(|Full(mailbox)| {
-            let full = self.program.code().mailboxes.get(usize::from(mailbox)).map_or(0, |it| it.event);
+            let full =
+                self.program.code().mailboxes.get(usize::from(mailbox)).map_or(0, |it| it.event);
             Offered::Refused { full: self.event(full) }
         })
     }
@@ -231,7 +245,10 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
     fn settle(&mut self, component: u16, witness: &mut impl Witness<M>) {
         for _ in 0..SETTLE {
             let Some(at) = self.enabled(self.urgent(component)) else { return };
-            if self.whole(witness, |player, witness| player.fire(at, None, M::default(), witness)).is_err() {
+            if self
+                .whole(witness, |player, witness| player.fire(at, None, M::default(), witness))
+                .is_err()
+            {
                 return;
             }
         }
@@ -247,13 +264,16 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         let code = self.program.code();
         bounds(code.rows, row)
             .find(|&at| {
-                code.entries.get(at).is_some_and(|entry| self.can(&code, entry) && self.open(&code, entry))
+                code.entries
+                    .get(at)
+                    .is_some_and(|entry| self.can(&code, entry) && self.open(&code, entry))
             })
             .map(|at| at as u16)
     }
 
     fn can(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
-        code.holds(&self.marking, &entry.need) && code.holds(&code.bounds, &sum(&self.marking, &entry.delta))
+        code.holds(&self.marking, &entry.need)
+            && code.holds(&code.bounds, &sum(&self.marking, &entry.delta))
     }
 
     fn open(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
@@ -275,7 +295,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         carries: M,
         witness: &mut dyn Witness<M>,
     ) -> Result<(), Full> {
-        // Where the outputs of the transition of each net under way have come to, and where they end.
+        // Where the outputs of the transition of each net under way have come to, and where they
+        // end.
         let mut under_way = [(0_u16, 0_u16, 0_u16); DEPTH + 1];
         let mut depth = 0;
         let mut settled = 0;
@@ -294,9 +315,18 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
                 self.clear(route.event, witness);
                 match self.enabled(route.event) {
                     Some(at) => {
-                        self.step(at, Some(route.event), carries, witness, &mut under_way, &mut depth);
+                        self.step(
+                            at,
+                            Some(route.event),
+                            carries,
+                            witness,
+                            &mut under_way,
+                            &mut depth,
+                        );
                     }
-                    None => witness.see(&Happening::Ignored { event: self.event(route.event), carries }),
+                    None => {
+                        witness.see(&Happening::Ignored { event: self.event(route.event), carries })
+                    }
                 }
             } else {
                 depth -= 1;
@@ -324,7 +354,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
     ) {
         let Some(entry) = self.program.code().entries.get(usize::from(at)).copied() else { return };
         // Clocks ask what was there between taking and giving; without clocks nothing is listed.
-        let between = self.program.code().takes.get(usize::from(at)).map(|it| difference(&self.marking, it));
+        let between =
+            self.program.code().takes.get(usize::from(at)).map(|it| difference(&self.marking, it));
         self.marking = sum(&self.marking, &entry.delta);
         if let Some(between) = between {
             self.restart(&between, entry.clock);
@@ -337,7 +368,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         }
     }
 
-    /// Starts clocks anew of transitions that are disabled, or were in between, and of the one that fired.
+    /// Starts clocks anew of transitions that are disabled, or were in between, and of the one that
+    /// fired.
     fn restart(&mut self, between: &[u64; W], fired: u16) {
         if C == 0 {
             return;
@@ -377,7 +409,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         let slot = usize::from(it.slot);
         let slots = self.slots.get_mut(slot..slot.checked_add(waiting)?)?;
         let oldest = *slots.first()?;
-        // One place to the front each; `rotate_left` divides, and the compiler does not see that never by zero.
+        // One place to the front each; `rotate_left` divides, and the compiler does not see that
+        // never by zero.
         let mut behind = oldest;
         slots.iter_mut().rev().for_each(|slot| core::mem::swap(slot, &mut behind));
         self.count(&it, false);
@@ -386,7 +419,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
 
     /// Moves one between what waits in a mailbox and the room in it.
     fn count(&mut self, mailbox: &Mailbox, more: bool) {
-        let (from, to) = if more { (mailbox.room, mailbox.waiting) } else { (mailbox.waiting, mailbox.room) };
+        let (from, to) =
+            if more { (mailbox.room, mailbox.waiting) } else { (mailbox.waiting, mailbox.room) };
         if let Some(word) = self.marking.get_mut(usize::from(from.word)) {
             *word = word.wrapping_sub(from.tokens(1));
         }
@@ -417,7 +451,8 @@ impl<P: Program<W>, M: Copy + Default, const W: usize, const C: usize, const S: 
         for at in bounds(code.rows, row) {
             let Some(entry) = code.entries.get(at) else { continue };
             let number = usize::from(entry.clock);
-            let (Some(clock), Some(&elapsed)) = (code.clocks.get(number), self.clocks.get(number)) else {
+            let (Some(clock), Some(&elapsed)) = (code.clocks.get(number), self.clocks.get(number))
+            else {
                 continue;
             };
             let waits = clock.earliest.saturating_sub(elapsed);
@@ -452,8 +487,8 @@ impl<P: Program<W> + Default, M: Copy + Default, const W: usize, const C: usize,
     }
 }
 
-impl<P: Program<W> + Default, M: Copy + Default, const W: usize, const C: usize, const S: usize> Default
-    for Player<P, M, W, C, S>
+impl<P: Program<W> + Default, M: Copy + Default, const W: usize, const C: usize, const S: usize>
+    Default for Player<P, M, W, C, S>
 {
     fn default() -> Self {
         Self::new()

@@ -45,14 +45,26 @@ const fn signal(text: Text, net: &str, kind: &str, signals: &[Signal<'_>], name:
         at += 1;
     }
     let text = text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(name);
-    if best.is_empty() { text.stop() } else { text.with("; did you mean ").name(best).with("?").stop() }
+    if best.is_empty() {
+        text.stop()
+    } else {
+        text.with("; did you mean ").name(best).with("?").stop()
+    }
 }
 
 /// The event of a component.
-pub const fn event(system: &str, components: &[Component<'_>], what: &str, port: Port<'_>) -> Of<EventId> {
+pub const fn event(
+    system: &str,
+    components: &[Component<'_>],
+    what: &str,
+    port: Port<'_>,
+) -> Of<EventId> {
     let component = component(system, components, what, port);
     let net = components[component as usize].net;
-    Of { component, id: EventId(signal(says(system, what, port), net.name, "event", net.events, port.1)) }
+    Of {
+        component,
+        id: EventId(signal(says(system, what, port), net.name, "event", net.events, port.1)),
+    }
 }
 
 const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of<PlaceId> {
@@ -70,15 +82,23 @@ const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of
         }
         at += 1;
     }
-    let text = says(system, "shared", port).with("net ").name(net.name).with(" has no place ").name(port.1);
-    if best.is_empty() { text.stop() } else { text.with("; did you mean ").name(best).with("?").stop() }
+    let text = says(system, "shared", port)
+        .with("net ")
+        .name(net.name)
+        .with(" has no place ")
+        .name(port.1);
+    if best.is_empty() {
+        text.stop()
+    } else {
+        text.with("; did you mean ").name(best).with("?").stop()
+    }
 }
 
 /// An item of `links`: an output, events, and the room of a mailbox when there is one.
 pub type WrittenLink<'n> = (Port<'n>, &'n [Port<'n>], &'n [u16]);
 
-/// An item of `shared` or `pending`: shared places, the place or the event that they are bound to, and whether it is
-/// the mailbox of an event.
+/// An item of `shared` or `pending`: shared places, the place or the event that they are bound to,
+/// and whether it is the mailbox of an event.
 pub type WrittenBinding<'n> = (&'n [Port<'n>], Port<'n>, bool);
 
 /// How many links these are.
@@ -117,10 +137,14 @@ pub const fn links<const N: usize>(
         let (from, to, capacity) = written[at];
         let component = component(system, components, "link", from);
         let net = components[component as usize].net;
-        let output = OutputId(signal(says(system, "link", from), net.name, "output", net.outputs, from.1));
+        let output =
+            OutputId(signal(says(system, "link", from), net.name, "output", net.outputs, from.1));
         let from = Of { component, id: output };
-        let delivery =
-            if capacity.is_empty() { Delivery::Now } else { Delivery::Mail { capacity: capacity[0] } };
+        let delivery = if capacity.is_empty() {
+            Delivery::Now
+        } else {
+            Delivery::Mail { capacity: capacity[0] }
+        };
         let mut each = 0;
         while each < to.len() {
             links[count] = Link { from, to: event(system, components, "link", to[each]), delivery };
@@ -160,7 +184,12 @@ pub const fn bindings<const N: usize>(
 }
 
 /// Makes an event empty a mailbox.
-pub const fn clear(system: &str, components: &[Component<'_>], on: Port<'_>, mailbox: Port<'_>) -> Clear {
+pub const fn clear(
+    system: &str,
+    components: &[Component<'_>],
+    on: Port<'_>,
+    mailbox: Port<'_>,
+) -> Clear {
     let of = event(system, components, "clears", on);
     let mailbox = event(system, components, "clears", mailbox);
     if of.component != mailbox.component {

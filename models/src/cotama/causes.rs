@@ -1,5 +1,5 @@
-//! Cause-effect (Ishikawa) view of the FMECA: which component takes a function away, and why (the method of Durand et al.,
-//! IROS 2010, pairs each FMECA with such diagrams).
+//! Cause-effect (Ishikawa) view of the FMECA: which component takes a function away, and why (the
+//! method of Durand et al., IROS 2010, pairs each FMECA with such diagrams).
 
 use super::fmeca_table::{FailureMode, FailureModes};
 
@@ -19,7 +19,8 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
     firsts(|mode| mode.description().function).map(|(function, _)| function)
 }
 
-/// The ribs of the diagram of a function, in the order of its rows; none for what is no function of the FMECA.
+/// The ribs of the diagram of a function, in the order of its rows; none for what is no function of
+/// the FMECA.
 ///
 /// ```
 /// use cotama_models::cotama::ribs;
@@ -33,7 +34,9 @@ pub fn ribs(function: &str) -> impl Iterator<Item = Rib> {
 }
 
 /// The distinct keys of the rows, each with its rows, in the order of the rows.
-fn firsts<K: PartialEq>(key: impl Fn(FailureMode) -> K + Copy) -> impl Iterator<Item = (K, FailureModes)> {
+fn firsts<K: PartialEq>(
+    key: impl Fn(FailureMode) -> K + Copy,
+) -> impl Iterator<Item = (K, FailureModes)> {
     FailureModes::ALL.iter().filter_map(move |mode| {
         let same = FailureModes::ALL.iter().filter(|&it| key(it) == key(mode));
         let modes = same.fold(FailureModes::NONE, FailureModes::with);

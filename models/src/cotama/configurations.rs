@@ -95,9 +95,9 @@ const NO_SPEED: MillimetresPerSecond = MillimetresPerSecond(0);
 
 /// What is known of each configuration, in the order of [`Configuration`].
 ///
-/// Stated are PF.OPT and PF.DEG as sets, the reduction of particles, and in words teleoperation without avoidance and
-/// security. LAN is optional where nobody is asked (inferred). PF.DVZ is ranked behind the set with fewer particles
-/// (assumed).
+/// Stated are PF.OPT and PF.DEG as sets, the reduction of particles, and in words teleoperation
+/// without avoidance and security. LAN is optional where nobody is asked (inferred). PF.DVZ is
+/// ranked behind the set with fewer particles (assumed).
 #[rustfmt::skip]
 pub const CONFIGURATIONS: [ConfigurationFacts; Configuration::ALL.len()] = {
     use Configuration as C;
@@ -161,8 +161,8 @@ impl Configuration {
         available.covers(self.facts().required)
     }
 
-    /// The modules that the scheduler runs under it: those that it requires or may use, the GOM, and every observer that has
-    /// what it observes (inferred).
+    /// The modules that the scheduler runs under it: those that it requires or may use, the GOM,
+    /// and every observer that has what it observes (inferred).
     ///
     /// ```
     /// use cotama_models::cotama::Configuration::{FollowingDegraded, FollowingOptimal};
@@ -205,7 +205,8 @@ const fn lacks(it: &ModuleFacts, set: Modules) -> Modules {
     if it.needs_one_of.common(set).is_empty() { all.union(it.needs_one_of) } else { all }
 }
 
-/// The modules that a set needs and does not hold. The scheduler and the GOM run under every set and are listed in none.
+/// The modules that a set needs and does not hold. The scheduler and the GOM run under every set
+/// and are listed in none.
 const fn missing(set: Modules) -> Modules {
     let (mut missing, mut at) = (Modules::NONE, 0);
     while at < Module::ALL.len() {

@@ -2,7 +2,8 @@
 
 use cotama_core::net;
 
-/// The contextual supervisor, and what else it may see, hear, say and do, and do at the floor of particles.
+/// The contextual supervisor, and what else it may see, hear, say and do, and do at the floor of
+/// particles.
 macro_rules! contextual {
     (
         $(#[doc = $doc:literal])*
@@ -83,9 +84,9 @@ macro_rules! contextual {
 }
 
 contextual! {
-    /// Contextual supervisor (Durand et al., TAROS 2010, Section IV): from a report, by its severity where the robot is and
-    /// by what is still available, to an event for the adapter, the local or the global supervisor. What is not listed is
-    /// acknowledged and recorded only.
+    /// Contextual supervisor (Durand et al., TAROS 2010, Section IV): from a report, by its
+    /// severity where the robot is and by what is still available, to an event for the adapter, the
+    /// local or the global supervisor. What is not listed is acknowledged and recorded only.
     pub mod contextual {
         shared {}
         events {}
@@ -96,8 +97,9 @@ contextual! {
 }
 
 contextual! {
-    /// The contextual supervisor where modules may return: what is available again is for the adapter that runs without it. In
-    /// every other place it is recorded only, since an adapter that starts looks at what is available. Assumed.
+    /// The contextual supervisor where modules may return: what is available again is for the
+    /// adapter that runs without it. In every other place it is recorded only, since an adapter
+    /// that starts looks at what is available. Assumed.
     pub mod recovering_contextual {
         shared { given_up }
         events { sonar_back, avoidance_back, mcl_back }

@@ -1,9 +1,9 @@
 //! The supervisors as they are shipped, composed; and the same where modules may return.
 
 use super::{
-    contextual, faults, global, local, observation, operator, path_following, permit, recovering_contextual,
-    recovering_faults, recovering_observation, recovering_path_following, recovering_teleoperation,
-    teleoperation,
+    contextual, faults, global, local, observation, operator, path_following, permit,
+    recovering_contextual, recovering_faults, recovering_observation, recovering_path_following,
+    recovering_teleoperation, teleoperation,
 };
 use cotama_core::system;
 
@@ -113,8 +113,9 @@ macro_rules! level {
 }
 
 level! {
-    /// COTAMA's decisional level as it drives the robot, with everything that may fail and the operator. Events that no net here
-    /// causes come from the robot and from whoever gives missions and objects.
+    /// COTAMA's decisional level as it drives the robot, with everything that may fail and the
+    /// operator. Events that no net here causes come from the robot and from whoever gives missions
+    /// and objects.
     pub mod delivery {
         nets { path_following, teleoperation, observation, contextual, faults }
         links {}
@@ -123,8 +124,9 @@ level! {
 }
 
 level! {
-    /// COTAMA's decisional level where sonars, the operator's avoidance and localisation may return: then adapters go up again.
-    /// Assumed, and off unless a mission asks for it: the paper states no such transition. The rest is [`delivery`].
+    /// COTAMA's decisional level where sonars, the operator's avoidance and localisation may
+    /// return: then adapters go up again. Assumed, and off unless a mission asks for it: the paper
+    /// states no such transition. The rest is [`delivery`].
     pub mod recovering {
         nets {
             recovering_path_following, recovering_teleoperation, recovering_observation, recovering_contextual,

@@ -1,10 +1,11 @@
-//! From flags to failure modes: the signature table of the GOM (Durand et al., TAROS 2010, Section IV), and which failure
-//! modes it cannot tell apart.
+//! From flags to failure modes: the signature table of the GOM (Durand et al., TAROS 2010, Section
+//! IV), and which failure modes it cannot tell apart.
 //!
-//! A failure mode is a candidate when it explains the raised flags exactly: all that it always raises are there, and all that
-//! are there it raises always or sometimes. Flags of observers that are unavailable count as not raised and are asked of
-//! nobody. So an intermittent fault with flags that come and go is a candidate with any part of them (inferred), and two
-//! faults at once are unexplained unless one of them covers both.
+//! A failure mode is a candidate when it explains the raised flags exactly: all that it always
+//! raises are there, and all that are there it raises always or sometimes. Flags of observers that
+//! are unavailable count as not raised and are asked of nobody. So an intermittent fault with flags
+//! that come and go is a candidate with any part of them (inferred), and two faults at once are
+//! unexplained unless one of them covers both.
 
 use super::flags::Flags;
 use super::fmeca_table::{FailureMode, FailureModes, RULES};
@@ -20,7 +21,8 @@ pub enum Diagnosis {
     Unique(FailureMode),
     /// Several do; the operator must look.
     Ambiguous(FailureModes),
-    /// None does: several faults at once, or one that the FMECA does not know. As an ambiguous one it is for the operator.
+    /// None does: several faults at once, or one that the FMECA does not know. As an ambiguous one
+    /// it is for the operator.
     Unexplained,
 }
 
@@ -101,12 +103,13 @@ pub const fn are_confusable(a: FailureMode, b: FailureMode, status: Modules) -> 
         && most_b.covers(least_a)
 }
 
-/// The groups of failure modes that share a set of flags: the largest ambiguous diagnoses, in the order of [`FailureMode`].
-/// Two modes are confusable exactly when some group holds both.
+/// The groups of failure modes that share a set of flags: the largest ambiguous diagnoses, in the
+/// order of [`FailureMode`]. Two modes are confusable exactly when some group holds both.
 pub fn ambiguity_groups(status: Modules) -> impl Iterator<Item = FailureModes> {
     confusable_pairs(status).filter_map(move |(a, b)| {
-        // Signatures are intervals of sets, and intervals that meet in pairs meet all at once. So a group grown one by one from
-        // a pair is as large as it can be, and it is told where its first pair is met.
+        // Signatures are intervals of sets, and intervals that meet in pairs meet all at once. So a
+        // group grown one by one from a pair is as large as it can be, and it is told where its
+        // first pair is met.
         let group = FailureModes::ALL.iter().fold(FailureModes::of(&[a, b]), |group, next| {
             if group.iter().all(|it| it == next || are_confusable(it, next, status)) {
                 group.with(next)
@@ -119,8 +122,9 @@ pub fn ambiguity_groups(status: Modules) -> impl Iterator<Item = FailureModes> {
     })
 }
 
-/// The flags that leave it open which of several failure modes it is: all of the first set are raised, and some of the second,
-/// which holds the first. `None` when any flags rule one of them out, or when one of them is not detectable.
+/// The flags that leave it open which of several failure modes it is: all of the first set are
+/// raised, and some of the second, which holds the first. `None` when any flags rule one of them
+/// out, or when one of them is not detectable.
 ///
 /// ```
 /// use cotama_models::cotama::{FailureMode::{Loc1, Odo2, Son1}, FailureModes, Modules, shared_flags};
@@ -149,14 +153,18 @@ pub const fn shared_flags(modes: FailureModes, status: Modules) -> Option<(Flags
 /// The pairs of confusable failure modes, the earlier one first.
 pub fn confusable_pairs(status: Modules) -> impl Iterator<Item = (FailureMode, FailureMode)> {
     FailureModes::ALL.iter().flat_map(move |a| {
-        FailureModes::ALL.iter().filter(move |&b| a < b && are_confusable(a, b, status)).map(move |b| (a, b))
+        FailureModes::ALL
+            .iter()
+            .filter(move |&b| a < b && are_confusable(a, b, status))
+            .map(move |b| (a, b))
     })
 }
 
 impl Diagnosis {
-    /// What is broken by it. `part` is the module of a fault of one module. An ambiguous one breaks nothing, but every module
-    /// that a candidate would take is suspected. One broken sonar takes the arrays as a whole: the coarse rule of the
-    /// publication, whose failure mode has the arrays as its loss.
+    /// What is broken by it. `part` is the module of a fault of one module. An ambiguous one breaks
+    /// nothing, but every module that a candidate would take is suspected. One broken sonar takes
+    /// the arrays as a whole: the coarse rule of the publication, whose failure mode has the arrays
+    /// as its loss.
     ///
     /// ```
     /// use cotama_models::cotama::{Flag, Flags, Module, Modules, Resource, Resources, diagnose};
@@ -180,7 +188,8 @@ impl Diagnosis {
 }
 
 super::members::members! {
-    /// An observation that the architecture does not make, and that would tell failure modes apart (all assumed).
+    /// An observation that the architecture does not make, and that would tell failure modes apart
+    /// (all assumed).
     Probe,
     /// Observations that could be added.
     Probes(u8) {
@@ -234,15 +243,16 @@ impl Probe {
 }
 
 impl Probes {
-    /// Those of which each one would tell the two failure modes apart while these modules are available.
+    /// Those of which each one would tell the two failure modes apart while these modules are
+    /// available.
     #[must_use]
     pub fn that_separate(a: FailureMode, b: FailureMode, status: Modules) -> Self {
         let works = |probe: &Probe| status.covers(probe.needs()) && probe.separates(a, b);
         Self::ALL.iter().filter(works).fold(Self::NONE, Self::with)
     }
 
-    /// The fewest that tell all confusable failure modes apart, the first in the order of [`Probe`] among equals; `None` when
-    /// not even all of them do.
+    /// The fewest that tell all confusable failure modes apart, the first in the order of [`Probe`]
+    /// among equals; `None` when not even all of them do.
     ///
     /// ```
     /// use cotama_models::cotama::{Modules, Probes};
@@ -255,8 +265,8 @@ impl Probes {
         confusable_pairs(status).all(can).then(|| Self::least_that_help(status))
     }
 
-    /// The fewest that tell all those failure modes apart that any probe can, the first in the order of [`Probe`] among equals.
-    /// Exact: every subset is tried.
+    /// The fewest that tell all those failure modes apart that any probe can, the first in the
+    /// order of [`Probe`] among equals. Exact: every subset is tried.
     #[must_use]
     pub fn least_that_help(status: Modules) -> Self {
         let separates = |set: &Self| {

@@ -90,8 +90,9 @@ members! {
 }
 
 impl Flag {
-    /// The modules of which each one can raise it (stated for the observers, Durand et al., TAROS 2010, Section III; who raises
-    /// which flag is inferred); none for what a supervisor's timer or the operator's side sees.
+    /// The modules of which each one can raise it (stated for the observers, Durand et al., TAROS
+    /// 2010, Section III; who raises which flag is inferred); none for what a supervisor's timer or
+    /// the operator's side sees.
     #[must_use]
     pub const fn observers(self) -> Modules {
         Modules::of(match self {
@@ -103,7 +104,9 @@ impl Flag {
             | Self::NoFrame => &[Module::OSen],
             Self::OldFrame => &[Module::OCom, Module::OSen],
             Self::ValueOutside => &[Module::OSen, Module::OLoc, Module::OPf],
-            Self::WheelResidual | Self::WheelPeak | Self::WheelDisobeys | Self::WheelGain => &[Module::OEff],
+            Self::WheelResidual | Self::WheelPeak | Self::WheelDisobeys | Self::WheelGain => {
+                &[Module::OEff]
+            }
             Self::Runaway => &[Module::OEff, Module::P3d],
             Self::PoseDistance
             | Self::PoseGrowth

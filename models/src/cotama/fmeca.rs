@@ -1,9 +1,10 @@
-//! Failure modes, effects and criticality analysis (FMECA) of the delivery robot: what can fail, how it shows, how severe it
-//! is, and what is done.
+//! Failure modes, effects and criticality analysis (FMECA) of the delivery robot: what can fail,
+//! how it shows, how severe it is, and what is done.
 //!
-//! The method is that of Durand, Godary-Dejean, Lapierre, Crestani, IROS 2010, and Durand et al., TAROS 2010, Section IV. The
-//! rows are the project's own: those marked as seed rules follow TAROS 2010, the others fill the same form; rates are assumed
-//! but where [`Description::rate_label`] says otherwise. Firmware links [`RULES`] alone, the texts stand apart in [`TEXTS`].
+//! The method is that of Durand, Godary-Dejean, Lapierre, Crestani, IROS 2010, and Durand et al.,
+//! TAROS 2010, Section IV. The rows are the project's own: those marked as seed rules follow TAROS
+//! 2010, the others fill the same form; rates are assumed but where [`Description::rate_label`]
+//! says otherwise. Firmware links [`RULES`] alone, the texts stand apart in [`TEXTS`].
 
 use super::flags::Flags;
 use super::fmeca_table::{FailureMode, RULES, TEXTS};
@@ -27,12 +28,14 @@ pub enum Persistence {
     Intermittent,
 }
 
-/// How a failure mode shows (inferred from its detection and its effect): it is possible while the flags raised are all of `always` and some of `sometimes`.
+/// How a failure mode shows (inferred from its detection and its effect): it is possible while the
+/// flags raised are all of `always` and some of `sometimes`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Signature {
     /// Flags that it always raises; none when nothing of the architecture sees it.
     pub always: Flags,
-    /// Flags that it may raise too: effects that depend on the place, and detections of which one is enough.
+    /// Flags that it may raise too: effects that depend on the place, and detections of which one
+    /// is enough.
     pub sometimes: Flags,
     /// It can only happen, or only matters, while these modules are available.
     pub present: Modules,
@@ -63,9 +66,9 @@ pub struct Rule {
     pub latency_ms: u32,
     /// How it shows.
     pub signature: Signature,
-    /// The report to the contextual supervisor; none for what is recorded only. A report means in each mode what
-    /// [`decide`](super::decide) says. Hard faults without a report of their own ask for judgement: [`Report::Ambiguous`]
-    /// (inferred).
+    /// The report to the contextual supervisor; none for what is recorded only. A report means in
+    /// each mode what [`decide`](super::decide) says. Hard faults without a report of their own ask
+    /// for judgement: [`Report::Ambiguous`] (inferred).
     pub report: Option<Report>,
 }
 
@@ -113,15 +116,16 @@ impl FailureMode {
         &TEXTS[self as usize]
     }
 
-    /// What is broken with it; `part` is the module of a fault of one module, and does not matter else.
+    /// What is broken with it; `part` is the module of a fault of one module, and does not matter
+    /// else.
     pub const fn health(self, part: Modules) -> Health {
         let rule = self.rule();
         let faulty = if rule.one_module { part } else { rule.faulty };
         Health { faulty, lost: rule.lost, suspected: Modules::NONE }
     }
 
-    /// Its class by the two rules of [`by_rules`](super::by_rules): the worse of severity and what is left available,
-    /// and global where the operator is needed and cannot be reached.
+    /// Its class by the two rules of [`by_rules`](super::by_rules): the worse of severity and what
+    /// is left available, and global where the operator is needed and cannot be reached.
     ///
     /// ```
     /// use cotama_models::cotama::{Class, FailureMode, Modules, Situation, local, path_following};
@@ -137,8 +141,11 @@ impl FailureMode {
     pub const fn effective(self, part: Modules, situation: Situation) -> Class {
         use super::configurations::Mode::{Autonomous, Rest};
         let rule = self.rule();
-        let severity =
-            if matches!(situation.mode(), Autonomous | Rest) { rule.autonomous } else { rule.operator };
+        let severity = if matches!(situation.mode(), Autonomous | Rest) {
+            rule.autonomous
+        } else {
+            rule.operator
+        };
         let left = situation.lost.health().union(self.health(part)).available();
         let operator = left.has(Module::Lan);
         match severity.class().worse(by_availability(situation, left, operator)) {
@@ -167,7 +174,9 @@ const _: () = {
             "a failure mode raises a flag both always and sometimes"
         );
         assert!(
-            rule.report.is_some() || text.silent.is_some() || rule.class as u8 <= Class::Adapter as u8,
+            rule.report.is_some()
+                || text.silent.is_some()
+                || rule.class as u8 <= Class::Adapter as u8,
             "a hard or fatal failure mode is detected, but reported to nobody"
         );
         assert!(
@@ -179,8 +188,8 @@ const _: () = {
     }
 };
 
-/// The FMECA as comma-separated values, a heading and one line a row, fields quoted where they must be (RFC 4180, with plain
-/// line ends).
+/// The FMECA as comma-separated values, a heading and one line a row, fields quoted where they must
+/// be (RFC 4180, with plain line ends).
 #[derive(Clone, Copy, Debug)]
 pub struct FmecaCsv;
 
@@ -193,7 +202,9 @@ impl fmt::Display for FmecaCsv {
         writeln!(f, "{FMECA_COLUMNS}")?;
         for mode in FailureMode::ALL {
             let (rule, text) = (mode.rule(), mode.description());
-            for field in [mode.name(), text.function, text.component, text.failure, text.cause, text.effect] {
+            for field in
+                [mode.name(), text.function, text.component, text.failure, text.cause, text.effect]
+            {
                 quoted(f, field)?;
                 f.write_char(',')?;
             }

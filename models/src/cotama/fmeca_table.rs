@@ -1,12 +1,13 @@
 //! The rows of the FMECA, one copy: numbers and sets go to [`RULES`], words to [`TEXTS`].
 //!
-//! Source: the rows marked as seed rules follow Durand et al., TAROS 2010, Sections IV to VI; the others fill the same form
-//! for a Pioneer 3-DX and are assumed, with shares and common causes after Carlson and Murphy, IEEE Trans. Robotics 21, 2005,
-//! where a row says so.
+//! Source: the rows marked as seed rules follow Durand et al., TAROS 2010, Sections IV to VI; the
+//! others fill the same form for a Pioneer 3-DX and are assumed, with shares and common causes
+//! after Carlson and Murphy, IEEE Trans. Robotics 21, 2005, where a row says so.
 //!
-//! A row is: name, id, function, component, failure { cause, effect; severity (autonomous, operator), class, persistence;
-//! lost (words, modules, resources); seen by (words, words, latency in ms; flags always, flags sometimes, modules without which
-//! and with which it cannot be); answer (report, words); rate (MTBF in thousandths of an hour, label, source), injection }.
+//! A row is: name, id, function, component, failure { cause, effect; severity (autonomous,
+//! operator), class, persistence; lost (words, modules, resources); seen by (words, words, latency
+//! in ms; flags always, flags sometimes, modules without which and with which it cannot be); answer
+//! (report, words); rate (MTBF in thousandths of an hour, label, source), injection }.
 
 use super::flags::{Flag, Flags};
 use super::fmeca::{Description, Persistence, Rule, Signature};

@@ -3,8 +3,9 @@
 use cotama_core::net::{Arc, PlaceId, Transition};
 use cotama_core::system::{Of, System, Target};
 
-/// Every transition of a net that goes from the place `from` to the place `to` is enabled only where places of the system are
-/// marked, so that it holds in any surroundings: also in those in which nobody asks for it elsewhere.
+/// Every transition of a net that goes from the place `from` to the place `to` is enabled only
+/// where places of the system are marked, so that it holds in any surroundings: also in those in
+/// which nobody asks for it elsewhere.
 #[derive(Clone, Copy, Debug)]
 pub struct Guarded {
     /// The net, by its name in the system.
@@ -18,7 +19,8 @@ pub struct Guarded {
 }
 
 impl Guarded {
-    /// The transitions of a system that do not look at all of the places; of a system without such a net none.
+    /// The transitions of a system that do not look at all of the places; of a system without such
+    /// a net none.
     ///
     /// ```
     /// use cotama_models::cotama::{REQUIREMENTS, delivery};
@@ -31,7 +33,8 @@ impl Guarded {
         component.into_iter().flat_map(move |(it, component)| {
             let net = it.net;
             let goes = move |arcs: &[Arc], to: &str| {
-                arcs.iter().any(|arc| net.places.get(arc.place.0 as usize).is_some_and(|it| it.name == to))
+                arcs.iter()
+                    .any(|arc| net.places.get(arc.place.0 as usize).is_some_and(|it| it.name == to))
             };
             let is_guarded = move |it: &Transition<'s>| {
                 let reads = |by: &&str| {
@@ -39,8 +42,13 @@ impl Guarded {
                 };
                 self.by.iter().all(reads)
             };
-            let is_meant = move |it: &&Transition<'s>| goes(it.take, self.from) && goes(it.give, self.to);
-            net.transitions.iter().filter(is_meant).filter(move |it| !is_guarded(it)).map(|it| it.name)
+            let is_meant =
+                move |it: &&Transition<'s>| goes(it.take, self.from) && goes(it.give, self.to);
+            net.transitions
+                .iter()
+                .filter(is_meant)
+                .filter(move |it| !is_guarded(it))
+                .map(|it| it.name)
         })
     }
 }

@@ -14,7 +14,8 @@ pub struct Health {
     pub suspected: Modules,
 }
 
-/// The status of one module. Stated are available and unavailable; suspect is inferred, for an ambiguous diagnosis.
+/// The status of one module. Stated are available and unavailable; suspect is inferred, for an
+/// ambiguous diagnosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Status {
     /// It can be used.
@@ -34,7 +35,8 @@ pub struct StatusVector {
 
 impl Health {
     /// Nothing is broken.
-    pub const SOUND: Self = Self { faulty: Modules::NONE, lost: Resources::NONE, suspected: Modules::NONE };
+    pub const SOUND: Self =
+        Self { faulty: Modules::NONE, lost: Resources::NONE, suspected: Modules::NONE };
 
     /// What both say.
     #[must_use]

@@ -1,21 +1,23 @@
-//! The decisional level with names in place of numbers: what the robot tells it, and what it decided.
+//! The decisional level with names in place of numbers: what the robot tells it, and what it
+//! decided.
 
 use super::situation::{Loss, Losses, Situation};
 use super::{
-    Configuration, Module, Modules, delivery, faults, global, local, operator, path_following, permit,
-    recovering, recovering_faults, teleoperation,
+    Configuration, Module, Modules, delivery, faults, global, local, operator, path_following,
+    permit, recovering, recovering_faults, teleoperation,
 };
 use core::marker::PhantomData;
 use cotama_core::net::{EventId, PlaceId};
 use cotama_core::system::{Happening, Of, Offered, Player, Program, Turned, Witness};
 use cotama_core::units::Millis;
 
-/// What an event goes back to: a number that the caller chose, for example the position of a fault in its list. It travels
-/// with everything that is done because of the event.
+/// What an event goes back to: a number that the caller chose, for example the position of a fault
+/// in its list. It travels with everything that is done because of the event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cause(pub u16);
 
-/// The event of a global supervisor made from a mission in which the robot waits, behind those of [`global`].
+/// The event of a global supervisor made from a mission in which the robot waits, behind those of
+/// [`global`].
 pub(super) const WAIT_OVER: EventId = EventId(global::NET.events.len() as u32);
 
 /// What returns, as far as the supervisors tell it apart.
@@ -66,12 +68,14 @@ impl Return {
     }
 }
 
-/// What the level is told. Each is an event that no supervisor causes; one a round keeps the runs those that were checked.
+/// What the level is told. Each is an event that no supervisor causes; one a round keeps the runs
+/// those that were checked.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Told {
     /// The mission, or what becomes of it.
     Mission(global::Event),
-    /// The time to wait is over: only of missions in which the robot waits, whose global supervisor is made from their file.
+    /// The time to wait is over: only of missions in which the robot waits, whose global supervisor
+    /// is made from their file.
     WaitOver,
     /// What becomes of a drive: a path is there, the goal is reached.
     Drive(local::Event),
@@ -99,8 +103,8 @@ impl Told {
     }
 }
 
-/// The right to move: commands of motion ask for it, and only a level whose activity moves the robot lends it. It cannot
-/// outlive the next event, since it borrows the level.
+/// The right to move: commands of motion ask for it, and only a level whose activity moves the
+/// robot lends it. It cannot outlive the next event, since it borrows the level.
 ///
 /// ```compile_fail,E0502
 /// use cotama_core::units::Millis;
@@ -114,8 +118,8 @@ impl Told {
 #[derive(Debug, PartialEq, Eq)]
 pub struct Permit<'l>(PhantomData<&'l ()>);
 
-/// The supervisors of a mission, running. `P` is the packed system: that of [`delivery`](delivery::SYSTEM), or one with the
-/// global supervisor of another mission.
+/// The supervisors of a mission, running. `P` is the packed system: that of
+/// [`delivery`](delivery::SYSTEM), or one with the global supervisor of another mission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, Cause, W, C, S>);
 
@@ -133,8 +137,12 @@ pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, Ca
 /// assert_eq!(level.situation(Losses::NONE).local, local::State::Following);
 /// assert!(level.permit().is_some());
 /// ```
-pub type DecisionalLevel =
-    Level<delivery::Program, { delivery::SIZE.words }, { delivery::SIZE.clocks }, { delivery::SIZE.slots }>;
+pub type DecisionalLevel = Level<
+    delivery::Program,
+    { delivery::SIZE.words },
+    { delivery::SIZE.clocks },
+    { delivery::SIZE.slots },
+>;
 
 impl Default for DecisionalLevel {
     fn default() -> Self {
@@ -155,8 +163,8 @@ macro_rules! marked {
 }
 
 impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, C, S> {
-    /// The supervisors of a packed system whose components are those of [`delivery`](delivery::SYSTEM) or
-    /// [`recovering`](recovering::SYSTEM), in their order.
+    /// The supervisors of a packed system whose components are those of
+    /// [`delivery`](delivery::SYSTEM) or [`recovering`](recovering::SYSTEM), in their order.
     pub fn start(program: P) -> Self {
         Self(Player::start(program, Millis(0), &mut ()))
     }
@@ -210,7 +218,8 @@ impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, 
             Teleoperated,
             End
         );
-        let following = marked!(self.0, pf, path_following, Off, Optimal, Reduced, Odometric, Degraded);
+        let following =
+            marked!(self.0, pf, path_following, Off, Optimal, Reduced, Odometric, Degraded);
         let teleoperation = marked!(self.0, to, teleoperation, Off, Full, Degraded);
         let level = self.0.tokens(delivery::at::pf(path_following::Place::level)) as u8;
         Situation { local, following, teleoperation, level, lost }
@@ -222,7 +231,8 @@ impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, 
     }
 }
 
-/// Why something fired: the transition, and the cause it goes back to. The other happenings say `None`.
+/// Why something fired: the transition, and the cause it goes back to. The other happenings say
+/// `None`.
 pub fn fired(happening: &Happening<Cause>) -> Option<(&'static str, &'static str, Cause)> {
     let Happening::Fired { transition, carries, .. } = happening else { return None };
     let component = delivery::SYSTEM.components.get(usize::from(transition.component))?;

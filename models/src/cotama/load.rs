@@ -1,4 +1,5 @@
-//! The modules of the delivery as tasks of the executive, and how many particles the localisation can afford.
+//! The modules of the delivery as tasks of the executive, and how many particles the localisation
+//! can afford.
 //!
 //! | number | value | |
 //! | --- | --- | --- |
@@ -8,12 +9,14 @@
 //! | costs of modules and of a particle | see [`COSTS`], [`PARTICLES`] | assumed |
 //! | load of the computer beside the modules | see [`Load`] | assumed |
 //!
-//! The modules are listed in the order of urgency, which is that of the data but for the localisation: it comes last. That
-//! follows from the experiment, in which it alone was late: whatever is less urgent than a module that takes too long is late
-//! with it. The others use its last pose, the age of which they see.
+//! The modules are listed in the order of urgency, which is that of the data but for the
+//! localisation: it comes last. That follows from the experiment, in which it alone was late:
+//! whatever is less urgent than a module that takes too long is late with it. The others use its
+//! last pose, the age of which they see.
 //!
-//! In the paper's experiment the real-time fault of the localisation is answered with fewer particles. How many is not stated; here
-//! it is what the set can afford, exactly ([`most_particles`]), for each [`Load`].
+//! In the paper's experiment the real-time fault of the localisation is answered with fewer
+//! particles. How many is not stated; here it is what the set can afford, exactly
+//! ([`most_particles`]), for each [`Load`].
 //!
 //! ```
 //! use cotama_core::executive::{Overruns, TaskSet, Unschedulable};
@@ -55,8 +58,8 @@ pub struct ModuleCost {
     pub cost: Micros,
 }
 
-/// All modules that are scheduled, the most urgent first, with assumed costs. ODO and CTR are parts of NAV, and the scheduler is
-/// no job of its own.
+/// All modules that are scheduled, the most urgent first, with assumed costs. ODO and CTR are parts
+/// of NAV, and the scheduler is no job of its own.
 pub const COSTS: [ModuleCost; 17] = {
     use Module as M;
     const fn costs(module: Module, cost_ms: u64) -> ModuleCost {
@@ -89,12 +92,14 @@ const LOCALISATION: ModuleCost = ModuleCost { module: Mcl, cost: ms(6) };
 /// The processor time of a particle in each period; assumed.
 pub const PARTICLE: Micros = Micros(80);
 
-/// What else the computer of the robot does, more urgent than all modules; assumed. It is a task as well, with a period of 10 ms.
+/// What else the computer of the robot does, more urgent than all modules; assumed. It is a task as
+/// well, with a period of 10 ms.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Load {
     /// Nothing.
     Quiet,
-    /// It takes 3 ms of every 10: the load that the localisation meets soon after the start of the path following.
+    /// It takes 3 ms of every 10: the load that the localisation meets soon after the start of the
+    /// path following.
     Busy,
     /// It takes 4 ms of every 10: the most for which the floor of particles is meant.
     Heavy,
@@ -111,8 +116,8 @@ impl Load {
     }
 }
 
-/// Particles of the levels of the adapter supervisor, from the floor up: what the optimal path following affords under
-/// heavy load, when busy and when quiet.
+/// Particles of the levels of the adapter supervisor, from the floor up: what the optimal path
+/// following affords under heavy load, when busy and when quiet.
 pub const PARTICLES: [u32; 3] = [100, 200, 500];
 
 /// The most tasks that there are: every module, and the load.
@@ -141,9 +146,15 @@ impl fmt::Display for LoadError {
 
 impl core::error::Error for LoadError {}
 
-/// The tasks of a configuration under a load, the most urgent first: the load if there is one, the modules that are scheduled for
-/// it in the order of [`COSTS`], so the localisation last if it is among them, with so many particles.
-pub fn tasks(configuration: Configuration, load: Load, particles: u32, memory: &mut [Task; MOST]) -> &[Task] {
+/// The tasks of a configuration under a load, the most urgent first: the load if there is one, the
+/// modules that are scheduled for it in the order of [`COSTS`], so the localisation last if it is
+/// among them, with so many particles.
+pub fn tasks(
+    configuration: Configuration,
+    load: Load,
+    particles: u32,
+    memory: &mut [Task; MOST],
+) -> &[Task] {
     let scheduled = configuration.scheduled();
     let members = COSTS.iter().filter(|it| scheduled.has(it.module)).map(|it| {
         let particles = if matches!(it.module, Mcl) { u64::from(particles) } else { 0 };
@@ -159,8 +170,8 @@ pub fn tasks(configuration: Configuration, load: Load, particles: u32, memory: &
     memory.get(..length).unwrap_or(&[])
 }
 
-/// The most particles with which all modules of a configuration are in time under a load, no module overrunning; `None` when
-/// they are not even without any, or it does not localise with particles.
+/// The most particles with which all modules of a configuration are in time under a load, no module
+/// overrunning; `None` when they are not even without any, or it does not localise with particles.
 ///
 /// # Errors
 /// [`LoadError`].
@@ -174,7 +185,9 @@ pub fn most_particles(
     }
     let tasks = tasks(configuration, load, 0, memory);
     let set = TaskSet::new(tasks).map_err(LoadError::Task)?;
-    let most = set.most_cost(tasks.len().saturating_sub(1), Overruns::None).map_err(LoadError::Iterations)?;
+    let most = set
+        .most_cost(tasks.len().saturating_sub(1), Overruns::None)
+        .map_err(LoadError::Iterations)?;
     let left = most.and_then(|most| most.checked_sub(LOCALISATION.cost));
     Ok(left.and_then(|left| u32::try_from(left.0 / PARTICLE.0).ok()))
 }

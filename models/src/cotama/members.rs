@@ -1,6 +1,7 @@
 //! Sets of named things, one bit each: modules, resources, flags, failure modes.
 
-/// Declares the enum of the things and the set of them, `const` throughout, and checks that no two share a name.
+/// Declares the enum of the things and the set of them, `const` throughout, and checks that no two
+/// share a name.
 macro_rules! members {
     (
         $(#[$one:meta])* $item:ident,

@@ -1,7 +1,8 @@
 //! The global supervisor of a mission, made from its objectives.
 //!
-//! For two drives with an object received between them and delivered at the end, it is [`global`](super::global) up to
-//! the names of places and transitions. [`check`] looks at every marking before the robot moves.
+//! For two drives with an object received between them and delivered at the end, it is
+//! [`global`](super::global) up to the names of places and transitions. [`check`] looks at every
+//! marking before the robot moves.
 //!
 //! ```
 //! use cotama_models::cotama::mission_net::{check, global_supervisor};
@@ -36,7 +37,8 @@ pub const SAFE: &str = "Safe";
 /// The names that no objective may have.
 pub const RESERVED: [&str; 4] = [WAIT, DONE, SECURITY, SAFE];
 
-/// The most objectives of one supervisor: their places and the others fit the words of a marking that is checked.
+/// The most objectives of one supervisor: their places and the others fit the words of a marking
+/// that is checked.
 pub const MAX_OBJECTIVES: usize = 250;
 
 /// Why there is no supervisor of these objectives.
@@ -71,7 +73,10 @@ impl std::fmt::Display for MissionNetError {
                 write!(f, "{objectives} objectives; one supervisor has at most {MAX_OBJECTIVES}")
             }
             Self::NotSupervised { objective } => {
-                write!(f, "objective {objective} does not say what it does: its mission is not supervised")
+                write!(
+                    f,
+                    "objective {objective} does not say what it does: its mission is not supervised"
+                )
             }
             Self::Name { objective } => {
                 write!(f, "the name of objective {objective} is taken in its supervisor")
@@ -89,7 +94,8 @@ impl From<Defect> for MissionNetError {
     }
 }
 
-/// The events of a global supervisor, in the order of [`global`](super::global), and that of waiting.
+/// The events of a global supervisor, in the order of [`global`](super::global), and that of
+/// waiting.
 const EVENTS: [(&str, &str); 7] = [
     ("global_event", "The objective cannot be managed, or goes on without a vital part."),
     ("drive_done", "The drive has reached its goal."),
@@ -130,11 +136,11 @@ fn kinds(objectives: &[Objective]) -> Result<Vec<Does>, MissionNetError> {
     objectives.iter().enumerate().map(kind).collect()
 }
 
-/// The global supervisor of these objectives (Durand et al., TAROS 2010, Section VI): one place each, one after the
-/// other, and from wherever the mission is to security on a global event.
+/// The global supervisor of these objectives (Durand et al., TAROS 2010, Section VI): one place
+/// each, one after the other, and from wherever the mission is to security on a global event.
 ///
-/// The events and outputs are those of [`global`](super::global); a mission in which the robot waits has `wait_over`
-/// as well.
+/// The events and outputs are those of [`global`](super::global); a mission in which the robot
+/// waits has `wait_over` as well.
 ///
 /// # Errors
 /// [`MissionNetError`]: objectives of a plain mission, none or too many of them, a name twice.
@@ -151,7 +157,8 @@ pub fn global_supervisor(objectives: &[Objective]) -> Result<OwnedNet, MissionNe
         return Err(MissionNetError::Name { objective });
     }
 
-    let mut net = OwnedNet::new("global", "Global supervisor of a mission: which objective, or security.");
+    let mut net =
+        OwnedNet::new("global", "Global supervisor of a mission: which objective, or security.");
     let waits = kinds.contains(&Does::Wait);
     for (name, doc) in EVENTS.iter().filter(|(name, _)| waits || *name != "wait_over") {
         net.event(name, doc)?;
@@ -159,8 +166,9 @@ pub fn global_supervisor(objectives: &[Objective]) -> Result<OwnedNet, MissionNe
     for name in OUTPUTS {
         net.output(name, "")?;
     }
-    let mut place =
-        |name: &str, doc: &str| net.place(OwnedPlace::new(name, u32::from(name == WAIT)).at_most(1).doc(doc));
+    let mut place = |name: &str, doc: &str| {
+        net.place(OwnedPlace::new(name, u32::from(name == WAIT)).at_most(1).doc(doc))
+    };
     let mut mission = vec![place(WAIT, "No mission yet.")?];
     for (objective, does) in objectives.iter().zip(&kinds) {
         mission.push(place(&objective.id, &format!("The objective that does `{}`.", does.name()))?);
@@ -181,7 +189,10 @@ pub fn global_supervisor(objectives: &[Objective]) -> Result<OwnedNet, MissionNe
         let emits = HALT.to_vec();
         net.transition(OwnedTransition { emits, ..go(&name, GLOBAL_EVENT, from, security) })?;
     }
-    net.transition(OwnedTransition { emits: WARN.to_vec(), ..go("secured", STOPPED, security, safe) })?;
+    net.transition(OwnedTransition {
+        emits: WARN.to_vec(),
+        ..go("secured", STOPPED, security, safe)
+    })?;
 
     net.ignored = [security, safe].map(|place| Ignored { event: GLOBAL_EVENT, place }).to_vec();
     let everywhere = mission.iter().chain([&security, &safe]);

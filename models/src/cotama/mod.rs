@@ -1,13 +1,14 @@
-//! COTAMA (Durand, Godary-Dejean, Lapierre, Passama, Crestani, TAROS 2010): the decisional level of a Pioneer 3-DX that
-//! delivers an object from one office to another.
+//! COTAMA (Durand, Godary-Dejean, Lapierre, Passama, Crestani, TAROS 2010): the decisional level of
+//! a Pioneer 3-DX that delivers an object from one office to another.
 //!
-//! The paper describes the supervisors and shows some of them as figures; the nets here are a reconstruction, and names of
-//! places and transitions are ours.
+//! The paper describes the supervisors and shows some of them as figures; the nets here are a
+//! reconstruction, and names of places and transitions are ours.
 //!
-//! Beside the nets stands what they rest on, as data without heap: modules and resources with the closure that says what is
-//! [`available`], [`Configuration`]s, the decision as a function ([`decide`]) and the two rules behind it ([`by_rules`]), the
-//! FMECA ([`RULES`], [`TEXTS`]) and the diagnosis of flags ([`diagnose`]). Every fact says whether it is stated, inferred or assumed, by
-//! its [`Label`] or in its documentation.
+//! Beside the nets stands what they rest on, as data without heap: modules and resources with the
+//! closure that says what is [`available`], [`Configuration`]s, the decision as a function
+//! ([`decide`]) and the two rules behind it ([`by_rules`]), the FMECA ([`RULES`], [`TEXTS`]) and
+//! the diagnosis of flags ([`diagnose`]). Every fact says whether it is stated, inferred or
+//! assumed, by its [`Label`] or in its documentation.
 
 mod causes;
 mod configurations;
@@ -43,14 +44,14 @@ mod world;
 
 pub use causes::{Rib, functions, ribs};
 pub use configurations::{
-    CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED, Mode,
-    SubObjective,
+    CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED,
+    Mode, SubObjective,
 };
 pub use decision_table::{contextual, recovering_contextual};
 pub use delivery_system::{delivery, recovering};
 pub use diagnosis::{
-    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose, is_detectable,
-    shared_flags, undetectable,
+    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose,
+    is_detectable, shared_flags, undetectable,
 };
 pub use flags::{Flag, Flags};
 pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
@@ -71,7 +72,8 @@ pub use severity::{Severity, by_availability, by_rules, by_severity, is_settled,
 pub use situation::{Loss, Losses, Situation};
 pub use status_vector::{observation, recovering_observation};
 pub use supervisors::{
-    global, local, path_following, recovering_path_following, recovering_teleoperation, teleoperation,
+    global, local, path_following, recovering_path_following, recovering_teleoperation,
+    teleoperation,
 };
 pub use surroundings::{faults, operator, recovering_faults};
 pub use world::environment;
@@ -79,8 +81,8 @@ pub use world::environment;
 use cotama_core::system;
 
 system! {
-    /// The decisional level and its environment, for one mission of two drives. In a round the supervisors take their turns in
-    /// this order; then the environment does one thing.
+    /// The decisional level and its environment, for one mission of two drives. In a round the
+    /// supervisors take their turns in this order; then the environment does one thing.
     pub mod decision {
         nets {
             gs: global,

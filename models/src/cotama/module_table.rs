@@ -5,37 +5,48 @@ use super::modules::Kind::{Control, Diagnosis, Functional, Observer};
 use super::modules::Module::{self, Gui, Lan, Mcl, Nav, P3d, Sim, Smz, Ust};
 use super::modules::{Kind, ModuleFacts, Modules};
 use super::ports::Datum::{
-    Course, Flags, Image, JobTimes, LinkState, MclPose, MotorCommand, OdometricPose, Path, Pose, Ranges,
-    RobotState, SonarValues, StatusVector, Ticks,
+    Course, Flags, Image, JobTimes, LinkState, MclPose, MotorCommand, OdometricPose, Path, Pose,
+    Ranges, RobotState, SonarValues, StatusVector, Ticks,
 };
 use super::ports::ModuleEvent::{
     GoalReached, Operator, PathReady, PlannerFailed, RealTimeFault, StatusChanged,
 };
 use super::ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter};
 use super::resources::Resource::{
-    AccessPoint, Battery, Camera, Electronics, Encoders, LaptopCpu, Map, Motors, SerialLink, SonarArrays,
-    WifiCard,
+    AccessPoint, Battery, Camera, Electronics, Encoders, LaptopCpu, Map, Motors, SerialLink,
+    SonarArrays, WifiCard,
 };
 use super::resources::{Resource, Resources};
 
 /// What is known of each module, in the order of [`Module`].
 ///
-/// Stated is what Durand et al., TAROS 2010, say in their text, their Table I and their two module sets. NAV is in both sets
-/// and is nowhere defined; ODO and CTR are defined and are in no set: they are taken as parts of NAV (inferred). The rows are
-/// those of the experiment, with hardware in the loop: SIM stands for the sonars, and goes with them.
+/// Stated is what Durand et al., TAROS 2010, say in their text, their Table I and their two module
+/// sets. NAV is in both sets and is nowhere defined; ODO and CTR are defined and are in no set:
+/// they are taken as parts of NAV (inferred). The rows are those of the experiment, with hardware
+/// in the loop: SIM stands for the sonars, and goes with them.
 pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
-    module(Module::Sch, Functional, "runs the modules in their periods and watches their deadlines", Stated)
-        .data(&[], &[JobTimes])
-        .events(&[RealTimeFault])
-        .parameters(&[
-            set("period", "ms", 20, 100, 100, Assumed),
-            set("extra_time", "ms", 0, 100, 20, Assumed),
-            set("violations", "", 1, 10, 3, Assumed),
-        ])
-        .stands_on(&[LaptopCpu], &[], Stated),
-    module(Module::Gom, Diagnosis, "collects flags, diagnoses, keeps the module status vector", Stated)
-        .data(&[Flags, JobTimes], &[StatusVector])
-        .events(&[StatusChanged]),
+    module(
+        Module::Sch,
+        Functional,
+        "runs the modules in their periods and watches their deadlines",
+        Stated,
+    )
+    .data(&[], &[JobTimes])
+    .events(&[RealTimeFault])
+    .parameters(&[
+        set("period", "ms", 20, 100, 100, Assumed),
+        set("extra_time", "ms", 0, 100, 20, Assumed),
+        set("violations", "", 1, 10, 3, Assumed),
+    ])
+    .stands_on(&[LaptopCpu], &[], Stated),
+    module(
+        Module::Gom,
+        Diagnosis,
+        "collects flags, diagnoses, keeps the module status vector",
+        Stated,
+    )
+    .data(&[Flags, JobTimes], &[StatusVector])
+    .events(&[StatusChanged]),
     module(
         Module::P3d,
         Functional,
@@ -48,9 +59,14 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         set("battery_critical", "mV", 10_000, 13_000, 11_000, Assumed),
     ])
     .stands_on(&[Electronics, SerialLink, Battery], &[], Stated),
-    module(Module::Sim, Functional, "makes the sonar values; odometry and bumpers are real", Stated)
-        .data(&[Ticks], &[SonarValues])
-        .stands_on(&[SonarArrays], &[P3d], Inferred),
+    module(
+        Module::Sim,
+        Functional,
+        "makes the sonar values; odometry and bumpers are real",
+        Stated,
+    )
+    .data(&[Ticks], &[SonarValues])
+    .stands_on(&[SonarArrays], &[P3d], Inferred),
     module(Module::Ust, Functional, "makes raw sonar values usable by the algorithms", Stated)
         .data(&[SonarValues], &[Ranges])
         .parameters(&[set("saturation", "mm", 1_000, 5_000, 5_000, Stated)])
@@ -63,10 +79,15 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         .data(&[Ticks], &[OdometricPose])
         .stands_on(&[Encoders], &[P3d], Stated)
         .part_of(Nav),
-    module(Module::Nav, Control, "selects the pose, and holds odometry and the control law", Inferred)
-        .data(&[MclPose, OdometricPose, Course], &[Pose, MotorCommand])
-        .parameters(&[set("speed_limit", "mm/s", 0, 300, 300, Stated)])
-        .stands_on(&[Encoders, Motors], &[P3d], Inferred),
+    module(
+        Module::Nav,
+        Control,
+        "selects the pose, and holds odometry and the control law",
+        Inferred,
+    )
+    .data(&[MclPose, OdometricPose, Course], &[Pose, MotorCommand])
+    .parameters(&[set("speed_limit", "mm/s", 0, 300, 300, Stated)])
+    .stands_on(&[Encoders, Motors], &[P3d], Inferred),
     module(Module::Ctr, Control, "asymptotic control law with saturation of the actuators", Stated)
         .data(&[Course, Pose], &[MotorCommand])
         .stands_on(&[], &[Nav], Inferred)
@@ -93,13 +114,18 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
     module(Module::Cam, Functional, "camera stream for the operator", Inferred)
         .data(&[], &[Image])
         .stands_on(&[Camera], &[Lan], Stated),
-    module(Module::OSen, Observer, "interval checks on sensor data, timing checks on the sonars", Stated)
-        .data(&[SonarValues, Ranges, Ticks, Image], &[Flags])
-        .parameters(&[
-            set("stuck_time", "ms", 1_000, 60_000, 5_000, Assumed),
-            set("moved_distance", "mm", 100, 5_000, 500, Assumed),
-        ])
-        .stands_on(&[], &[P3d, Ust], Stated),
+    module(
+        Module::OSen,
+        Observer,
+        "interval checks on sensor data, timing checks on the sonars",
+        Stated,
+    )
+    .data(&[SonarValues, Ranges, Ticks, Image], &[Flags])
+    .parameters(&[
+        set("stuck_time", "ms", 1_000, 60_000, 5_000, Assumed),
+        set("moved_distance", "mm", 100, 5_000, 500, Assumed),
+    ])
+    .stands_on(&[], &[P3d, Ust], Stated),
     module(Module::OEff, Observer, "multiple-model Kalman filter on motors and wheels", Stated)
         .data(&[Ticks, MotorCommand], &[Flags])
         .stands_on(&[Encoders], &[P3d], Stated),
@@ -114,13 +140,21 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         Stated,
     )
     .data(&[OdometricPose, MclPose], &[Flags])
-    .parameters(&[set("distance", "mm", 50, 5_000, 500, Assumed), set("growth", "mm/s", 5, 500, 50, Assumed)])
+    .parameters(&[
+        set("distance", "mm", 50, 5_000, 500, Assumed),
+        set("growth", "mm/s", 5, 500, 50, Assumed),
+    ])
     .stands_on(&[], &[Nav, Mcl], Stated),
-    module(Module::OPf, Observer, "coherence of path following: backward too long, no convergence", Stated)
-        .data(&[Path, Pose, Course], &[Flags])
-        .parameters(&[set("backward_time", "ms", 1_000, 60_000, 8_000, Assumed)])
-        .stands_on(&[], &[Nav], Stated)
-        .needs_one_of(&[Gui, Smz]),
+    module(
+        Module::OPf,
+        Observer,
+        "coherence of path following: backward too long, no convergence",
+        Stated,
+    )
+    .data(&[Path, Pose, Course], &[Flags])
+    .parameters(&[set("backward_time", "ms", 1_000, 60_000, 8_000, Assumed)])
+    .stands_on(&[], &[Nav], Stated)
+    .needs_one_of(&[Gui, Smz]),
 ];
 
 const fn module(module: Module, kind: Kind, function: &'static str, label: Label) -> ModuleFacts {

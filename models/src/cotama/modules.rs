@@ -1,5 +1,6 @@
-//! The modules of the executive level, and which of them are available after faults (Durand et al., TAROS 2010, Section III,
-//! Figs. 1 and 2; what is not stated there carries its label in [`MODULES`]).
+//! The modules of the executive level, and which of them are available after faults (Durand et al.,
+//! TAROS 2010, Section III, Figs. 1 and 2; what is not stated there carries its label in
+//! [`MODULES`]).
 
 use super::members::{differ, members};
 use super::ports::{Data, ModuleEvents, Parameter};
@@ -105,8 +106,9 @@ impl Module {
     }
 }
 
-/// The modules that are available: not faulty themselves, all their resources sound, all modules they need available (rule of
-/// closure, inferred). Without the scheduler none is, since it runs them all (inferred).
+/// The modules that are available: not faulty themselves, all their resources sound, all modules
+/// they need available (rule of closure, inferred). Without the scheduler none is, since it runs
+/// them all (inferred).
 ///
 /// ```
 /// use cotama_models::cotama::{Module::{Dvz, Mcl, Sim, Smz, Ust}, Modules, Resource::SonarArrays, Resources, available};
@@ -132,7 +134,8 @@ pub const fn available(faulty: Modules, lost: Resources) -> Modules {
     available
 }
 
-// The table is in the order of the enum, and the order is topological, so that one pass closes; hence no cycle of needs.
+// The table is in the order of the enum, and the order is topological, so that one pass closes;
+// hence no cycle of needs.
 const _: () = {
     assert!(MODULES.len() == Module::ALL.len(), "each module needs one row of MODULES");
     let (mut before, mut at) = (Modules::NONE, 0);

@@ -1,25 +1,30 @@
 //! What the decisional level is required to do, and how each requirement is known.
 //!
-//! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation module, WD watchdog, DP
-//! the permit to move, M the robot. Texts are in the language of `cotama check`, about [`delivery`](super::delivery) as one net
-//! that acts in rounds: `round` is marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`,
-//! `after.N.E` when it has, and `turn.outside` when every net has had its turn.
+//! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation
+//! module, WD watchdog, DP the permit to move, M the robot. Texts are in the language of `cotama
+//! check`, about [`delivery`](super::delivery) as one net that acts in rounds: `round` is marked
+//! between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E` when it
+//! has, and `turn.outside` when every net has had its turn.
 //!
-//! Where the shipped system differs from the model that Durand et al. (TAROS 2010) let us reconstruct,
-//! [`decision`](super::decision):
-//! - flags of observers go through the observation module, which reads them in the round in which the contextual supervisor
-//!   decides, so that no reaction is later (improved: the paper has the module, the first model left it out);
-//! - the status vector is closed: who loses the sonars loses localisation by particles and avoidance (inferred);
+//! Where the shipped system differs from the model that Durand et al. (TAROS 2010) let us
+//! reconstruct, [`decision`](super::decision):
+//! - flags of observers go through the observation module, which reads them in the round in which
+//!   the contextual supervisor decides, so that no reaction is later (improved: the paper has the
+//!   module, the first model left it out);
+//! - the status vector is closed: who loses the sonars loses localisation by particles and
+//!   avoidance (inferred);
 //! - what moves the robot holds a permit, which `halt` destroys (improved);
 //! - hard failures without a report of their own are reported as `hard` (inferred);
-//! - the environment is two nets, faults and operator; what is really lost is known to the first one alone (improved).
+//! - the environment is two nets, faults and operator; what is really lost is known to the first
+//!   one alone (improved).
 
 use super::guarded::Guarded;
 use super::label::Label;
 use cotama_core::net::{PlaceId, Transition};
 use cotama_core::system::System;
 
-/// Something that the decisional level is required to do. What is known of it may come in parts, each with its own proof.
+/// Something that the decisional level is required to do. What is known of it may come in parts,
+/// each with its own proof.
 #[derive(Clone, Copy, Debug)]
 pub struct Requirement {
     /// Its short name, for example `GS3`.
@@ -47,13 +52,14 @@ pub struct Asked {
     pub text: &'static str,
 }
 
-/// Counts in how many rounds a duty lasts: it begins where the first condition is found and ends where the second one is, no
-/// sooner than a round later. It is a place of its name.
+/// Counts in how many rounds a duty lasts: it begins where the first condition is found and ends
+/// where the second one is, no sooner than a round later. It is a place of its name.
 #[derive(Clone, Copy, Debug)]
 pub struct Watch {
     /// Its name.
     pub name: &'static str,
-    /// Whether it looks at the end of a round, or else when every net has had its turn and what is outside has not.
+    /// Whether it looks at the end of a round, or else when every net has had its turn and what is
+    /// outside has not.
     pub at_end: bool,
     /// What begins it.
     pub begins: &'static str,
@@ -63,7 +69,8 @@ pub struct Watch {
     pub most: u32,
 }
 
-/// Every transition of a net that goes from one of the places `from` to one of the places `to` says `output`.
+/// Every transition of a net that goes from one of the places `from` to one of the places `to` says
+/// `output`.
 #[derive(Clone, Copy, Debug)]
 pub struct Said {
     /// The net, by its name in the system.
@@ -101,9 +108,9 @@ impl Said {
                 goes && answers && (comes || (self.from.is_empty() && !stays))
             };
             let says = move |it: &Transition<'s>| {
-                it.emits
-                    .iter()
-                    .any(|id| net.outputs.get(id.0 as usize).is_some_and(|it| it.name == self.output))
+                it.emits.iter().any(|id| {
+                    net.outputs.get(id.0 as usize).is_some_and(|it| it.name == self.output)
+                })
             };
             net.transitions.iter().filter(is_meant).filter(move |it| !says(it)).map(|it| it.name)
         })
@@ -119,7 +126,12 @@ pub(super) const fn said(
     Said { net, from, to, output, on: None }
 }
 
-pub(super) const fn at_end(name: &'static str, begins: &'static str, ends: &'static str, most: u32) -> Watch {
+pub(super) const fn at_end(
+    name: &'static str,
+    begins: &'static str,
+    ends: &'static str,
+    most: u32,
+) -> Watch {
     Watch { name, at_end: true, begins, ends, most }
 }
 
@@ -354,7 +366,8 @@ impl Said {
     }
 }
 
-/// The cells of the table of decisions: what waits when the contextual supervisor has read a report.
+/// The cells of the table of decisions: what waits when the contextual supervisor has read a
+/// report.
 const DECISIONS: &str = "AG (\
     (after.cs.slow -> (pf.adapt_rt.waiting <-> pf.Optimal | (pf.Reduced & pf.level >= 1)) & \
         (pf.adapt_mcl.waiting <-> pf.Reduced & pf.level = 0) & (pf.Reduced & pf.level = 0 -> !gom.mcl) & \

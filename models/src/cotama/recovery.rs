@@ -1,17 +1,19 @@
 //! When a module that was lost is available again: the hysteresis before the supervisors go up.
 //!
-//! Durand et al. (TAROS 2010) state how the supervisors degrade and no way back. Where a user asks for one, the supervisors of
-//! [`recovering`](super::recovering) do not hear of a module that works again before it was sound without a break for a
-//! time, and only so many times in a mission; then it is lost for good. So a contact that is loose moves nothing, and
-//! whatever fails, modes change a bounded number of times.
+//! Durand et al. (TAROS 2010) state how the supervisors degrade and no way back. Where a user asks
+//! for one, the supervisors of [`recovering`](super::recovering) do not hear of a module that works
+//! again before it was sound without a break for a time, and only so many times in a mission; then
+//! it is lost for good. So a contact that is loose moves nothing, and whatever fails, modes change
+//! a bounded number of times.
 //!
 //! | number | value | |
 //! | --- | --- | --- |
 //! | sound without a break | 10 s | assumed: twice the longest latency of an observer of the sonars in the FMECA |
 //! | returns in a mission | 2 | assumed |
 //!
-//! The net stands before the supervisors, one for each module, as the [watchdog](crate::nets::watchdog) does: it has time, and
-//! what hears it is checked with modules that return at any time.
+//! The net stands before the supervisors, one for each module, as the
+//! [watchdog](crate::nets::watchdog) does: it has time, and what hears it is checked with modules
+//! that return at any time.
 //!
 //! ```
 //! use cotama_core::units::Millis;
@@ -29,8 +31,9 @@
 //! assert_eq!(sonar.state(), State::Available);
 //! ```
 
-/// Defines the hysteresis of a module with its own numbers: how long it must be sound without a break before it counts as
-/// available again, and how often in a mission it may return. See [`cotama::recovery`](crate::cotama::recovery).
+/// Defines the hysteresis of a module with its own numbers: how long it must be sound without a
+/// break before it counts as available again, and how often in a mission it may return. See
+/// [`cotama::recovery`](crate::cotama::recovery).
 ///
 /// ```
 /// cotama_models::recovery! {
@@ -106,6 +109,7 @@ macro_rules! recovery {
 pub use self::recovery::*;
 
 recovery! {
-    /// The hysteresis before a module counts as available again: sound for ten seconds without a break, twice in a mission.
+    /// The hysteresis before a module counts as available again: sound for ten seconds without a
+    /// break, twice in a mission.
     mod recovery { hold: 10_000 ms, returns: 2 }
 }

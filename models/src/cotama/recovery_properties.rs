@@ -1,16 +1,16 @@
-//! What the decisional level is required to do where modules may return, in place of [`REPLACED`] of the requirements of
-//! [`delivery`](super::delivery).
+//! What the decisional level is required to do where modules may return, in place of [`REPLACED`]
+//! of the requirements of [`delivery`](super::delivery).
 
 use super::label::Label;
 use super::properties::{Asked, Requirement, at_end, requirements, said};
 
-/// The requirements of [`delivery`](super::delivery) that say that nothing returns. All others are those of
-/// [`recovering`](super::recovering) as well.
+/// The requirements of [`delivery`](super::delivery) that say that nothing returns. All others are
+/// those of [`recovering`](super::recovering) as well.
 pub const REPLACED: [&str; 2] = ["AS3", "GM2"];
 
 requirements! {
-    /// What [`recovering`](super::recovering) is required to do beside the requirements of [`delivery`](super::delivery) but
-    /// [`REPLACED`].
+    /// What [`recovering`](super::recovering) is required to do beside the requirements of
+    /// [`delivery`](super::delivery) but [`REPLACED`].
     RECOVERY_REQUIREMENTS;
     RC1 Assumed "An adapter goes up at most once for each return of a module, two rounds after it.",
         tested in "verification/tests/rounds/recovering.rs";

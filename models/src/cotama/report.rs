@@ -1,5 +1,6 @@
-//! The decision of the contextual supervisor, as a function: the same as the net [`contextual`](super::contextual), for
-//! firmware that needs no net for it and for tests over every case.
+//! The decision of the contextual supervisor, as a function: the same as the net
+//! [`contextual`](super::contextual), for firmware that needs no net for it and for tests over
+//! every case.
 
 use super::members::members;
 use super::situation::{Loss, Losses, Situation};
@@ -18,7 +19,8 @@ members! {
         Sonar = "sonar",
         /// The operator's avoidance is lost.
         Avoidance = "avoidance",
-        /// Several diagnoses are possible, or the robot cannot judge alone: localisation, for one, is ambiguous.
+        /// Several diagnoses are possible, or the robot cannot judge alone: localisation, for one,
+        /// is ambiguous.
         Ambiguous = "ambiguous",
         /// The robot touched something.
         Collision = "collision",
@@ -115,15 +117,18 @@ impl Report {
             Self::Camera => Some(Loss::Camera),
             Self::Wifi => Some(Loss::Wifi),
             Self::Vital => Some(Loss::Vital),
-            Self::Slow | Self::Ambiguous | Self::Collision | Self::Hard | Self::Planner | Self::Refusal => {
-                None
-            }
+            Self::Slow
+            | Self::Ambiguous
+            | Self::Collision
+            | Self::Hard
+            | Self::Planner
+            | Self::Refusal => None,
         }
     }
 }
 
-/// What is lost once a report was answered: with its own loss, and with localisation when it is too slow with the fewest
-/// particles, so that the next drive starts without it (inferred).
+/// What is lost once a report was answered: with its own loss, and with localisation when it is too
+/// slow with the fewest particles, so that the next drive starts without it (inferred).
 #[must_use]
 pub const fn lost_after(report: Report, situation: Situation) -> Losses {
     let lost = match report.loss() {
@@ -136,10 +141,12 @@ pub const fn lost_after(report: Report, situation: Situation) -> Losses {
     }
 }
 
-/// The decision: the table of the reconstruction, cell by cell. Total, also where the places do not fit together.
+/// The decision: the table of the reconstruction, cell by cell. Total, also where the places do not
+/// fit together.
 ///
-/// Severity decides first (stated, Durand et al., TAROS 2010, Section IV); the cells are inferred from it and from what is
-/// still available, see [`by_rules`](super::by_rules). A question that no operator can answer is a global event.
+/// Severity decides first (stated, Durand et al., TAROS 2010, Section IV); the cells are inferred
+/// from it and from what is still available, see [`by_rules`](super::by_rules). A question that no
+/// operator can answer is a global event.
 ///
 /// ```
 /// use cotama_models::cotama::{Decision, Loss, Losses, Report, Situation, decide, local, path_following};
@@ -178,14 +185,17 @@ pub const fn decide(report: Report, situation: Situation) -> Decision {
     }
 }
 
-/// What the running adapter can do about a report (the transitions of [`path_following`] and [`teleoperation`]).
+/// What the running adapter can do about a report (the transitions of [`path_following`] and
+/// [`teleoperation`]).
 pub(super) const fn adaptation(report: Report, situation: Situation) -> Option<Decision> {
     use path_following::State as Adapter;
     let (adapter, level) = (situation.following, situation.level);
     let following = matches!(situation.local, local::State::Following);
     let degraded = matches!(adapter, Adapter::Degraded);
     match (report, adapter) {
-        (Report::Slow, Adapter::Optimal | Adapter::Reduced) if level >= 1 => Some(Decision::AdaptRt),
+        (Report::Slow, Adapter::Optimal | Adapter::Reduced) if level >= 1 => {
+            Some(Decision::AdaptRt)
+        }
         (Report::Slow, Adapter::Reduced) | (Report::Mcl, Adapter::Optimal | Adapter::Reduced) => {
             Some(Decision::AdaptMcl)
         }

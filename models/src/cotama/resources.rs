@@ -19,7 +19,8 @@ members! {
         Encoders = "encoders",
         /// The drive motors with their gears and drivers.
         Motors = "motors",
-        /// The bumper rings. No module needs them to run (inferred): a lost contact sensor takes protection, no function.
+        /// The bumper rings. No module needs them to run (inferred): a lost contact sensor takes
+        /// protection, no function.
         Bumpers = "bumpers",
         /// The laptop's wireless card.
         WifiCard = "WiFi card",

@@ -3,8 +3,9 @@
 use cotama_core::net;
 
 net! {
-    /// The permit to move: motion is a capability that a running activity holds, and that `halt` destroys for good. Ours: the
-    /// papers only say that the robot stops (Durand et al., TAROS 2010, Section VI).
+    /// The permit to move: motion is a capability that a running activity holds, and that `halt`
+    /// destroys for good. Ours: the papers only say that the robot stops (Durand et al., TAROS
+    /// 2010, Section VI).
     pub mod permit {
         places {
             /// No permit: the robot stands, or brakes.

@@ -19,7 +19,8 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// Its class (stated, Section IV): weak and medium go to the adapter, hard to the local, fatal to the global supervisor.
+    /// Its class (stated, Section IV): weak and medium go to the adapter, hard to the local, fatal
+    /// to the global supervisor.
     pub const fn class(self) -> Class {
         match self {
             Self::Weak | Self::Medium => Class::Adapter,
@@ -39,11 +40,12 @@ impl Severity {
     }
 }
 
-/// How severe a report is where the robot is: the FMECA by autonomy mode, its operator column wherever the operator decides.
+/// How severe a report is where the robot is: the FMECA by autonomy mode, its operator column
+/// wherever the operator decides.
 ///
-/// A collision is hard when the robot drives itself and no avoidance runs (stated); in planning none runs. A unique diagnosis
-/// that localisation is lost is medium, since odometry is there in its place (inferred; the FMECA's hard is for the filter
-/// whose fault is not known to be its own).
+/// A collision is hard when the robot drives itself and no avoidance runs (stated); in planning
+/// none runs. A unique diagnosis that localisation is lost is medium, since odometry is there in
+/// its place (inferred; the FMECA's hard is for the filter whose fault is not known to be its own).
 pub const fn severity(report: Report, situation: Situation) -> Severity {
     let autonomous = matches!(situation.mode(), Mode::Autonomous | Mode::Rest);
     let avoids = match situation.configuration() {
@@ -72,10 +74,10 @@ pub const fn by_severity(report: Report, situation: Situation) -> Class {
     severity(report, situation).class()
 }
 
-/// The class by what is available (inferred). The running configuration is: nothing to do. Else another of its sub-objective
-/// and mode: the adapter switches. Else one of another mode, and the operator can be reached: the local supervisor asks. Else
-/// the mission ends. The hand-over, where nothing
-/// runs, waits for one of another mode.
+/// The class by what is available (inferred). The running configuration is: nothing to do. Else
+/// another of its sub-objective and mode: the adapter switches. Else one of another mode, and the
+/// operator can be reached: the local supervisor asks. Else the mission ends. The hand-over, where
+/// nothing runs, waits for one of another mode.
 pub const fn by_availability(situation: Situation, available: Modules, operator: bool) -> Class {
     let other_mode = operator && has_other_mode(situation.mode(), available);
     match (situation.mode(), situation.configuration()) {
@@ -93,7 +95,9 @@ const fn has_substitute(running: Configuration, available: Modules) -> bool {
     let mut at = 0;
     while at < Configuration::ALL.len() {
         let it = Configuration::ALL[at];
-        if it.facts().sub_objective as u8 == running.facts().sub_objective as u8 && it.runs_on(available) {
+        if it.facts().sub_objective as u8 == running.facts().sub_objective as u8
+            && it.runs_on(available)
+        {
             return true;
         }
         at += 1;
@@ -115,10 +119,12 @@ const fn has_other_mode(mode: Mode, available: Modules) -> bool {
     false
 }
 
-/// The decision by the two rules, for a report of a given severity: the worse class wins (inferred), and what it becomes.
+/// The decision by the two rules, for a report of a given severity: the worse class wins
+/// (inferred), and what it becomes.
 ///
 /// * Without a drive only a global event has a receiver; everything else is recorded.
-/// * A question that the operator cannot answer, because the link is lost or because he just refused, is a global event.
+/// * A question that the operator cannot answer, because the link is lost or because he just
+///   refused, is a global event.
 /// * An adapter event for which the running adapter has no transition is recorded only.
 pub const fn judge(report: Report, severity: Severity, situation: Situation) -> Decision {
     let mut health = lost_after(report, situation).health();
@@ -150,13 +156,14 @@ pub const fn judge(report: Report, severity: Severity, situation: Situation) -> 
 /// | camera | hand-over, teleprogrammed | local | record | the operator is asked already; `l7` of [`local`](super::local) keeps teleoperation shut |
 /// | hard | hand-over, teleprogrammed | local | record | the operator is asked already |
 ///
-/// and but for situations in which an earlier loss is not answered yet ([`is_settled`]): there the rules answer both, and the
-/// table each loss by its own report.
+/// and but for situations in which an earlier loss is not answered yet ([`is_settled`]): there the
+/// rules answer both, and the table each loss by its own report.
 pub const fn by_rules(report: Report, situation: Situation) -> Decision {
     judge(report, severity(report, situation), situation)
 }
 
-/// Whether the running configuration has what it needs, the loss of this report aside: every earlier loss is answered.
+/// Whether the running configuration has what it needs, the loss of this report aside: every
+/// earlier loss is answered.
 pub const fn is_settled(report: Report, situation: Situation) -> bool {
     let before = match report.loss() {
         Some(loss) => situation.lost.without(Losses::of(&[loss])),

@@ -52,8 +52,9 @@ impl Situation {
         lost: Losses::NONE,
     };
 
-    /// Whether the places fit together, as they do at the end of every round (invariants AS1, LS1): an adapter is on exactly
-    /// where its sub-objective runs, and the particles are fewer than full exactly in the reduced set.
+    /// Whether the places fit together, as they do at the end of every round (invariants AS1, LS1):
+    /// an adapter is on exactly where its sub-objective runs, and the particles are fewer than full
+    /// exactly in the reduced set.
     pub const fn is_consistent(self) -> bool {
         use path_following::State as Following;
         let following = !matches!(self.following, Following::Off);
@@ -75,15 +76,24 @@ impl Situation {
         }
     }
 
-    /// The running configuration; none without a drive, in the hand-over, or where the places do not fit together.
+    /// The running configuration; none without a drive, in the hand-over, or where the places do
+    /// not fit together.
     pub const fn configuration(self) -> Option<Configuration> {
         use path_following::State as Following;
         match (self.local, self.following, self.teleoperation) {
             (local::State::Planning, _, _) => Some(Configuration::Planning),
-            (local::State::Following, Following::Optimal, _) => Some(Configuration::FollowingOptimal),
-            (local::State::Following, Following::Reduced, _) => Some(Configuration::FollowingReduced),
-            (local::State::Following, Following::Odometric, _) => Some(Configuration::FollowingOdometric),
-            (local::State::Following, Following::Degraded, _) => Some(Configuration::FollowingDegraded),
+            (local::State::Following, Following::Optimal, _) => {
+                Some(Configuration::FollowingOptimal)
+            }
+            (local::State::Following, Following::Reduced, _) => {
+                Some(Configuration::FollowingReduced)
+            }
+            (local::State::Following, Following::Odometric, _) => {
+                Some(Configuration::FollowingOdometric)
+            }
+            (local::State::Following, Following::Degraded, _) => {
+                Some(Configuration::FollowingDegraded)
+            }
             (local::State::Teleprogrammed, _, _) => Some(Configuration::Teleprogramming),
             (local::State::Teleoperated, _, teleoperation::State::Full) => {
                 Some(Configuration::TeleoperationFull)
@@ -129,9 +139,10 @@ impl Losses {
 }
 
 impl Losses {
-    /// What the shipped supervisors are told when only these modules are left: closed under the needs of modules, and so that
-    /// no path following that they can choose lacks a module for long. When none is left, nothing vital is (inferred: the
-    /// robot does not wait for an operator who would have to drive it all the way).
+    /// What the shipped supervisors are told when only these modules are left: closed under the
+    /// needs of modules, and so that no path following that they can choose lacks a module for
+    /// long. When none is left, nothing vital is (inferred: the robot does not wait for an operator
+    /// who would have to drive it all the way).
     ///
     /// ```
     /// use cotama_models::cotama::{Losses, Modules, Module::{Dvz, Gui, Mcl, Ust}};
@@ -172,7 +183,8 @@ impl Losses {
 }
 
 impl From<Health> for Losses {
-    /// What the supervisors see of a state of health. Losses are independent: lost sonars are no lost localisation.
+    /// What the supervisors see of a state of health. Losses are independent: lost sonars are no
+    /// lost localisation.
     fn from(health: Health) -> Self {
         let Health { faulty, lost, .. } = health;
         let following = Configuration::FollowingDegraded.facts().required;
@@ -181,7 +193,9 @@ impl From<Health> for Losses {
             (Loss::Mcl, faulty.has(Module::Mcl) || lost.has(Resource::Map)),
             (
                 Loss::Sonar,
-                lost.has(Resource::SonarArrays) || faulty.has(Module::Ust) || faulty.has(Module::Sim),
+                lost.has(Resource::SonarArrays)
+                    || faulty.has(Module::Ust)
+                    || faulty.has(Module::Sim),
             ),
             (Loss::Camera, faulty.has(Module::Cam) || lost.has(Resource::Camera)),
             (Loss::Wifi, !health.available().has(Module::Lan)),

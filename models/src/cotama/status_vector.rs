@@ -1,4 +1,5 @@
-//! The global observation module: from flags of observers to reports, and what is known to be available.
+//! The global observation module: from flags of observers to reports, and what is known to be
+//! available.
 
 use cotama_core::net;
 
@@ -41,14 +42,16 @@ macro_rules! observation {
                     /// The vital parts: power, micro-controller, effectors.
                     vital_flag,
                     wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
-                    /// Odometry and localisation drift apart while the robot goes backward for too long.
+                    /// Odometry and localisation drift apart while the robot goes backward for too
+                    /// long.
                     drift_flag,
                     bumper_flag, planner_flag,
                     /// Any other failure whose severity is hard where it happens.
                     hard_flag,
                     /// Localisation misses its deadline persistently.
                     deadline_flag,
-                    /// A path is planned or followed anew: what was suspected is settled, and may be suspected again.
+                    /// A path is planned or followed anew: what was suspected is settled, and may
+                    /// be suspected again.
                     settle,
                     $($events)*
                 }
@@ -78,11 +81,13 @@ macro_rules! observation {
 }
 
 observation! {
-    /// Global observation module (Durand et al., TAROS 2010, Section V): collects flags, diagnoses, keeps the module status
-    /// vector, and reports what is new. A flag that tells nothing new is ignored.
+    /// Global observation module (Durand et al., TAROS 2010, Section V): collects flags, diagnoses,
+    /// keeps the module status vector, and reports what is new. A flag that tells nothing new is
+    /// ignored.
     ///
-    /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation by particles and avoidance along; a
-    /// diagnosis that is not unique makes its candidates suspect until the robot sets out again, and is reported once.
+    /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation
+    /// by particles and avoidance along; a diagnosis that is not unique makes its candidates
+    /// suspect until the robot sets out again, and is reported once.
     pub mod observation {
         flags {}
         events {}
@@ -92,12 +97,13 @@ observation! {
 }
 
 observation! {
-    /// The observation module where modules may return: what was lost is available again when it is said to be sound, and what
-    /// it needs is. Assumed: the paper states no such transition. Whoever says so holds it back for long enough; see
-    /// [`recovery`](super::recovery).
+    /// The observation module where modules may return: what was lost is available again when it is
+    /// said to be sound, and what it needs is. Assumed: the paper states no such transition.
+    /// Whoever says so holds it back for long enough; see [`recovery`](super::recovery).
     pub mod recovering_observation {
         flags {
-            /// Localisation was too slow at the floor of its particles, and counts as lost for good.
+            /// Localisation was too slow at the floor of its particles, and counts as lost for
+            /// good.
             given_up: false,
         }
         events {

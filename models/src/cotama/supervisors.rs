@@ -3,7 +3,8 @@
 use cotama_core::net;
 
 net! {
-    /// Global supervisor of the delivery mission (Durand et al., TAROS 2010, Section VI): which objective, or security.
+    /// Global supervisor of the delivery mission (Durand et al., TAROS 2010, Section VI): which
+    /// objective, or security.
     pub mod global {
         places {
             /// No mission yet.
@@ -61,8 +62,8 @@ net! {
 }
 
 net! {
-    /// Local supervisor of the Drive objective (Durand et al., TAROS 2010, Fig. 3): planning, following, and the operator
-    /// when the robot needs help.
+    /// Local supervisor of the Drive objective (Durand et al., TAROS 2010, Fig. 3): planning,
+    /// following, and the operator when the robot needs help.
     pub mod local {
         places {
             /// No drive.
@@ -204,8 +205,8 @@ macro_rules! path_following {
 }
 
 path_following! {
-    /// Adapter supervisor of autonomous path following (Durand et al., TAROS 2010, Fig. 4): which modules, and how many
-    /// particles.
+    /// Adapter supervisor of autonomous path following (Durand et al., TAROS 2010, Fig. 4): which
+    /// modules, and how many particles.
     pub mod path_following {
         events {}
         outputs {}
@@ -215,8 +216,8 @@ path_following! {
 }
 
 path_following! {
-    /// The adapter of path following where modules may return: it goes up again when it is told so and what it needs is
-    /// there. Assumed: the paper states no such transition.
+    /// The adapter of path following where modules may return: it goes up again when it is told so
+    /// and what it needs is there. Assumed: the paper states no such transition.
     pub mod recovering_path_following {
         events {
             /// More is available again than it uses.

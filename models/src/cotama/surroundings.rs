@@ -1,4 +1,5 @@
-//! What the shipped supervisors are closed with for checking: everything that may fail, and the operator.
+//! What the shipped supervisors are closed with for checking: everything that may fail, and the
+//! operator.
 
 use cotama_core::net;
 
@@ -38,7 +39,8 @@ macro_rules! faults {
                     /// Odometry and localisation drift apart; why is not known.
                     drift,
                     bump, no_path,
-                    /// Any other hard failure; also: no plan is left that keeps the limits of the mission.
+                    /// Any other hard failure; also: no plan is left that keeps the limits of the
+                    /// mission.
                     fail_hard,
                     overload,
                     $($events)*
@@ -69,7 +71,8 @@ macro_rules! faults {
 }
 
 faults! {
-    /// Everything that may fail, at any time: what is lost stays lost, the rest may come again and again.
+    /// Everything that may fail, at any time: what is lost stays lost, the rest may come again and
+    /// again.
     pub mod faults {
         events {}
         outputs {}
@@ -78,8 +81,9 @@ faults! {
 }
 
 faults! {
-    /// Everything that may fail, at any time; sonars, the operator's avoidance and localisation may return, at any time and any
-    /// number of times, so that what holds here holds for every [`recovery`](super::recovery) that holds them back.
+    /// Everything that may fail, at any time; sonars, the operator's avoidance and localisation may
+    /// return, at any time and any number of times, so that what holds here holds for every
+    /// [`recovery`](super::recovery) that holds them back.
     pub mod recovering_faults {
         events { regain_sonar, regain_avoidance, regain_mcl }
         outputs { sonar_sound, avoidance_sound, mcl_sound }
@@ -98,7 +102,8 @@ faults! {
 }
 
 net! {
-    /// The operator: answers as long as the link works; gives up, or is silent for too long, at any time.
+    /// The operator: answers as long as the link works; gives up, or is silent for too long, at any
+    /// time.
     pub mod operator {
         places {
             /// Whatever he does.

@@ -1,5 +1,5 @@
-//! What happens during a run that only supervisors can deal with: failures that observers have to find, and what the
-//! operator answers when the robot asks.
+//! What happens during a run that only supervisors can deal with: failures that observers have to
+//! find, and what the operator answers when the robot asks.
 
 use super::{MAX_QUANTITY, Names};
 use crate::cotama::{Configuration, FailureMode, Module};
@@ -32,8 +32,9 @@ pub enum IncidentKind {
     },
 }
 
-/// What the operator can do (Durand et al., TAROS 2010, Fig. 3). Asked, he drives or edits the path or gives up; driving,
-/// he reaches the goal, or goes over to editing, or gives up; editing, he gives way-points or a path, or gives up.
+/// What the operator can do (Durand et al., TAROS 2010, Fig. 3). Asked, he drives or edits the path
+/// or gives up; driving, he reaches the goal, or goes over to editing, or gives up; editing, he
+/// gives way-points or a path, or gives up.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Answer {
     /// He drives.
@@ -52,10 +53,17 @@ pub enum Answer {
 
 impl Answer {
     /// The names in mission files, in the order of the enum.
-    pub const NAMES: [&str; 6] = ["teleoperate", "teleprogram", "waypoints", "path", "goal", "give_up"];
+    pub const NAMES: [&str; 6] =
+        ["teleoperate", "teleprogram", "waypoints", "path", "goal", "give_up"];
 
-    const ALL: [Self; 6] =
-        [Self::Teleoperate, Self::Teleprogram, Self::Waypoints, Self::Path, Self::Goal, Self::GiveUp];
+    const ALL: [Self; 6] = [
+        Self::Teleoperate,
+        Self::Teleprogram,
+        Self::Waypoints,
+        Self::Path,
+        Self::Goal,
+        Self::GiveUp,
+    ];
 
     /// Its name in mission files.
     pub const fn name(self) -> &'static str {
@@ -86,17 +94,23 @@ impl Answer {
 /// The kinds of incidents in mission files.
 pub(super) const KINDS: [&str; 2] = ["failure", "operator"];
 
-/// Whether an event of this kind is an incident: `repair` is one when it names a failure mode, and else about hardware.
+/// Whether an event of this kind is an incident: `repair` is one when it names a failure mode, and
+/// else about hardware.
 pub(super) fn is_incident(fields: &Fields<'_>, kind: &str) -> bool {
     KINDS.contains(&kind) || (kind == "repair" && fields.has("mode"))
 }
 
 /// Reads what is left of an incident of this kind.
-pub(super) fn incident(fields: &mut Fields<'_>, kind: &str, names: &Names<'_>) -> Option<IncidentKind> {
+pub(super) fn incident(
+    fields: &mut Fields<'_>,
+    kind: &str,
+    names: &Names<'_>,
+) -> Option<IncidentKind> {
     if names.supervised == Some(false) {
         let message = format!("events of the kind `{kind}` are for missions that are supervised");
         let help = "leave it out, or add [supervision] with decides = \"cotama\"";
-        fields.report(Diagnostic::new(fields.span_of("kind"), message, "not supervised").help(help));
+        fields
+            .report(Diagnostic::new(fields.span_of("kind"), message, "not supervised").help(help));
     }
     if kind != "operator" {
         let mode = fields.text("mode")?;
@@ -138,15 +152,22 @@ fn follow(fields: &Fields<'_>, answers: &[Answer], names: &[Spanned<String>]) ->
         (possible, before) = (answer.next(), format!("`{}`", answer.name()));
     }
     if !possible.is_empty() {
-        let message = format!("the operator's answers end with {before}, and the robot would wait for ever");
+        let message =
+            format!("the operator's answers end with {before}, and the robot would wait for ever");
         let help = format!("add one of: {}", said(possible));
-        fields.report(Diagnostic::new(fields.span_of("answers"), message, "not the end").help(help));
+        fields
+            .report(Diagnostic::new(fields.span_of("answers"), message, "not the end").help(help));
     }
     possible.is_empty()
 }
 
 /// Whether the robot has the modules for the answers; reports it if not.
-fn can(fields: &Fields<'_>, answers: &[Answer], found: &[Spanned<String>], names: &Names<'_>) -> bool {
+fn can(
+    fields: &Fields<'_>,
+    answers: &[Answer],
+    found: &[Spanned<String>],
+    names: &Names<'_>,
+) -> bool {
     if names.hardware.iter().any(|kind| kind.id.is_empty()) {
         return true;
     }

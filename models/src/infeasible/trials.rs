@@ -1,4 +1,5 @@
-//! Searches on a mission with something changed: on the same table of candidates, with others left out.
+//! Searches on a mission with something changed: on the same table of candidates, with others left
+//! out.
 
 use super::{SHARED, STEPS};
 use crate::mission::Mission;
@@ -69,7 +70,10 @@ impl<'m> Trials<'m> {
     /// The combinations that are alternatives; a search has at most `each` steps.
     pub(super) fn new(mission: &'m Mission, each: u64) -> Self {
         let ways = |activity: &PlannedActivity| {
-            let ways = activity.alternatives.iter().filter_map(|alternative| way(activity, alternative, &[]));
+            let ways = activity
+                .alternatives
+                .iter()
+                .filter_map(|alternative| way(activity, alternative, &[]));
             (activity.objective, ways.collect())
         };
         let activities = mission.scenario().activities.iter().map(ways).collect();
@@ -77,7 +81,8 @@ impl<'m> Trials<'m> {
         Self { activities, each, left: SHARED.saturating_mul(each.max(STEPS)), complete: true }
     }
 
-    /// Adds the combinations that constraints exclude, for trials without these. Returns the constraints.
+    /// Adds the combinations that constraints exclude, for trials without these. Returns the
+    /// constraints.
     pub(super) fn lift_all(&mut self, mission: &'m Mission) -> Vec<(usize, Constraint)> {
         let mut definition = (**mission).clone();
         for zone in &mut definition.zones {
@@ -96,7 +101,10 @@ impl<'m> Trials<'m> {
                     ways.extend(way(all, alternative, &dropped.by));
                 }
             }
-            debug_assert!(dropped.next().is_none(), "a combination is an alternative without constraints");
+            debug_assert!(
+                dropped.next().is_none(),
+                "a combination is an alternative without constraints"
+            );
         }
         constraints.sort_unstable();
         constraints.dedup();
@@ -116,12 +124,14 @@ impl<'m> Trials<'m> {
         };
         let kept = self.activities.iter().enumerate();
         kept.filter(|(_, (objective, _))| !trial.without.contains(objective))
-            .map(|(index, (_, ways))| (index, ways.iter().filter(counts).map(|way| way.candidate).collect()))
+            .map(|(index, (_, ways))| {
+                (index, ways.iter().filter(counts).map(|way| way.candidate).collect())
+            })
             .collect()
     }
 
-    /// The plan of the least total on an axis, and of these the least on the other, whatever the limits. Every
-    /// activity is cheapest by itself.
+    /// The plan of the least total on an axis, and of these the least on the other, whatever the
+    /// limits. Every activity is cheapest by itself.
     pub(super) fn cheapest(&self, trial: &Trial<'_>, axis: usize) -> Plan {
         let cheapest = |(index, candidates): (usize, Vec<Candidate<2>>)| {
             let least = candidates.iter().min_by_key(|it| (it.cost[axis], it.cost[1 - axis]));

@@ -26,7 +26,8 @@ impl Cause {
             }
             Self::Limits { limits, least } => {
                 let [duration, energy] = [DURATION, ENERGY].map(|axis| {
-                    let ((name, unit), limit, least) = (self::axis(axis), limits[axis], least[axis]);
+                    let ((name, unit), limit, least) =
+                        (self::axis(axis), limits[axis], least[axis]);
                     let more = more(axis, limit, least);
                     format!("the least {name} is {least} {unit}, the limit {limit} {unit} ({more})")
                 });
@@ -36,21 +37,27 @@ impl Cause {
                 let lacks: Vec<_> = lacks.iter().map(|&lack| units(mission, lack)).collect();
                 let place = place(mission, *activity);
                 let lacks = lacks.join(", or ");
-                let mut said =
-                    format!("{place} has no alternative with this hardware: every one needs {lacks}");
+                let mut said = format!(
+                    "{place} has no alternative with this hardware: every one needs {lacks}"
+                );
                 if !constraints.is_empty() {
-                    let constraints: Vec<_> =
-                        constraints.iter().map(|&(zone, which)| constraint(mission, zone, which)).collect();
+                    let constraints: Vec<_> = constraints
+                        .iter()
+                        .map(|&(zone, which)| constraint(mission, zone, which))
+                        .collect();
                     said = format!("{said}; others are excluded by {}", listed(&constraints));
                 }
                 if !others.is_empty() {
-                    let others: Vec<_> = others.iter().map(|&other| id(mission, other).to_owned()).collect();
+                    let others: Vec<_> =
+                        others.iter().map(|&other| id(mission, other).to_owned()).collect();
                     said = format!("{said}; nor have {}", listed(&others));
                 }
                 said
             }
             Self::Undecided { steps } => {
-                format!("neither a plan nor the proof that there is none was found in {steps} steps")
+                format!(
+                    "neither a plan nor the proof that there is none was found in {steps} steps"
+                )
             }
         }
     }
@@ -60,7 +67,12 @@ impl Heavy {
     /// The activity, its place, its cost and its part of the total.
     pub fn wording(&self, mission: &Mission) -> String {
         let (_, unit) = axis(self.axis);
-        format!("{}: {} {unit}, {}", place(mission, self.activity), self.cost, percent(self.permille.into()))
+        format!(
+            "{}: {} {unit}, {}",
+            place(mission, self.activity),
+            self.cost,
+            percent(self.permille.into())
+        )
     }
 }
 
@@ -77,11 +89,15 @@ impl Relaxation {
                 format!("lift {}", constraint(mission, *zone, *which))
             }
             Self::LiftConstraints { constraints } => {
-                let constraints: Vec<_> =
-                    constraints.iter().map(|&(zone, which)| constraint(mission, zone, which)).collect();
+                let constraints: Vec<_> = constraints
+                    .iter()
+                    .map(|&(zone, which)| constraint(mission, zone, which))
+                    .collect();
                 format!("lift {}", listed(&constraints))
             }
-            Self::KeepHardware { hardware, units } => format!("keep {}", kept(mission, *hardware, *units)),
+            Self::KeepHardware { hardware, units } => {
+                format!("keep {}", kept(mission, *hardware, *units))
+            }
             Self::KeepHardwares { hardware } => {
                 let kinds: Vec<_> =
                     hardware.iter().map(|&(kind, units)| kept(mission, kind, units)).collect();
@@ -125,7 +141,10 @@ fn constraint(mission: &Mission, zone: usize, which: Constraint) -> String {
         Constraint::Hardware => "hardware",
         Constraint::Tio => "option",
     };
-    format!("the {which} constraint of zone \"{}\"", mission.zones.get(zone).map_or("", |zone| &zone.id))
+    format!(
+        "the {which} constraint of zone \"{}\"",
+        mission.zones.get(zone).map_or("", |zone| &zone.id)
+    )
 }
 
 fn kept(mission: &Mission, kind: usize, units: u8) -> String {
@@ -161,7 +180,9 @@ fn listed(parts: &[String]) -> String {
     match parts {
         [] => String::new(),
         [one] => one.clone(),
-        [first @ .., last] if parts.len() <= MAX_LISTED => format!("{} and {last}", first.join(", ")),
+        [first @ .., last] if parts.len() <= MAX_LISTED => {
+            format!("{} and {last}", first.join(", "))
+        }
         _ => format!("{} and {} more", parts[..MAX_LISTED].join(", "), parts.len() - MAX_LISTED),
     }
 }

@@ -31,15 +31,18 @@ pub(super) fn zone(
     {
         let message = format!("the zone is empty: it starts at {start} and ends at {end}");
         let help = "let it end behind its start";
-        fields
-            .report(Diagnostic::new(fields.span_of("x_end_mm"), message, "not behind the start").help(help));
+        fields.report(
+            Diagnostic::new(fields.span_of("x_end_mm"), message, "not behind the start").help(help),
+        );
     }
     if let (Some(end), Some(length)) = (x_end, path_length)
         && end > length
     {
         let message = format!("the zone ends at {end}, behind the end of the path, {length}");
         let help = format!("let it end at {} or before", length.0);
-        fields.report(Diagnostic::new(fields.span_of("x_end_mm"), message, "not on the path").help(help));
+        fields.report(
+            Diagnostic::new(fields.span_of("x_end_mm"), message, "not on the path").help(help),
+        );
     }
     fields.finish();
     let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
@@ -104,14 +107,17 @@ fn tasks(fields: &Fields<'_>, names: &[Spanned<String>], tios: &[Entry<Tio>]) ->
     for (place, (task, name)) in found.iter().zip(names).enumerate() {
         if found.iter().position(|other| other == task) != Some(place) {
             let message = format!("the task `{}` is named twice", task.name());
-            fields.report(Diagnostic::new(name.span.clone(), message, "again").help("leave it out"));
+            fields
+                .report(Diagnostic::new(name.span.clone(), message, "again").help("leave it out"));
         }
         // Options that could not be read may be of this task.
         let implements = |tio: &Entry<Tio>| tio.item.as_ref().is_none_or(|tio| tio.task == *task);
         if !tios.iter().any(implements) {
             let message = format!("no option implements the task `{}`", task.name());
             let help = format!("add a [[tio]] with task = \"{}\"", task.name());
-            fields.report(Diagnostic::new(name.span.clone(), message, "without an option").help(help));
+            fields.report(
+                Diagnostic::new(name.span.clone(), message, "without an option").help(help),
+            );
         }
     }
     Some(found)
@@ -123,7 +129,11 @@ fn leads(tasks: &[Task]) -> Vec<Task> {
 }
 
 /// Whether the tasks of an objective are right for one that travels, or stands; reports it if not.
-fn suit_the_way(fields: &Fields<'_>, tasks: &[Task], (x_start, x_end): (Millimetres, Millimetres)) -> bool {
+fn suit_the_way(
+    fields: &Fields<'_>,
+    tasks: &[Task],
+    (x_start, x_end): (Millimetres, Millimetres),
+) -> bool {
     let wrong = match (x_start < x_end, &leads(tasks)[..]) {
         (true, [Task::Move]) => return true,
         (false, [lead]) if *lead != Task::Move => return true,
@@ -137,7 +147,8 @@ fn suit_the_way(fields: &Fields<'_>, tasks: &[Task], (x_start, x_end): (Millimet
     false
 }
 
-/// Whether the way and the tasks of a supervised objective are right for what it does; reports it if not.
+/// Whether the way and the tasks of a supervised objective are right for what it does; reports it
+/// if not.
 fn suit_what_it_does(
     fields: &Fields<'_>,
     tasks: &[Task],
@@ -147,22 +158,29 @@ fn suit_what_it_does(
     let drives = does == Does::Drive;
     if drives != (x_start < x_end) {
         let (message, label) = if !drives {
-            let message =
-                format!("this objective goes from {x_start} to {x_end}, but only one that drives travels");
+            let message = format!(
+                "this objective goes from {x_start} to {x_end}, but only one that drives travels"
+            );
             (message, "not where it starts")
         } else if x_start == x_end {
-            (format!("this drive leads nowhere: it starts and ends at {x_start}"), "not behind the start")
+            (
+                format!("this drive leads nowhere: it starts and ends at {x_start}"),
+                "not behind the start",
+            )
         } else {
             (format!("this drive leads back, from {x_start} to {x_end}"), "not behind the start")
         };
-        let help = if drives { "let it end behind its start" } else { "let it end where it starts" };
+        let help =
+            if drives { "let it end behind its start" } else { "let it end where it starts" };
         fields.report(Diagnostic::new(fields.span_of("x_end_mm"), message, label).help(help));
         return false;
     }
     let task = does.task().name();
     if leads(tasks) != [does.task()] {
-        let message =
-            format!("an objective that does `{}` needs `{task}`, and no other task but `LOC`", does.name());
+        let message = format!(
+            "an objective that does `{}` needs `{task}`, and no other task but `LOC`",
+            does.name()
+        );
         let help = format!("write tasks = [\"{task}\"], or change what it does");
         fields.report(Diagnostic::new(fields.span_of("tasks"), message, "these tasks").help(help));
         return false;
@@ -191,16 +209,25 @@ pub(super) fn one_after_the_other(
             let at = at.filter(|at| *at != it.x_start);
             at.map(|at| match it.x_start.checked_sub(at) {
                 Some(gap) => {
-                    format!("a gap of {gap} before the objective `{}`: it must start at {at}", it.id)
+                    format!(
+                        "a gap of {gap} before the objective `{}`: it must start at {at}",
+                        it.id
+                    )
                 }
                 None => {
-                    format!("the objective `{}` starts at {}, but the robot is at {at}", it.id, it.x_start)
+                    format!(
+                        "the objective `{}` starts at {}, but the robot is at {at}",
+                        it.id, it.x_start
+                    )
                 }
             })
         };
         if let Some(message) = wrong {
-            let help = "objectives follow each other along the path, each from where the one before ends";
-            root.report(Diagnostic::new(it.span.clone(), message, "not where the robot is").help(help));
+            let help =
+                "objectives follow each other along the path, each from where the one before ends";
+            root.report(
+                Diagnostic::new(it.span.clone(), message, "not where the robot is").help(help),
+            );
         }
         at = Some(it.x_end);
     }
@@ -210,6 +237,8 @@ pub(super) fn one_after_the_other(
     {
         let message = format!("the last objective ends at {at}, but the path at {length}");
         let help = "let it end with the path, or change `path_length_mm`";
-        root.report(Diagnostic::new(last.span.clone(), message, "not the end of the path").help(help));
+        root.report(
+            Diagnostic::new(last.span.clone(), message, "not the end of the path").help(help),
+        );
     }
 }

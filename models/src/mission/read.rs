@@ -34,14 +34,20 @@ pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     }
     let robot = root.table("robot").and_then(robot);
     let motion_power = root.table("motion_power").and_then(motion_power);
-    let hardware = root.table("hardware").and_then(hardware).unwrap_or_else(|| vec![Entry::unreadable()]);
+    let hardware =
+        root.table("hardware").and_then(hardware).unwrap_or_else(|| vec![Entry::unreadable()]);
     let mut tios = all(root.tables("tio", true), |table| tio(table, &hardware, &supervised));
     standing(&mut root, &mut tios);
     let zones = all(root.tables("zone", false), |table| zone(table, path_length, &hardware, &tios));
-    let objectives = all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
+    let objectives =
+        all(root.tables("objective", true), |table| objective(table, &tios, &supervised));
     one_after_the_other(&root, path_length, &objectives);
-    let names =
-        faults::Names { path_length, zones: &zones, hardware: &hardware, supervised: supervised.known() };
+    let names = faults::Names {
+        path_length,
+        zones: &zones,
+        hardware: &hardware,
+        supervised: supervised.known(),
+    };
     let run = root.optional_table("run").ok().and_then(|run| faults::read_run(run, &names));
     unique(&root, "option", items(&tios).map(|it| (&it.id, &it.span)));
     unique(&root, "zone", items(&zones).map(|it| (&it.id, &it.span)));
@@ -66,9 +72,14 @@ pub(super) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     })
 }
 
-/// Every entry of a list, or an unreadable one when the list itself was wrong, which is then reported.
-fn all<'t, T>(tables: Option<Vec<Fields<'t>>>, read: impl FnMut(Fields<'t>) -> Entry<T>) -> Vec<Entry<T>> {
-    tables.map_or_else(|| vec![Entry::unreadable()], |tables| tables.into_iter().map(read).collect())
+/// Every entry of a list, or an unreadable one when the list itself was wrong, which is then
+/// reported.
+fn all<'t, T>(
+    tables: Option<Vec<Fields<'t>>>,
+    read: impl FnMut(Fields<'t>) -> Entry<T>,
+) -> Vec<Entry<T>> {
+    tables
+        .map_or_else(|| vec![Entry::unreadable()], |tables| tables.into_iter().map(read).collect())
 }
 
 fn items<T>(entries: &[Entry<T>]) -> impl Iterator<Item = &T> {
@@ -79,7 +90,11 @@ fn complete<T>(entries: Vec<Entry<T>>) -> Option<Vec<T>> {
     entries.into_iter().map(|entry| entry.item).collect()
 }
 
-fn unique<'n>(root: &Fields<'_>, what: &str, ids: impl Iterator<Item = (&'n String, &'n Range<usize>)>) {
+fn unique<'n>(
+    root: &Fields<'_>,
+    what: &str,
+    ids: impl Iterator<Item = (&'n String, &'n Range<usize>)>,
+) {
     let mut seen = std::collections::BTreeSet::new();
     for (id, span) in ids {
         if !seen.insert(id) {
@@ -91,7 +106,8 @@ fn unique<'n>(root: &Fields<'_>, what: &str, ids: impl Iterator<Item = (&'n Stri
 
 fn name(root: &mut Fields<'_>) -> Option<String> {
     let name = root.text("name")?;
-    if !(1..=100).contains(&name.value.chars().count()) || name.value.chars().any(char::is_control) {
+    if !(1..=100).contains(&name.value.chars().count()) || name.value.chars().any(char::is_control)
+    {
         let message = format!("{} is not a name for a mission", quoted(&name.value));
         let help = "use 1 to 100 characters on one line";
         root.report(Diagnostic::new(name.span, message, "not a name").help(help));
@@ -113,7 +129,9 @@ fn limits(mut limits: Fields<'_>) -> Option<([u64; 2], [usize; 2])> {
             _ => {
                 let message = "`order` must name each axis once";
                 let help = "write [\"duration\", \"energy\"] or [\"energy\", \"duration\"]";
-                limits.report(Diagnostic::new(limits.span_of("order"), message, "each once").help(help));
+                limits.report(
+                    Diagnostic::new(limits.span_of("order"), message, "each once").help(help),
+                );
                 None
             }
         }
@@ -144,16 +162,19 @@ fn robot(mut robot: Fields<'_>) -> Option<Robot> {
     if let Some(computed) = computed {
         let stated = stated.as_ref().ok().copied().flatten().map(MillimetresPerSecond);
         if computed == MillimetresPerSecond::ZERO {
-            let message = "no speed is harmless: even at 1 mm/s an impact reaches `impact_energy_max_mj`";
+            let message =
+                "no speed is harmless: even at 1 mm/s an impact reaches `impact_energy_max_mj`";
             let help = "give a lower mass or a higher energy";
             robot.report(
-                Diagnostic::new(robot.span_of("impact_energy_max_mj"), message, "too low").help(help),
+                Diagnostic::new(robot.span_of("impact_energy_max_mj"), message, "too low")
+                    .help(help),
             );
         } else if stated.is_some_and(|stated| stated > computed) {
             let message = "`speed_harmless_mm_s` is not harmless for this mass and impact energy";
             let help = format!("the fastest harmless speed is {computed}");
             robot.report(
-                Diagnostic::new(robot.span_of("speed_harmless_mm_s"), message, "too fast").help(help),
+                Diagnostic::new(robot.span_of("speed_harmless_mm_s"), message, "too fast")
+                    .help(help),
             );
         }
     }
@@ -179,9 +200,12 @@ fn motion_power(mut fields: Fields<'_>) -> Option<MotionPower> {
         if let (Some(power), Some(speed), Some(stated)) = (power, speed, stated)
             && power.at(speed) != stated
         {
-            let message = format!("the coefficients give {} at {speed}, not {stated}", power.at(speed));
+            let message =
+                format!("the coefficients give {} at {speed}, not {stated}", power.at(speed));
             let help = "correct the coefficients, or this value, or leave it out";
-            point.report(Diagnostic::new(point.span_of("power_mw"), message, "disagrees").help(help));
+            point.report(
+                Diagnostic::new(point.span_of("power_mw"), message, "disagrees").help(help),
+            );
         }
         point.finish();
     }
@@ -196,7 +220,8 @@ fn hardware(fields: Fields<'_>) -> Option<Vec<Entry<Hardware>>> {
             if index == MAX_KINDS {
                 let message = format!("more than {MAX_KINDS} kinds of hardware");
                 let help = "put kinds that are always switched together into one";
-                table.report(Diagnostic::new(name.span.clone(), message, "one too many").help(help));
+                table
+                    .report(Diagnostic::new(name.span.clone(), message, "one too many").help(help));
             }
             let units = table.integer("units", 1..=i64::from(MAX_UNITS));
             let power = table.integer("power_mw", AT_LEAST_ZERO).map(Milliwatts);
@@ -213,7 +238,11 @@ pub(super) fn task(fields: &Fields<'_>, name: &Spanned<String>) -> Option<Task> 
     Task::from_name(&name.value)
 }
 
-fn tio(mut fields: Fields<'_>, hardware: &[Entry<Hardware>], supervised: &Supervised) -> Entry<Tio> {
+fn tio(
+    mut fields: Fields<'_>,
+    hardware: &[Entry<Hardware>],
+    supervised: &Supervised,
+) -> Entry<Tio> {
     let id = fields.id("id");
     let task = fields.text("task").and_then(|name| task(&fields, &name));
     let needs = needs(&mut fields, hardware);
@@ -258,7 +287,8 @@ fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Units>
         let index = fields.index_of(&name, "hardware", ids(hardware));
         let kind = index.and_then(|index| hardware.get(index)?.item.as_ref());
         if let Some(kind) = kind.filter(|kind| count > kind.units) {
-            let message = format!("needs {count} of `{}`, but the robot has only {}", kind.name, kind.units);
+            let message =
+                format!("needs {count} of `{}`, but the robot has only {}", kind.name, kind.units);
             let help = format!("write {} or less, or give the robot more units", kind.units);
             fields.report(Diagnostic::new(name.span, message, "more than there are").help(help));
         }
@@ -271,29 +301,40 @@ fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Units>
 fn standing(root: &mut Fields<'_>, tios: &mut [Entry<Tio>]) {
     let has = |task| items(tios).any(|tio| tio.task == task);
     let (turns, detects) = (has(Task::Turn), has(Task::Detect));
-    let table =
-        if turns || detects { root.table("fixed") } else { root.optional_table("fixed").ok().flatten() };
+    let table = if turns || detects {
+        root.table("fixed")
+    } else {
+        root.optional_table("fixed").ok().flatten()
+    };
     let Some(mut fixed) = table else { return };
     if turns || fixed.has("turn_ms") || fixed.has("turn_power_mw") {
         let duration = fixed.integer("turn_ms", POSITIVE).map(Millis);
         let power = fixed.integer("turn_power_mw", AT_LEAST_ZERO).map(Milliwatts);
         let standing = duration.zip(power).map(|(duration, power)| Standing { duration, power });
-        for tio in
-            tios.iter_mut().filter_map(|entry| entry.item.as_mut()).filter(|tio| tio.task == Task::Turn)
+        for tio in tios
+            .iter_mut()
+            .filter_map(|entry| entry.item.as_mut())
+            .filter(|tio| tio.task == Task::Turn)
         {
             tio.standing = standing;
         }
     }
     if detects || fixed.has("detect_ms") || fixed.has("detect_power_mw") {
         let duration = fixed.integer("detect_ms", POSITIVE).map(Millis);
-        let powers = fixed.table("detect_power_mw").and_then(|table| table.named_integers(&AT_LEAST_ZERO));
+        let powers =
+            fixed.table("detect_power_mw").and_then(|table| table.named_integers(&AT_LEAST_ZERO));
         for (name, power) in powers.as_deref().unwrap_or_default() {
-            let other = |entry: &Entry<Tio>| entry.item.as_ref().is_some_and(|tio| tio.task != Task::Detect);
+            let other = |entry: &Entry<Tio>| {
+                entry.item.as_ref().is_some_and(|tio| tio.task != Task::Detect)
+            };
             let ids = tios.iter().filter(|entry| !other(entry)).map(|entry| entry.id.as_str());
             fixed.index_of(name, "detecting option", ids);
-            let standing = duration.map(|duration| Standing { duration, power: Milliwatts(*power) });
-            for tio in
-                tios.iter_mut().filter_map(|entry| entry.item.as_mut()).filter(|tio| tio.id == name.value)
+            let standing =
+                duration.map(|duration| Standing { duration, power: Milliwatts(*power) });
+            for tio in tios
+                .iter_mut()
+                .filter_map(|entry| entry.item.as_mut())
+                .filter(|tio| tio.id == name.value)
             {
                 tio.standing = standing;
             }
@@ -302,7 +343,9 @@ fn standing(root: &mut Fields<'_>, tios: &mut [Entry<Tio>]) {
         for tio in items(tios).filter(|_| powers.is_some() && duration.is_some()).filter(without) {
             let message = format!("the option `{}` has no detection power", tio.id);
             let help = format!("add `{}` to `detect_power_mw` in [fixed]", tio.id);
-            fixed.report(Diagnostic::new(tio.span.clone(), message, "not in `detect_power_mw`").help(help));
+            fixed.report(
+                Diagnostic::new(tio.span.clone(), message, "not in `detect_power_mw`").help(help),
+            );
         }
     }
     fixed.finish();

@@ -1,5 +1,5 @@
-//! What a supervised mission has to be as a whole, so that its supervisor cannot be asked for what makes no sense, and
-//! so that no objective blocks.
+//! What a supervised mission has to be as a whole, so that its supervisor cannot be asked for what
+//! makes no sense, and so that no objective blocks.
 
 use super::{AXES, Definition, Does, Objective};
 use crate::cotama::mission_net::{self, Fault, MAX_OBJECTIVES, RESERVED, global_supervisor};
@@ -26,7 +26,9 @@ pub(super) fn supervisor(
     if let Some(one_too_many) = objectives.get(MAX_OBJECTIVES) {
         let message = format!("a supervised mission has at most {MAX_OBJECTIVES} objectives");
         let help = "leave some out, or make two missions";
-        return Err(vec![Diagnostic::new(one_too_many.span.clone(), message, "one too many").help(help)]);
+        return Err(vec![
+            Diagnostic::new(one_too_many.span.clone(), message, "one too many").help(help),
+        ]);
     }
     let mut errors = names(objectives);
     errors.extend(object(objectives));
@@ -38,10 +40,11 @@ pub(super) fn supervisor(
     }
     let at = |objective: Option<&Objective>, message: String| {
         let span = objective.map_or(0..0, |it| it.span.clone());
-        Diagnostic::new(span, message, "its supervisor").help("this is an error of the program: report it")
+        Diagnostic::new(span, message, "its supervisor")
+            .help("this is an error of the program: report it")
     };
-    let net =
-        global_supervisor(objectives).map_err(|error| vec![at(objectives.first(), error.to_string())])?;
+    let net = global_supervisor(objectives)
+        .map_err(|error| vec![at(objectives.first(), error.to_string())])?;
     mission_net::check(&net.view().net(), objectives).map_err(|faults| {
         let place = |fault: &Fault| match fault {
             Fault::Unreached(place) | Fault::Deadlock(place) | Fault::Blocks { at: place, .. } => {
@@ -49,7 +52,8 @@ pub(super) fn supervisor(
             }
             _ => None,
         };
-        let objective = |fault: &Fault| place(fault).and_then(|id| objectives.iter().find(|it| it.id == id));
+        let objective =
+            |fault: &Fault| place(fault).and_then(|id| objectives.iter().find(|it| it.id == id));
         faults
             .iter()
             .map(|fault| at(objective(fault).or(objectives.first()), fault.to_string()))
@@ -102,7 +106,12 @@ fn object(objectives: &[Objective]) -> Vec<Diagnostic> {
     }
     if let Some(since) = on_board {
         let message = format!("the object of `{}` is never delivered", since.id);
-        errors.push(wrong(since, message, "still on board at the end", "add an objective that delivers it"));
+        errors.push(wrong(
+            since,
+            message,
+            "still on board at the end",
+            "add an objective that delivers it",
+        ));
     }
     errors
 }
@@ -128,14 +137,17 @@ fn too_long(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
                 let costs = table.alternatives.iter().filter_map(|it| it.cost(table.whole(it)));
                 costs.map(|cost| u64::from(cost[axis])).min().unwrap_or(0)
             };
-            let (least, limit) = (of(scenario, index).map(least).sum::<u64>(), definition.limits[axis]);
+            let (least, limit) =
+                (of(scenario, index).map(least).sum::<u64>(), definition.limits[axis]);
             if least > limit {
                 let (id, name) = (&objective.id, AXES[axis]);
                 let message = format!(
                     "`{id}` alone passes the limit of {name}: at least {least} {unit} of {limit} {unit}"
                 );
                 let help = format!("raise the limit of {name}, or let `{id}` do less");
-                errors.push(Diagnostic::new(objective.span.clone(), message, "too long alone").help(help));
+                errors.push(
+                    Diagnostic::new(objective.span.clone(), message, "too long alone").help(help),
+                );
             }
         }
     }
@@ -146,18 +158,21 @@ fn too_long(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
 fn is_vital(module: Module) -> bool {
     let drives = |it: &Configuration| {
         let facts = it.facts();
-        facts.sub_objective == SubObjective::Following || *it == Configuration::TeleoperationDegraded
+        facts.sub_objective == SubObjective::Following
+            || *it == Configuration::TeleoperationDegraded
     };
     Configuration::ALL.iter().filter(|it| drives(it)).all(|it| it.facts().required.has(module))
 }
 
-/// An objective that one lost module would leave without any configuration, and the operator without the means to
-/// drive; modules that every way to drive needs are not counted: without them the robot stops, as it should.
+/// An objective that one lost module would leave without any configuration, and the operator
+/// without the means to drive; modules that every way to drive needs are not counted: without them
+/// the robot stops, as it should.
 fn could_block(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
     let has = |module: Module| definition.hardware.iter().any(|it| it.name == module.name());
     let teleoperation = Configuration::TeleoperationDegraded.facts().required;
     let operator = teleoperation.iter().all(has);
-    let rescued = |name: &str| operator && !Module::named(name).is_some_and(|it| teleoperation.has(it));
+    let rescued =
+        |name: &str| operator && !Module::named(name).is_some_and(|it| teleoperation.has(it));
     let vital = |name: &str| Module::named(name).is_some_and(is_vital);
     let mut errors = Vec::new();
     for (index, objective) in definition.objectives.iter().enumerate() {
@@ -169,7 +184,9 @@ fn could_block(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> 
             names.filter(|name| !(vital(name) || drives && rescued(name))).collect::<Vec<_>>()
         };
         let mut places = of(scenario, index).map(|activity| (activity, blocking(activity)));
-        let Some((activity, modules)) = places.find(|(_, modules)| !modules.is_empty()) else { continue };
+        let Some((activity, modules)) = places.find(|(_, modules)| !modules.is_empty()) else {
+            continue;
+        };
         let (id, at, without) = (&objective.id, activity.x_start, modules.join(" or "));
         let options = activity.labels.join(", ");
         let left = if drives { ", and no teleoperation without CAM and LAN" } else { "" };

@@ -1,5 +1,5 @@
-//! What a supervised mission says beyond a plain one: who decides, what each objective does for the supervisor, and which
-//! modules a moving option runs.
+//! What a supervised mission says beyond a plain one: who decides, what each objective does for the
+//! supervisor, and which modules a moving option runs.
 
 use super::{Hardware, Task};
 use crate::cotama::{Configuration, Module, SubObjective};
@@ -54,7 +54,8 @@ impl Does {
     }
 }
 
-/// Whether the mission is supervised, and by supervisors that use again what returns, as far as it could be read.
+/// Whether the mission is supervised, and by supervisors that use again what returns, as far as it
+/// could be read.
 pub(super) struct Supervised(Result<Option<(Supervision, bool)>, Reported>);
 
 impl Supervised {
@@ -138,7 +139,10 @@ pub(super) fn configuration(
         let (message, help) = match kind {
             None if hardware.iter().any(|it| it.id.is_empty()) => continue,
             None => (
-                format!("`{}` runs the module {module}, which the robot does not have", configuration.name()),
+                format!(
+                    "`{}` runs the module {module}, which the robot does not have",
+                    configuration.name()
+                ),
                 format!("add [hardware.{module}], or leave this option out"),
             ),
             Some(kind) if needs.is_some_and(|needs| needs.of(kind) == 0) => (
@@ -146,7 +150,9 @@ pub(super) fn configuration(
                     "`{}` runs the module {module}, but the option does not need it",
                     configuration.name()
                 ),
-                format!("add `{module} = 1` to `needs`: without it a lost {module} would go unnoticed"),
+                format!(
+                    "add `{module} = 1` to `needs`: without it a lost {module} would go unnoticed"
+                ),
             ),
             Some(_) => continue,
         };

@@ -1,18 +1,20 @@
 //! A charger for a lithium-ion battery.
 //!
-//! The textbook procedure: a deeply discharged cell is *precharged* with a small current until it has recovered, then
-//! charged with *constant current* until it reaches its final voltage, then at *constant voltage* until the current
-//! has tapered off. Each phase has a safety timer, and heat ends the charging. The times are plausible for a robot's
-//! battery and assumed; the data sheet of the cell has the true ones.
+//! The textbook procedure: a deeply discharged cell is *precharged* with a small current until it
+//! has recovered, then charged with *constant current* until it reaches its final voltage, then at
+//! *constant voltage* until the current has tapered off. Each phase has a safety timer, and heat
+//! ends the charging. The times are plausible for a robot's battery and assumed; the data sheet of
+//! the cell has the true ones.
 //!
 //! What to learn from it:
 //!
 //! - `Removed` can come at any time: a group (`Plugged`) makes one line of five transitions.
-//! - `on` is the pin of the power switch. It could be told from the state, and that is the point: the invariant
-//!   `on & Idle & Done & Fault = 1` says that power flows exactly in the three phases of charging, so a transition that
-//!   forgets to switch is a compile error; and `never_both(on, hot)` is the law of safety, in one line.
-//! - `taper` waits for an event *and* ten seconds: the current is not looked at before the voltage has settled. An
-//!   earlier event is refused as too early, not remembered.
+//! - `on` is the pin of the power switch. It could be told from the state, and that is the point:
+//!   the invariant `on & Idle & Done & Fault = 1` says that power flows exactly in the three phases
+//!   of charging, so a transition that forgets to switch is a compile error; and `never_both(on,
+//!   hot)` is the law of safety, in one line.
+//! - `taper` waits for an event *and* ten seconds: the current is not looked at before the voltage
+//!   has settled. An earlier event is refused as too early, not remembered.
 //! - Timers restart with their phase, as their transitions become enabled anew.
 //!
 //! ```
@@ -37,7 +39,8 @@
 pub use self::charger::*;
 
 cotama_core::net! {
-    /// A charger for a lithium-ion battery: precharge, constant current, constant voltage, with timers and heat.
+    /// A charger for a lithium-ion battery: precharge, constant current, constant voltage, with
+    /// timers and heat.
     mod charger {
         places {
             /// No battery is in.

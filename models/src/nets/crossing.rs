@@ -1,19 +1,23 @@
 //! A pedestrian crossing with lights and a button.
 //!
-//! Cars have green until somebody wants to cross, but ten seconds at least; then yellow, red, and a second later the
-//! pedestrians walk. Before cars go again, those who are still on the road get four seconds.
+//! Cars have green until somebody wants to cross, but ten seconds at least; then yellow, red, and a
+//! second later the pedestrians walk. Before cars go again, those who are still on the road get
+//! four seconds.
 //!
 //! What to learn from it:
 //!
-//! - Two lights are two tokens in one net, not one state for each combination: `Red` is only read when the pedestrians
-//!   are let go, and both tokens move together where they must, in `go`. That no car and no pedestrian go at once is then
-//!   a law and no matter of how the states were written down.
-//! - `request` remembers the button. A press is never lost: only while the pedestrians walk it is no news.
-//! - `Green` and `Yielding` look alike from the road. They are two places since the ten seconds count from the start of
-//!   green, and not from the press: a clock runs while *all* that a transition needs is there, so the request must not be
-//!   among it.
-//! - `warn` needs neither event nor time. Such a transition fires at once, so the net *settles*: it is never seen with
-//!   `Yielding` and a request. [`KNOWN`] says how many of them can follow each other.
+//! - Two lights are two tokens in one net, not one state for each combination: `Red` is only read
+//!   when the pedestrians are let go, and both tokens move together where they must, in `go`. That
+//!   no car and no pedestrian go at once is then a law and no matter of how the states were written
+//!   down.
+//! - `request` remembers the button. A press is never lost: only while the pedestrians walk it is
+//!   no news.
+//! - `Green` and `Yielding` look alike from the road. They are two places since the ten seconds
+//!   count from the start of green, and not from the press: a clock runs while *all* that a
+//!   transition needs is there, so the request must not be among it.
+//! - `warn` needs neither event nor time. Such a transition fires at once, so the net *settles*: it
+//!   is never seen with `Yielding` and a request. [`KNOWN`] says how many of them can follow each
+//!   other.
 //!
 //! ```
 //! use cotama_core::units::Millis;

@@ -1,19 +1,23 @@
 //! An automatic door: the net to begin with.
 //!
-//! It opens when somebody calls, stays open for five seconds, closes, and never closes on anybody: a light barrier
-//! tells whether something stands in the doorway. Any sliding door of an office, a lift or a charging station is one.
+//! It opens when somebody calls, stays open for five seconds, closes, and never closes on anybody:
+//! a light barrier tells whether something stands in the doorway. Any sliding door of an office, a
+//! lift or a charging station is one.
 //!
 //! What to learn from it:
 //!
-//! - A state machine is a net with one token: [`Place::Closed`] to [`Place::Blocked`] are its states, and
-//!   [`Player::state`](cotama_core::net::Player::state) can be matched on.
-//! - `obstacle` is a flag: it remembers what an event said, and guards read it. What the door knows is thus part of the
-//!   net, and the laws can speak of it: `never_both(Closing, obstacle)` is the reason why the door may be built.
-//! - `close` needs no event: five seconds after it became enabled it fires. Its clock starts anew when the doorway
-//!   becomes free, as the guard then enables it, and when `hold` takes the token of `Open` and gives it back.
+//! - A state machine is a net with one token: [`Place::Closed`] to [`Place::Blocked`] are its
+//!   states, and [`Player::state`](cotama_core::net::Player::state) can be matched on.
+//! - `obstacle` is a flag: it remembers what an event said, and guards read it. What the door knows
+//!   is thus part of the net, and the laws can speak of it: `never_both(Closing, obstacle)` is the
+//!   reason why the door may be built.
+//! - `close` needs no event: five seconds after it became enabled it fires. Its clock starts anew
+//!   when the doorway becomes free, as the guard then enables it, and when `hold` takes the token
+//!   of `Open` and gives it back.
 //! - `ignore` says where an event is no news. `handles(all)` then shows that nothing was forgotten.
 //!
-//! Time is told, never asked for: [`wake_at`](cotama_core::net::Player::wake_at) says when the door wants to be woken.
+//! Time is told, never asked for: [`wake_at`](cotama_core::net::Player::wake_at) says when the door
+//! wants to be woken.
 //!
 //! ```
 //! use cotama_core::{net::Outcome, net::Why, units::Millis};

@@ -1,7 +1,8 @@
 //! Ready supervisors, to learn from and to use, and families of nets to measure checkers with.
 //!
-//! Each of the first is a file that reads as a lesson: what it supervises, where it comes from, what to learn from it and
-//! how it is played. Its laws were checked while this crate was compiled. They need no heap.
+//! Each of the first is a file that reads as a lesson: what it supervises, where it comes from,
+//! what to learn from it and how it is played. Its laws were checked while this crate was compiled.
+//! They need no heap.
 //!
 //! | net | lesson |
 //! | --- | --- |
@@ -11,8 +12,8 @@
 //! | [`crossing`] | two tokens in one net, transitions that fire at once |
 //! | [`ace`] | a published robot's behaviour selection and control, as four nets |
 //!
-//! With the feature `std` there are [`families`] of nets, known from the literature with their counts, and all nets can
-//! be [found](find) by name.
+//! With the feature `std` there are [`families`] of nets, known from the literature with their
+//! counts, and all nets can be [found](find) by name.
 
 pub mod ace;
 pub mod charger;

@@ -107,7 +107,9 @@ impl fmt::Display for FindError {
             Self::NumberMissing(family) => {
                 write!(f, "`{family}` is a family of nets: say which one, as `{family}:5`")
             }
-            Self::NoFamily(name) => write!(f, "`{name}` is one net and takes no number: say `{name}`"),
+            Self::NoFamily(name) => {
+                write!(f, "`{name}` is one net and takes no number: say `{name}`")
+            }
             Self::NotANumber { family, found } => {
                 let found = quoted(found);
                 write!(
@@ -134,9 +136,11 @@ impl core::error::Error for FindError {}
 /// ```
 ///
 /// # Errors
-/// When no net has this name, a number is missing, not wanted or none, or the family has no net for it.
+/// When no net has this name, a number is missing, not wanted or none, or the family has no net for
+/// it.
 pub fn find(name: &str) -> Result<OwnedNet, FindError> {
-    let (name, number) = name.split_once(':').map_or((name, None), |(name, number)| (name, Some(number)));
+    let (name, number) =
+        name.split_once(':').map_or((name, None), |(name, number)| (name, Some(number)));
     let Some(entry) = all().iter().find(|entry| entry.name == name) else {
         return Err(FindError::Unknown { name: name.to_owned(), nearest: nearest(name) });
     };
@@ -145,7 +149,8 @@ pub fn find(name: &str) -> Result<OwnedNet, FindError> {
         (Model::Defined { .. }, Some(_)) => Err(FindError::NoFamily(entry.name)),
         (Model::Family(_), None) => Err(FindError::NumberMissing(entry.name)),
         (Model::Family(family), Some(text)) => {
-            let not_a_number = |_| FindError::NotANumber { family: entry.name, found: text.to_owned() };
+            let not_a_number =
+                |_| FindError::NotANumber { family: entry.name, found: text.to_owned() };
             family.net(text.parse().map_err(not_a_number)?).map_err(FindError::OutOfRange)
         }
     }

@@ -1,10 +1,11 @@
 //! The watchdog of a real-time scheduler, one for each module that it runs.
 //!
-//! The control architecture of Durand, Godary-Dejean, Lapierre, Crestani et al. (TAROS 2010, "Fault tolerance
-//! enhancement using autonomy adaptation for autonomous mobile robots") watches every periodic module. A job that misses
-//! its deadline gets a little extra time, so a transient overrun does no harm; several misses in a row are a fault that
-//! is reported to the supervisor, which adapts and acknowledges it. The names `w1` to `w8` are those of its transitions
-//! in our reconstruction.
+//! The control architecture of Durand, Godary-Dejean, Lapierre, Crestani et al. (TAROS 2010, "Fault
+//! tolerance enhancement using autonomy adaptation for autonomous mobile robots") watches every
+//! periodic module. A job that misses its deadline gets a little extra time, so a transient overrun
+//! does no harm; several misses in a row are a fault that is reported to the supervisor, which
+//! adapts and acknowledges it. The names `w1` to `w8` are those of its transitions in our
+//! reconstruction.
 //!
 //! | number | value | |
 //! | --- | --- | --- |
@@ -12,20 +13,21 @@
 //! | deadline after the release: the period | 100 ms | assumed |
 //! | extra time after the deadline | 20 ms | assumed |
 //!
-//! A job that ends within its extra time counts as a miss as well, else a module that is always a little late would
-//! never be reported. Only a job done in time sets the count back.
+//! A job that ends within its extra time counts as a miss as well, else a module that is always a
+//! little late would never be reported. Only a job done in time sets the count back.
 //!
 //! What to learn from it:
 //!
-//! - A counter is a place with a complement: `misses < 3` and `misses == 3` are arcs that read, so `w4` and `w6` never
-//!   meet, and `deterministic` can say so.
-//! - Deadlines are transitions without event. `w3` is enabled from the release on, so its clock measures the job;
-//!   `w5` and `w7` are enabled from the deadline on, so theirs measure the extra time. All three are due at one instant:
-//!   time cannot pass it (strong semantics). What is due fires before an event of the same instant is looked at, so a
-//!   job that is done at 100 ms sharp is late: with a clock of 1 ms "before the deadline" cannot be told from "at" it,
-//!   and the safe side is to count a miss.
-//! - `Release` is ignored while a job runs: the scheduler then moves on to the next module, at most the extra time late,
-//!   and this one sits out until its job is over.
+//! - A counter is a place with a complement: `misses < 3` and `misses == 3` are arcs that read, so
+//!   `w4` and `w6` never meet, and `deterministic` can say so.
+//! - Deadlines are transitions without event. `w3` is enabled from the release on, so its clock
+//!   measures the job; `w5` and `w7` are enabled from the deadline on, so theirs measure the extra
+//!   time. All three are due at one instant: time cannot pass it (strong semantics). What is due
+//!   fires before an event of the same instant is looked at, so a job that is done at 100 ms sharp
+//!   is late: with a clock of 1 ms "before the deadline" cannot be told from "at" it, and the safe
+//!   side is to count a miss.
+//! - `Release` is ignored while a job runs: the scheduler then moves on to the next module, at most
+//!   the extra time late, and this one sits out until its job is over.
 //!
 //! ```
 //! use cotama_core::units::Millis;
@@ -45,10 +47,12 @@
 //! assert_eq!(watchdog.tokens(Place::misses), 0);
 //! ```
 //!
-//! Modules differ in their numbers, so the net is a macro, [`watchdog!`](crate::watchdog!), and this one its first instance.
+//! Modules differ in their numbers, so the net is a macro, [`watchdog!`](crate::watchdog!), and
+//! this one its first instance.
 
-/// Defines a watchdog with its own numbers: misses in a row that are a fault, the deadline after the release, and the extra
-/// time after the deadline. Its laws are checked as those of any net; see [`nets::watchdog`](crate::nets::watchdog).
+/// Defines a watchdog with its own numbers: misses in a row that are a fault, the deadline after
+/// the release, and the extra time after the deadline. Its laws are checked as those of any net;
+/// see [`nets::watchdog`](crate::nets::watchdog).
 ///
 /// ```
 /// cotama_models::watchdog! {
@@ -80,7 +84,8 @@ macro_rules! watchdog {
                     Run,
                     /// A job runs on in its extra time.
                     Extra,
-                    /// The fault was reported; the module stands still until the supervisor has reacted.
+                    /// The fault was reported; the module stands still until the supervisor has
+                    /// reacted.
                     Fault,
                 }
                 counters {
@@ -136,6 +141,7 @@ macro_rules! watchdog {
 pub use self::watchdog::*;
 
 watchdog! {
-    /// The scheduler's watchdog for one module: three jobs in a row that miss their deadline are a fault.
+    /// The scheduler's watchdog for one module: three jobs in a row that miss their deadline are a
+    /// fault.
     mod watchdog { misses: 3, deadline: 100 ms, extra: 20 ms }
 }

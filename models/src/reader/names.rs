@@ -3,7 +3,8 @@
 /// The longest id, in characters.
 pub(super) const MAX_ID: usize = 64;
 
-/// A text from a file, as it is quoted in a message: one line, without control characters, not too long.
+/// A text from a file, as it is quoted in a message: one line, without control characters, not too
+/// long.
 pub(crate) fn quoted(text: &str) -> String {
     let short: String = text.chars().take(MAX_ID).collect();
     let more = if short.len() < text.len() { "..." } else { "" };
@@ -15,7 +16,8 @@ pub(super) fn nearest<'n>(name: &str, known: impl Iterator<Item = &'n str>) -> O
     if name.len() > MAX_ID {
         return None;
     }
-    let distance = |known: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &known.to_lowercase());
+    let distance =
+        |known: &str| strsim::damerau_levenshtein(&name.to_lowercase(), &known.to_lowercase());
     let near = |known: &&str| !known.is_empty() && distance(known) <= (known.len() / 3).max(1);
     known.filter(near).min_by_key(|known| distance(known))
 }
@@ -31,8 +33,11 @@ pub(super) fn unknown<'n>(
         return (format!("{message}; did you mean `{near}`?"), format!("write `{near}`"));
     }
     let names: Vec<&str> = known.take(20).collect();
-    let help =
-        if names.is_empty() { "none is defined".into() } else { format!("known: {}", names.join(", ")) };
+    let help = if names.is_empty() {
+        "none is defined".into()
+    } else {
+        format!("known: {}", names.join(", "))
+    };
     (message, help)
 }
 

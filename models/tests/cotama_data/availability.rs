@@ -1,7 +1,8 @@
 //! The status vector is closed and monotone.
 
 use cotama_models::cotama::{
-    Configuration, Configurations, Health, MODULES, Module, Modules, Resource, Resources, Status, available,
+    Configuration, Configurations, Health, MODULES, Module, Modules, Resource, Resources, Status,
+    available,
 };
 use proptest::prelude::*;
 
@@ -92,7 +93,9 @@ fn configurations_after_one_lost_resource() {
     assert_eq!(after(Resource::Motors), "SEC");
     assert_eq!(after(Resource::Encoders), "SEC");
     assert_eq!(after(Resource::Bumpers), Configurations::ALL.to_string());
-    for vital in [Resource::Electronics, Resource::SerialLink, Resource::Battery, Resource::LaptopCpu] {
+    for vital in
+        [Resource::Electronics, Resource::SerialLink, Resource::Battery, Resource::LaptopCpu]
+    {
         assert_eq!(after(vital), "-");
     }
 }

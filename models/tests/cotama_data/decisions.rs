@@ -2,8 +2,9 @@
 
 use cotama_core::net::{Net, Role};
 use cotama_models::cotama::{
-    Class, Decision, Loss, Losses, Report, Severity, Situation, by_availability, by_rules, contextual,
-    decide, is_settled, judge, local, lost_after, path_following, severity, teleoperation,
+    Class, Decision, Loss, Losses, Report, Severity, Situation, by_availability, by_rules,
+    contextual, decide, is_settled, judge, local, lost_after, path_following, severity,
+    teleoperation,
 };
 use std::collections::BTreeMap;
 
@@ -74,16 +75,25 @@ fn by_net(report: Report, situation: Situation) -> (Option<&'static str>, bool) 
         })
     };
     let place_tokens = |place: usize| match net.places[place].role {
-        Role::Complement(of) => net.places[of.0 as usize].bound - tokens(net.places[of.0 as usize].name),
+        Role::Complement(of) => {
+            net.places[of.0 as usize].bound - tokens(net.places[of.0 as usize].name)
+        }
         _ => tokens(net.places[place].name),
     };
     let fires = net.transitions.iter().find(|it| {
         it.on.is_some_and(|on| net.events[on.0 as usize].name == event)
-            && it.take.iter().chain(it.read).all(|arc| place_tokens(arc.place.0 as usize) >= arc.weight)
+            && it
+                .take
+                .iter()
+                .chain(it.read)
+                .all(|arc| place_tokens(arc.place.0 as usize) >= arc.weight)
     });
     let mcl = net.places.iter().position(|it| it.name == "mcl").unwrap();
     let takes_mcl = fires.is_some_and(|it| it.take.iter().any(|arc| arc.place.0 as usize == mcl));
-    (fires.map(|it| net.outputs[it.emits[0].0 as usize].name), !situation.lost.has(Loss::Mcl) && !takes_mcl)
+    (
+        fires.map(|it| net.outputs[it.emits[0].0 as usize].name),
+        !situation.lost.has(Loss::Mcl) && !takes_mcl,
+    )
 }
 
 const fn signal(decision: Decision) -> Option<&'static str> {
@@ -99,19 +109,25 @@ const fn signal(decision: Decision) -> Option<&'static str> {
     }
 }
 
-/// CS1, and the function and the net are one: in all 12 * 7 * 5 * 3 * 3 * 64 cells, consistent or not.
+/// CS1, and the function and the net are one: in all 12 * 7 * 5 * 3 * 3 * 64 cells, consistent or
+/// not.
 #[test]
 fn the_function_decides_as_the_net() {
     let mut compared = 0;
     for (report, situation) in cells() {
         let (emitted, mcl) = by_net(report, situation);
         assert_eq!(signal(decide(report, situation)), emitted, "{report:?} {situation:?}");
-        // The net changes `mcl` only at the floor; its own loss is in the situation before the report comes.
+        // The net changes `mcl` only at the floor; its own loss is in the situation before the
+        // report comes.
         let told = report
             .loss()
             .map_or(situation, |loss| Situation { lost: situation.lost.with(loss), ..situation });
         if told == situation {
-            assert_eq!(!lost_after(report, situation).has(Loss::Mcl), mcl, "{report:?} {situation:?}");
+            assert_eq!(
+                !lost_after(report, situation).has(Loss::Mcl),
+                mcl,
+                "{report:?} {situation:?}"
+            );
         }
         compared += 1;
     }
@@ -119,7 +135,8 @@ fn the_function_decides_as_the_net() {
     assert_eq!(consistent().count(), 9_216);
 }
 
-/// The cells where the two rules say something else than the table, with every earlier loss answered.
+/// The cells where the two rules say something else than the table, with every earlier loss
+/// answered.
 #[test]
 fn the_table_follows_from_the_two_rules_but_for_seven_cells() {
     let mut deviating = BTreeMap::new();
@@ -131,13 +148,17 @@ fn the_table_follows_from_the_two_rules_but_for_seven_cells() {
         }
         let (rules, table) = (by_rules(report, situation), decide(report, situation));
         if !is_settled(report, situation) {
-            assert!(rules.class() >= table.class(), "{report:?} {situation:?}: {rules:?} {table:?}");
+            assert!(
+                rules.class() >= table.class(),
+                "{report:?} {situation:?}: {rules:?} {table:?}"
+            );
             unsettled += 1;
             continue;
         }
         settled += 1;
         if rules != table {
-            let cell = format!("{} in {:?}: {rules:?}, table {table:?}", report.name(), situation.local);
+            let cell =
+                format!("{} in {:?}: {rules:?}, table {table:?}", report.name(), situation.local);
             *deviating.entry(cell).or_insert(0) += 1;
         }
     }
@@ -160,15 +181,20 @@ fn the_table_follows_from_the_two_rules_but_for_seven_cells() {
 
 #[test]
 fn a_higher_severity_never_gives_a_weaker_event() {
-    const SEVERITIES: [Severity; 4] = [Severity::Weak, Severity::Medium, Severity::Hard, Severity::Fatal];
+    const SEVERITIES: [Severity; 4] =
+        [Severity::Weak, Severity::Medium, Severity::Hard, Severity::Fatal];
     for (report, situation) in cells() {
         let classes = SEVERITIES.map(|it| judge(report, it, situation).class());
         assert!(classes.is_sorted(), "{report:?} {situation:?}: {classes:?}");
-        assert_eq!(by_rules(report, situation), judge(report, severity(report, situation), situation));
+        assert_eq!(
+            by_rules(report, situation),
+            judge(report, severity(report, situation), situation)
+        );
     }
 }
 
-/// CS4. The cells without one are those in which an earlier loss, which asked for more, is not answered yet.
+/// CS4. The cells without one are those in which an earlier loss, which asked for more, is not
+/// answered yet.
 #[test]
 fn no_adapter_event_is_sent_when_no_configuration_of_the_sub_objective_is_left() {
     let (mut adapted, mut without) = (0, 0);

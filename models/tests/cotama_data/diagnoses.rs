@@ -1,9 +1,9 @@
 //! What flags mean, and what they leave open.
 
 use cotama_models::cotama::{
-    Diagnosis, FailureMode, FailureModes, Flag, Flags, Health, Modules, Probes, Resource, Resources,
-    ambiguity_groups, are_confusable, available, confusable_pairs, diagnose, is_detectable, shared_flags,
-    undetectable,
+    Diagnosis, FailureMode, FailureModes, Flag, Flags, Health, Modules, Probes, Resource,
+    Resources, ambiguity_groups, are_confusable, available, confusable_pairs, diagnose,
+    is_detectable, shared_flags, undetectable,
 };
 use proptest::prelude::*;
 
@@ -22,21 +22,26 @@ fn no_flag_is_no_fault_and_an_unknown_mix_is_unexplained() {
     assert_eq!(diagnose(mix, Modules::ALL), Diagnosis::Unexplained);
 }
 
-/// Point 3 of the published run: two flags, three explanations, localisation and odometry under suspicion.
+/// Point 3 of the published run: two flags, three explanations, localisation and odometry under
+/// suspicion.
 #[test]
 fn growing_distance_and_backward_motion_leave_three_candidates() {
     let found = diagnose(Flags::of(&[Flag::PoseGrowth, Flag::Backward]), Modules::ALL);
     assert_eq!(
         found,
-        Diagnosis::Ambiguous(FailureModes::of(&[FailureMode::Odo2, FailureMode::Loc1, FailureMode::Loc2]))
+        Diagnosis::Ambiguous(FailureModes::of(&[
+            FailureMode::Odo2,
+            FailureMode::Loc1,
+            FailureMode::Loc2
+        ]))
     );
     let status = found.health(Modules::NONE).status_vector();
     assert_eq!(status.suspect().to_string(), "MCL ODO O-LOC");
     assert_eq!(status.available(), Modules::ALL);
 }
 
-/// A bump is an obstacle that avoidance did not see, or, without localisation, drift into a wall; without sonars a stuck
-/// bumper looks the same.
+/// A bump is an obstacle that avoidance did not see, or, without localisation, drift into a wall;
+/// without sonars a stuck bumper looks the same.
 #[test]
 fn the_same_bump_means_something_else_in_another_status() {
     let bump = Flags::of(&[Flag::Bumper]);
@@ -55,8 +60,8 @@ fn three_groups_cannot_be_told_apart_on_a_sound_robot() {
     assert_eq!(undetectable(Modules::ALL).to_string(), "PWR1 SW3");
 }
 
-/// What is sure to be seen by nobody, what is alike, and the fewest probes against it, after each single loss that leaves the
-/// robot running.
+/// What is sure to be seen by nobody, what is alike, and the fewest probes against it, after each
+/// single loss that leaves the robot running.
 #[test]
 fn a_loss_blinds_observers() {
     let after = |lost| {
@@ -66,8 +71,8 @@ fn a_loss_blinds_observers() {
     let expect = |unseen: &str, alike: &str, probes: Option<&str>| {
         (unseen.to_owned(), alike.to_owned(), probes.map(str::to_owned))
     };
-    // Without localisation drift is unseen; without sonars their observer no longer looks at the camera either, and no probe
-    // tells a stall against an obstacle from one on a carpet edge.
+    // Without localisation drift is unseen; without sonars their observer no longer looks at the
+    // camera either, and no probe tells a stall against an obstacle from one on a carpet edge.
     assert_eq!(
         after(Resource::SonarArrays),
         expect("ODO2 ODO3 ODO4 CAM1 PWR1 SW3", "BMP1 MOT3, BMP2 LOC3, CAM2 COM2", None)
@@ -105,7 +110,10 @@ fn each_confusable_pair_has_its_probes() {
 #[test]
 fn the_least_probes_separate_all() {
     let least = Probes::least(Modules::ALL).unwrap();
-    assert_eq!(least.to_string(), "spread limit unmapped obstacle obstacle at stall frame time at source");
+    assert_eq!(
+        least.to_string(),
+        "spread limit unmapped obstacle obstacle at stall frame time at source"
+    );
     let separate = |set: Probes| {
         FailureMode::ALL.iter().all(|&a| {
             FailureMode::ALL.iter().all(|&b| {
@@ -120,12 +128,16 @@ fn the_least_probes_separate_all() {
     assert!(separate(least));
 }
 
-/// Where nothing tells a stall against an obstacle from one on a carpet edge, the rest can still be told apart.
+/// Where nothing tells a stall against an obstacle from one on a carpet edge, the rest can still be
+/// told apart.
 #[test]
 fn what_no_probe_separates_does_not_hide_what_some_do() {
     let no_sonar = without(Resource::SonarArrays);
     assert!(Probes::that_separate(FailureMode::Bmp1, FailureMode::Mot3, no_sonar).is_empty());
-    assert_eq!(Probes::least_that_help(no_sonar).to_string(), "frame time at source reckoning limit");
+    assert_eq!(
+        Probes::least_that_help(no_sonar).to_string(),
+        "frame time at source reckoning limit"
+    );
     assert_eq!(Some(Probes::least_that_help(Modules::ALL)), Probes::least(Modules::ALL));
 }
 
@@ -134,13 +146,20 @@ fn what_no_probe_separates_does_not_hide_what_some_do() {
 fn what_is_shared_leaves_it_open() {
     for status in [Modules::ALL, without(Resource::SonarArrays), without(Resource::Map)] {
         let pairs: Vec<_> = confusable_pairs(status).collect();
-        for (a, b) in FailureMode::ALL.iter().flat_map(|&a| FailureMode::ALL.iter().map(move |&b| (a, b))) {
+        for (a, b) in
+            FailureMode::ALL.iter().flat_map(|&a| FailureMode::ALL.iter().map(move |&b| (a, b)))
+        {
             let shared = shared_flags(FailureModes::of(&[a, b]), status);
             assert_eq!(shared.is_some() && a != b, are_confusable(a, b, status));
             assert_eq!(pairs.contains(&(a, b)), a < b && are_confusable(a, b, status));
-            for raised in shared.into_iter().filter(|_| a != b).flat_map(|(least, most)| [least, most]) {
+            for raised in
+                shared.into_iter().filter(|_| a != b).flat_map(|(least, most)| [least, most])
+            {
                 let found = diagnose(raised, status);
-                assert!(matches!(found, Diagnosis::Ambiguous(set) if set.has(a) && set.has(b)), "{found:?}");
+                assert!(
+                    matches!(found, Diagnosis::Ambiguous(set) if set.has(a) && set.has(b)),
+                    "{found:?}"
+                );
             }
         }
     }
@@ -171,7 +190,8 @@ fn flags() -> impl Strategy<Value = Flags> {
 }
 
 proptest! {
-    /// A mode with the flags it always raises, and some it sometimes does, is always among the candidates.
+    /// A mode with the flags it always raises, and some it sometimes does, is always among the
+    /// candidates.
     #[test]
     fn what_happened_is_among_the_candidates(at in 0..FailureMode::ALL.len(), bits: u64, lost in 0..Resource::ALL.len()) {
         let mode = FailureMode::ALL[at];

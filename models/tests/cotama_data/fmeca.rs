@@ -1,8 +1,8 @@
 //! The FMECA against its printed form, the modules and the rules.
 
 use cotama_models::cotama::{
-    Class, Decision, FMECA_COLUMNS, FailureMode, FmecaCsv, Label, Losses, Module, Modules, Persistence,
-    RULES, Severity, Situation, TEXTS, decide, functions, local, path_following, ribs,
+    Class, Decision, FMECA_COLUMNS, FailureMode, FmecaCsv, Label, Losses, Module, Modules,
+    Persistence, RULES, Severity, Situation, TEXTS, decide, functions, local, path_following, ribs,
 };
 
 const DRIVING: Situation = Situation {
@@ -23,7 +23,8 @@ fn the_printed_table_is_the_golden_one() {
     assert_eq!(FMECA_COLUMNS.split(',').count(), 18);
 }
 
-/// The modules that a row names in words are gone when its typed losses are, and whoever is faulty is named.
+/// The modules that a row names in words are gone when its typed losses are, and whoever is faulty
+/// is named.
 #[test]
 fn words_and_sets_of_a_row_say_the_same() {
     for &mode in FailureMode::ALL {
@@ -45,8 +46,11 @@ fn words_and_sets_of_a_row_say_the_same() {
 
 #[test]
 fn two_rows_are_invisible_and_say_why() {
-    let silent: Vec<_> =
-        FailureMode::ALL.iter().filter(|it| it.description().silent.is_some()).map(|it| it.name()).collect();
+    let silent: Vec<_> = FailureMode::ALL
+        .iter()
+        .filter(|it| it.description().silent.is_some())
+        .map(|it| it.name())
+        .collect();
     assert_eq!(silent, ["PWR1", "SW3"]);
 }
 
@@ -58,7 +62,9 @@ fn one_rate_is_from_a_data_sheet_and_the_rest_assumed() {
         .map(|it| it.name())
         .collect();
     assert_eq!(stated, ["BAT1"]);
-    assert!(TEXTS.iter().all(|it| it.rate_label == Label::Stated || it.rate.starts_with("assumed")));
+    assert!(
+        TEXTS.iter().all(|it| it.rate_label == Label::Stated || it.rate.starts_with("assumed"))
+    );
 }
 
 /// Where the printed class of a row is not that of the two rules, on the optimal path following.
@@ -69,7 +75,8 @@ fn rows_whose_class_the_rules_make_worse() {
         .filter(|it| it.effective(Modules::NONE, DRIVING) != it.rule().class)
         .map(|it| (it.name(), it.rule().class, it.effective(Modules::NONE, DRIVING)))
         .collect();
-    // The encoders feed NAV, and every configuration but security needs NAV: there is nothing to ask the operator for.
+    // The encoders feed NAV, and every configuration but security needs NAV: there is nothing to
+    // ask the operator for.
     assert_eq!(worse, [("ODO1", Class::Local, Class::Global)]);
     for mode in [FailureMode::Rt3, FailureMode::Sw1, FailureMode::Sw2] {
         let fatal: Vec<_> = Module::ALL
@@ -81,8 +88,9 @@ fn rows_whose_class_the_rules_make_worse() {
     }
 }
 
-/// What the decision on a row's report is, where its class is not the printed one: on the optimal path following, but for the
-/// planner and the operator, who fail while planning and in the hand-over.
+/// What the decision on a row's report is, where its class is not the printed one: on the optimal
+/// path following, but for the planner and the operator, who fail while planning and in the
+/// hand-over.
 #[test]
 fn rows_whose_report_is_answered_otherwise_than_printed() {
     let other: Vec<_> = FailureMode::ALL
@@ -90,8 +98,12 @@ fn rows_whose_report_is_answered_otherwise_than_printed() {
         .filter_map(|it| {
             let rule = it.rule();
             let place = match it {
-                FailureMode::Ppl1 => Situation { local: local::State::Planning, ..Situation::AT_REST },
-                FailureMode::Opr1 => Situation { local: local::State::HandOver, ..Situation::AT_REST },
+                FailureMode::Ppl1 => {
+                    Situation { local: local::State::Planning, ..Situation::AT_REST }
+                }
+                FailureMode::Opr1 => {
+                    Situation { local: local::State::HandOver, ..Situation::AT_REST }
+                }
                 _ => DRIVING,
             };
             let situation = Situation { lost: Losses::from(it.health(Modules::NONE)), ..place };
@@ -102,11 +114,15 @@ fn rows_whose_report_is_answered_otherwise_than_printed() {
         .collect();
     let (recorded, others): (Vec<_>, Vec<_>) =
         other.iter().map(String::as_str).partition(|it| it.ends_with("adapter: Record"));
-    // The adapters of the figures have no transition for these; their reactions are settings of one module, or none.
+    // The adapters of the figures have no transition for these; their reactions are settings of one
+    // module, or none.
     let names: Vec<_> = recorded.iter().map(|it| it.split(' ').next().unwrap()).collect();
     assert_eq!(
         names,
-        ["SON4", "ODO2", "ODO3", "ODO4", "CAM1", "CAM2", "MOT2", "P3D2", "RT2", "HUM1", "COM1", "COM2"]
+        [
+            "SON4", "ODO2", "ODO3", "ODO4", "CAM1", "CAM2", "MOT2", "P3D2", "RT2", "HUM1", "COM1",
+            "COM2"
+        ]
     );
     assert_eq!(
         others,

@@ -15,7 +15,8 @@ watchdog! {
     mod second { misses: 2, deadline: 30 ms, extra: 10 ms }
 }
 watchdog! {
-    /// Its extra time outlasts its period, so that a release may be refused, and the first miss is a fault.
+    /// Its extra time outlasts its period, so that a release may be refused, and the first miss is
+    /// a fault.
     mod third { misses: 1, deadline: 70 ms, extra: 25 ms }
 }
 
@@ -29,22 +30,27 @@ fn tasks() -> [Task; 3] {
     [task(100, 12, (80, 20, 3)), task(50, 15, (30, 10, 2)), task(70, 20, (70, 25, 1))]
 }
 
-/// The last whole millisecond before an instant: a job is at work in the interval that ends with its end, open there.
+/// The last whole millisecond before an instant: a job is at work in the interval that ends with
+/// its end, open there.
 fn within(at: Micros) -> Millis {
     Millis(at.0.saturating_sub(1) / 1_000)
 }
 
 macro_rules! follow {
     ($name:ident) => {
-        /// Tells the net what the executive says has happened; the net does the same, now, and nothing else.
+        /// Tells the net what the executive says has happened; the net does the same, now, and
+        /// nothing else.
         fn $name(player: &mut $name::Player, it: Happening, executive: &Executive<3>) {
             use $name::{Event, Output, Place, State, Transition as T};
             let now = Millis(it.at.0 / 1_000);
             let mut fired = vec![];
-            let mut observer =
-                |of: &Firing<'_, _, T, Output>| fired.push((of.transition, of.at, of.outputs.to_vec()));
+            let mut observer = |of: &Firing<'_, _, T, Output>| {
+                fired.push((of.transition, of.at, of.outputs.to_vec()))
+            };
             match it.what {
-                What::Released => assert!(player.offer_with(now, &Event::Release, &mut observer).fired()),
+                What::Released => {
+                    assert!(player.offer_with(now, &Event::Release, &mut observer).fired())
+                }
                 What::Refused => {
                     let outcome = player.offer_with(now, &Event::Release, &mut observer);
                     assert_eq!(outcome, Outcome::Ignored { why: Why::OnPurpose });
@@ -56,7 +62,9 @@ macro_rules! follow {
                     assert_eq!(player.wake_at(), Some(now));
                     assert_eq!(player.advance_with(now, &mut observer).fired, 1);
                 }
-                What::Acknowledged => assert!(player.offer_with(now, &Event::CsAck, &mut observer).fired()),
+                What::Acknowledged => {
+                    assert!(player.offer_with(now, &Event::CsAck, &mut observer).fired())
+                }
                 What::Exhausted => {}
             }
             let expected = match it.what {
@@ -65,7 +73,9 @@ macro_rules! follow {
                 What::DeadlineMissed => Some((T::w3, now, vec![])),
                 What::DoneLate { rt_fault: false } => Some((T::w4, within(it.at), vec![])),
                 What::Skipped { rt_fault: false } => Some((T::w5, now, vec![Output::SkipJob])),
-                What::DoneLate { rt_fault: true } => Some((T::w6, within(it.at), vec![Output::RtFault])),
+                What::DoneLate { rt_fault: true } => {
+                    Some((T::w6, within(it.at), vec![Output::RtFault]))
+                }
                 What::Skipped { rt_fault: true } => {
                     Some((T::w7, now, vec![Output::SkipJob, Output::RtFault]))
                 }

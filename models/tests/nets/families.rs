@@ -60,8 +60,8 @@ fn a_kanban_system_has_the_published_counts() {
 
 #[test]
 fn a_flexible_manufacturing_system_has_the_published_counts() {
-    // Model Checking Contest, FMS-PT-00002: 3,444 markings and 16,311 firings. Those for 1 and 3 parts were counted by
-    // other explorers of the same net.
+    // Model Checking Contest, FMS-PT-00002: 3,444 markings and 16,311 firings. Those for 1 and 3
+    // parts were counted by other explorers of the same net.
     let markings = [1, 2, 3].map(|n| counts(&fms(n).unwrap()).0);
     assert_eq!(markings, [120, 3_444, 48_590]);
     assert_eq!(counts(&fms(2).unwrap()).1, 16_311);
@@ -76,7 +76,8 @@ fn a_swimming_pool_has_the_published_counts() {
     assert_eq!(counts(&net), (89_621, 450_003));
 }
 
-/// With the nets of the Model Checking Contest in the folder `COTAMA_MCC_DIR`: as many places, transitions and arcs.
+/// With the nets of the Model Checking Contest in the folder `COTAMA_MCC_DIR`: as many places,
+/// transitions and arcs.
 #[test]
 fn the_contests_own_nets_have_as_many_parts() {
     let Some(folder) = std::env::var_os("COTAMA_MCC_DIR") else {
@@ -95,9 +96,13 @@ fn the_contests_own_nets_have_as_many_parts() {
         ("SwimmingPool-PT-01", swimming_pool(1)),
     ] {
         let path = std::path::Path::new(&folder).join(format!("{file}.pnml"));
-        let text =
-            std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+        let text = std::fs::read_to_string(&path)
+            .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let count = |tag: &str| text.matches(&format!("<{tag} ")).count();
-        assert_eq!(parts(&net.unwrap()), (count("place"), count("transition"), count("arc")), "{file}");
+        assert_eq!(
+            parts(&net.unwrap()),
+            (count("place"), count("transition"), count("arc")),
+            "{file}"
+        );
     }
 }

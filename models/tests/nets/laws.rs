@@ -3,7 +3,8 @@
 use crate::textbook::{Graph, Marking, enabled, immediate, settled};
 use cotama_core::net::{EventId, Law, Net, PlaceId, Role, Transition};
 
-/// The first law that does not hold, by its name. What roles say and that the net settles belongs to the laws.
+/// The first law that does not hold, by its name. What roles say and that the net settles belongs
+/// to the laws.
 pub(crate) fn broken(net: &Net<'_>, graph: &Graph) -> Option<&'static str> {
     let roles = |marking: &Marking| {
         net.places.iter().zip(marking).all(|(place, tokens)| match place.role {
@@ -41,21 +42,28 @@ fn holds(net: &Net<'_>, graph: &Graph, law: &Law<'_>) -> bool {
         Law::AlwaysCan(place) => graph.leading_to(marked(place)).into_iter().all(|leads| leads),
         Law::HandlesAll => all.filter(|marking| settled(net, marking)).all(|marking| {
             (0..net.events.len()).all(|event| {
-                let uses = net.transitions.iter().any(|it| is_on(it.on, event) && enabled(it, marking));
-                uses || net.ignored.iter().any(|it| is_on(Some(it.event), event) && marked(it.place)(marking))
+                let uses =
+                    net.transitions.iter().any(|it| is_on(it.on, event) && enabled(it, marking));
+                uses || net
+                    .ignored
+                    .iter()
+                    .any(|it| is_on(Some(it.event), event) && marked(it.place)(marking))
             })
         }),
         Law::Settles => graph.longest_settling(net).is_some(),
         Law::DeadlockFree { end } => {
             let mut each = all.zip(&graph.firings);
-            each.all(|(marking, firings)| !firings.is_empty() || end.is_some_and(|end| marked(end)(marking)))
+            each.all(|(marking, firings)| {
+                !firings.is_empty() || end.is_some_and(|end| marked(end)(marking))
+            })
         }
         Law::Deterministic => all.all(|marking| {
             let on = |event| move |it: &&Transition<'_>| is_on(it.on, event);
             let able = || net.transitions.iter().filter(|it| enabled(it, marking));
             let urgent = able().filter(|it| immediate(it)).count();
             urgent == 1
-                || urgent == 0 && (0..net.events.len()).all(|event| able().filter(on(event)).count() < 2)
+                || urgent == 0
+                    && (0..net.events.len()).all(|event| able().filter(on(event)).count() < 2)
         }),
     }
 }

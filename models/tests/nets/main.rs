@@ -1,4 +1,5 @@
-//! The shipped nets against the textbook: every reachable marking, every event, every small mistake.
+//! The shipped nets against the textbook: every reachable marking, every event, every small
+//! mistake.
 #![cfg(feature = "std")]
 
 mod executive;

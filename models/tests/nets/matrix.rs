@@ -1,4 +1,5 @@
-//! A net as a table: what each event does in each marking that lasts, and what happens there by itself.
+//! A net as a table: what each event does in each marking that lasts, and what happens there by
+//! itself.
 
 use crate::textbook::{Graph, Marking, enabled, fired, first, immediate, settled, words};
 use crate::time::{Answer, Timed};
@@ -12,8 +13,9 @@ pub(crate) fn matrix(net: &Net<'_>, graph: &Graph) -> String {
     for marking in graph.markings.iter().filter(|it| settled(net, it)) {
         writeln!(text, "\n{}", words(net, marking)).unwrap();
         for (number, event) in net.events.iter().enumerate() {
-            let able =
-                first(net, |it| it.on.is_some_and(|on| on.0 as usize == number) && enabled(it, marking));
+            let able = first(net, |it| {
+                it.on.is_some_and(|on| on.0 as usize == number) && enabled(it, marking)
+            });
             let does = able.map_or_else(
                 || said(net, Timed::new(net, marking).offer(number)),
                 |(transition, _)| told(net, marking, transition),
@@ -22,7 +24,8 @@ pub(crate) fn matrix(net: &Net<'_>, graph: &Graph) -> String {
         }
         for (transition, it) in net.transitions.iter().enumerate() {
             if it.on.is_none() && enabled(it, marking) {
-                writeln!(text, "  {:width$}  {}", "by itself", told(net, marking, transition)).unwrap();
+                writeln!(text, "  {:width$}  {}", "by itself", told(net, marking, transition))
+                    .unwrap();
             }
         }
     }
@@ -50,7 +53,9 @@ fn told(net: &Net<'_>, marking: &Marking, transition: usize) -> String {
 /// What became of an event, in words.
 pub(crate) fn said(net: &Net<'_>, answer: Answer) -> String {
     match answer {
-        Answer::Fired { transition, settled } => format!("{}, then {settled}", line(net, transition)),
+        Answer::Fired { transition, settled } => {
+            format!("{}, then {settled}", line(net, transition))
+        }
         Answer::OnPurpose => "ignored".into(),
         Answer::NotEnabled => "-".into(),
         Answer::TooEarly(transition) => format!("too early for {}", line(net, transition)),

@@ -1,9 +1,10 @@
 //! Every shipped net with one small mistake in it: do its laws notice?
 //!
-//! A mistake is a transition that is not there, an arc that does not read, an arc that gives to another place, or one
-//! token more or less at the start. What the laws let pass is one of three: *equivalent*, when the net fires exactly as
-//! before (the mistake touches what is never enabled, or a condition that always holds); *seen in the table* of events
-//! that is kept with these tests; or it *survives*, with a reason.
+//! A mistake is a transition that is not there, an arc that does not read, an arc that gives to
+//! another place, or one token more or less at the start. What the laws let pass is one of three:
+//! *equivalent*, when the net fires exactly as before (the mistake touches what is never enabled,
+//! or a condition that always holds); *seen in the table* of events that is kept with these tests;
+//! or it *survives*, with a reason.
 
 use crate::matrix::matrix;
 use crate::textbook::{Graph, Trouble, explore};
@@ -69,7 +70,8 @@ fn mutants(net: &Net<'_>) -> Vec<Mutant> {
             let kind = if data { Kind::Unchanged } else { Kind::Elsewhere };
             let given = |place: u32| it.give.iter().any(|other| other.place.0 == place);
             for place in (0..net.places.len() as u32).filter(|&place| !given(place)) {
-                let what = format!("{line} gives {} instead of {}", name(place), name(give.place.0));
+                let what =
+                    format!("{line} gives {} instead of {}", name(place), name(give.place.0));
                 with(kind, what, &|net| net.transitions[at].give[arc].place.0 = place);
             }
         }
@@ -91,7 +93,8 @@ fn mutants(net: &Net<'_>) -> Vec<Mutant> {
 fn firings<'g>(net: &Net<'g>, graph: &'g Graph) -> HashSet<(&'g [u32], &'g str, &'g [u32])> {
     let each = graph.firings.iter().zip(&graph.markings);
     let each = each.flat_map(|(firings, from)| firings.iter().map(move |&(by, to)| (from, by, to)));
-    each.map(|(from, by, to)| (&from[..], net.transitions[by].name, &graph.markings[to][..])).collect()
+    each.map(|(from, by, to)| (&from[..], net.transitions[by].name, &graph.markings[to][..]))
+        .collect()
 }
 
 /// Mistakes, each with how many variants of its line have it.
@@ -104,7 +107,8 @@ fn list(text: &mut String, mistakes: &Mistakes<'_>) {
     }
 }
 
-/// How many mutants there are, and how many of them the laws catch, are equivalent, are seen in the table, and survive.
+/// How many mutants there are, and how many of them the laws catch, are equivalent, are seen in the
+/// table, and survive.
 type Verdict = (usize, usize, usize, usize, usize);
 
 /// Makes all mutants and writes down what becomes of them. `survive` says why some may.
@@ -125,7 +129,9 @@ fn judge(net: &Net<'_>, survive: &str) -> Verdict {
             (_, Ok(graph)) => match laws::broken(&wrong, &graph) {
                 Some(law) => caught.entry(law),
                 None if firings(&wrong, &graph) == right => equivalent.entry(what),
-                None if matrix(&wrong, &graph) != table => seen.entry(*kind).or_default().entry(what),
+                None if matrix(&wrong, &graph) != table => {
+                    seen.entry(*kind).or_default().entry(what)
+                }
                 None => survivors.entry(what),
             },
         };

@@ -1,5 +1,5 @@
-//! Every shipped net, played from each marking that it can be in: with each event, and with clocks just before, at and
-//! after the instants where something changes.
+//! Every shipped net, played from each marking that it can be in: with each event, and with clocks
+//! just before, at and after the instants where something changes.
 
 use crate::golden;
 use crate::matrix::{matrix, said};
@@ -10,7 +10,8 @@ use cotama_core::units::Millis;
 use cotama_models::nets::{ace, charger, crossing, door, watchdog};
 use std::collections::HashSet;
 
-/// Reachable markings, those of them that are settled, firings, and the most that fire at once one after another.
+/// Reachable markings, those of them that are settled, firings, and the most that fire at once one
+/// after another.
 type Counts = (usize, usize, usize, usize);
 
 fn play<P: Program<W> + Copy, const W: usize, const C: usize>(
@@ -21,8 +22,11 @@ fn play<P: Program<W> + Copy, const W: usize, const C: usize>(
 ) -> Counts {
     let graph = explore(net, MARKINGS).unwrap();
     let settle = graph.longest_settling(net).unwrap();
-    let explored =
-        Known::Explored { markings: graph.markings.len(), firings: graph.edges(), settle: settle as u32 };
+    let explored = Known::Explored {
+        markings: graph.markings.len(),
+        firings: graph.edges(),
+        settle: settle as u32,
+    };
     assert_eq!(known, explored);
     assert_eq!(events.len(), net.events.len());
 
@@ -77,7 +81,10 @@ fn clocks(net: &Net<'_>, marking: &Marking) -> Vec<Vec<u64>> {
     })
 }
 
-fn restored<P: Program<W>, const W: usize, const C: usize>(program: P, timed: &Timed<'_>) -> Player<P, W, C> {
+fn restored<P: Program<W>, const W: usize, const C: usize>(
+    program: P,
+    timed: &Timed<'_>,
+) -> Player<P, W, C> {
     let code = program.code();
     let mut from = Snapshot { fingerprint: code.fingerprint, marking: [0; W], clocks: [0; C] };
     for (field, &tokens) in code.fields.iter().zip(&timed.marking) {
@@ -91,8 +98,12 @@ fn restored<P: Program<W>, const W: usize, const C: usize>(program: P, timed: &T
 }
 
 /// The player has the marking and the clocks of the textbook.
-fn same<P: Program<W>, const W: usize, const C: usize>(player: &Player<P, W, C>, timed: &Timed<'_>) {
-    let played: Marking = (0..timed.marking.len()).map(|at| player.tokens(PlaceId(at as u32))).collect();
+fn same<P: Program<W>, const W: usize, const C: usize>(
+    player: &Player<P, W, C>,
+    timed: &Timed<'_>,
+) {
+    let played: Marking =
+        (0..timed.marking.len()).map(|at| player.tokens(PlaceId(at as u32))).collect();
     assert_eq!(words(&timed.net, &played), words(&timed.net, &timed.marking));
     assert_eq!(played, timed.marking);
     assert_eq!(player.wake_at().map(|it| it.0), timed.due().map(|(wait, _)| player.now().0 + wait));
@@ -110,8 +121,12 @@ fn answer<T: core::fmt::Debug>(outcome: Outcome<T>) -> String {
         Outcome::Fired { transition, settled } => format!("{transition:?}, then {settled}"),
         Outcome::Ignored { why: Why::OnPurpose } => "ignored".into(),
         Outcome::Ignored { why: Why::NotEnabled } => "-".into(),
-        Outcome::Ignored { why: Why::TooEarly(transition) } => format!("too early for {transition:?}"),
-        Outcome::Ignored { why: Why::TooLate(transition) } => format!("too late for {transition:?}"),
+        Outcome::Ignored { why: Why::TooEarly(transition) } => {
+            format!("too early for {transition:?}")
+        }
+        Outcome::Ignored { why: Why::TooLate(transition) } => {
+            format!("too late for {transition:?}")
+        }
         Outcome::Ignored { why: why @ (Why::Full(_) | Why::Behind) } => panic!("{why:?}"),
     }
 }

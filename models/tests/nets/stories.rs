@@ -6,7 +6,8 @@ use cotama_core::net::{Firing, MARKINGS, Outcome};
 use cotama_core::units::Millis;
 use cotama_models::nets::{ace, watchdog};
 
-/// A watchdog that has seen `misses` in a row, and whose next job was released at the time that is given back.
+/// A watchdog that has seen `misses` in a row, and whose next job was released at the time that is
+/// given back.
 fn after(misses: u64) -> (watchdog::Player, u64) {
     use watchdog::Event::{Done, Release};
     let mut player = watchdog::Player::new();
@@ -55,13 +56,16 @@ fn three_misses_in_a_row_are_one_fault_and_two_are_none() {
     }
 }
 
-/// ACE, property 6: a goal that stays blocked is reported after (levels) x (MAXTRIALS + 1) = 20 cycles.
+/// ACE, property 6: a goal that stays blocked is reported after (levels) x (MAXTRIALS + 1) = 20
+/// cycles.
 #[test]
 fn a_blocked_goal_is_reported_after_twenty_cycles_and_not_after_nineteen() {
     let blocked = |cycles| {
         let mut control = ace::accuracy::Player::new();
         for cycle in 1..=cycles {
-            assert!(control.offer(Millis(500 * cycle), &ace::accuracy::Event::Inconsistent).fired());
+            assert!(
+                control.offer(Millis(500 * cycle), &ace::accuracy::Event::Inconsistent).fired()
+            );
         }
         control
     };
@@ -82,14 +86,19 @@ fn a_blocked_goal_is_reported_after_twenty_cycles_and_not_after_nineteen() {
     assert_eq!(settled.map(longest).max(), Some(20));
 }
 
-/// ACE, property 4: while a subsystem is active, nothing of lower priority becomes active; and 5: the emergency stop
-/// always does, at once.
+/// ACE, property 4: while a subsystem is active, nothing of lower priority becomes active; and 5:
+/// the emergency stop always does, at once.
 #[test]
 fn priority_decides_who_holds_the_robot() {
     use ace::selection::{Event::*, Place::*, Player};
     let subsystems = [Navigation, Vision, Interaction, Traversability, Emergency];
-    let triggers =
-        [NavigationTriggers, VisionTriggers, InteractionTriggers, TraversabilityTriggers, EmergencyTriggers];
+    let triggers = [
+        NavigationTriggers,
+        VisionTriggers,
+        InteractionTriggers,
+        TraversabilityTriggers,
+        EmergencyTriggers,
+    ];
     for (held, first) in triggers.iter().enumerate() {
         for (asks, second) in triggers.iter().enumerate() {
             let mut ace = Player::new();
@@ -104,16 +113,25 @@ fn priority_decides_who_holds_the_robot() {
 #[test]
 fn every_trigger_is_answered_at_once() {
     use ace::selection::{Event::*, Output, Player};
-    let triggers =
-        [NavigationTriggers, VisionTriggers, InteractionTriggers, TraversabilityTriggers, EmergencyTriggers];
+    let triggers = [
+        NavigationTriggers,
+        VisionTriggers,
+        InteractionTriggers,
+        TraversabilityTriggers,
+        EmergencyTriggers,
+    ];
     for first in triggers {
         for second in triggers {
             let (mut ace, mut answers) = (Player::new(), vec![]);
-            let mut listen = |firing: &Firing<'_, _, _, Output>| answers.extend_from_slice(firing.outputs);
+            let mut listen =
+                |firing: &Firing<'_, _, _, Output>| answers.extend_from_slice(firing.outputs);
             assert!(ace.offer_with(Millis(0), &first, &mut listen).fired());
             assert!(ace.offer_with(Millis(0), &second, &mut listen).fired());
-            let of = |answer: &Output| format!("{answer:?}").replace("Accepted", "").replace("Refused", "");
-            let asked = |event: &ace::selection::Event| format!("{event:?}").replace("Triggers", "");
+            let of = |answer: &Output| {
+                format!("{answer:?}").replace("Accepted", "").replace("Refused", "")
+            };
+            let asked =
+                |event: &ace::selection::Event| format!("{event:?}").replace("Triggers", "");
             assert_eq!(answers.iter().map(of).collect::<Vec<_>>(), [asked(&first), asked(&second)]);
         }
     }

@@ -1,4 +1,5 @@
-//! The token game as textbooks have it: a marking is a list of numbers, nothing is packed, nothing is clever.
+//! The token game as textbooks have it: a marking is a list of numbers, nothing is packed, nothing
+//! is clever.
 
 use cotama_core::net::{Arc, Net, Role, Transition};
 use std::collections::HashMap;
@@ -67,7 +68,9 @@ pub(crate) fn explore(net: &Net<'_>, most: usize) -> Result<Graph, Trouble> {
     let mut graph = Graph { markings: vec![start], firings: vec![] };
     while let Some(marking) = graph.markings.get(graph.firings.len()).cloned() {
         let mut firings = vec![];
-        for (at, transition) in net.transitions.iter().enumerate().filter(|(_, it)| enabled(it, &marking)) {
+        for (at, transition) in
+            net.transitions.iter().enumerate().filter(|(_, it)| enabled(it, &marking))
+        {
             let after = fired(transition, &marking);
             if after.iter().zip(net.places).any(|(&tokens, place)| tokens > place.bound) {
                 return Err(Trouble::Bound);

@@ -1,4 +1,5 @@
-//! The token game with time: one clock for each transition with an interval, as the documentation of `Player` has it.
+//! The token game with time: one clock for each transition with an interval, as the documentation
+//! of `Player` has it.
 
 use crate::textbook::{Marking, enabled, fired, first, immediate, taken};
 use cotama_core::net::{Ignored, Net, Transition, Within};
@@ -41,7 +42,8 @@ impl<'n> Timed<'n> {
 
     fn settle(&mut self) -> usize {
         let mut count = 0;
-        while let Some((at, _)) = first(&self.net, |it| immediate(it) && enabled(it, &self.marking)) {
+        while let Some((at, _)) = first(&self.net, |it| immediate(it) && enabled(it, &self.marking))
+        {
             self.fire(at);
             count += 1;
         }
@@ -55,8 +57,8 @@ impl<'n> Timed<'n> {
     /// The transition that is due first by itself, and how long that takes.
     pub(crate) fn due(&self) -> Option<(u64, usize)> {
         let able = self.net.transitions.iter().enumerate();
-        let able =
-            able.filter(|(_, it)| it.on.is_none() && it.within.is_some() && enabled(it, &self.marking));
+        let able = able
+            .filter(|(_, it)| it.on.is_none() && it.within.is_some() && enabled(it, &self.marking));
         let wait = |at: usize| u64::from(self.within(at).earliest).saturating_sub(self.elapsed[at]);
         able.map(|(at, it)| (wait(at), core::cmp::Reverse(it.priority), at))
             .min()
@@ -112,7 +114,8 @@ impl<'n> Timed<'n> {
                 Answer::TooEarly(transition)
             };
         }
-        let meant = |it: &Ignored| it.event.0 as usize == event && self.marking[it.place.0 as usize] > 0;
+        let meant =
+            |it: &Ignored| it.event.0 as usize == event && self.marking[it.place.0 as usize] > 0;
         if self.net.ignored.iter().any(meant) { Answer::OnPurpose } else { Answer::NotEnabled }
     }
 }

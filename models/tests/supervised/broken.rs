@@ -1,4 +1,5 @@
-//! A thousand generated mission files, each accepted, and refused when it is broken, for the reason for which it is.
+//! A thousand generated mission files, each accepted, and refused when it is broken, for the reason
+//! for which it is.
 
 use crate::file::{File, Objective, failure, operator};
 use cotama_models::mission::{MAX_SUPERVISED_OBJECTIVES, Mission};
@@ -52,15 +53,23 @@ const BREAKINGS: [Breaking; 40] = [
         let at = file.first("drive");
         file.objectives[at].task = "WAI".into();
     }),
-    ("a reserved name", "has a place `Safe` of its own", |file| file.objectives[0].id = "Safe".into()),
-    ("a name twice", "is defined twice", |file| file.objectives[0].id = file.objectives[1].id.clone()),
+    ("a reserved name", "has a place `Safe` of its own", |file| {
+        file.objectives[0].id = "Safe".into()
+    }),
+    ("a name twice", "is defined twice", |file| {
+        file.objectives[0].id = file.objectives[1].id.clone()
+    }),
     ("an unknown kind", "unknown kind of objective `drvie`; did you mean `drive`?", |file| {
         let at = file.first("drive");
         file.objectives[at].does = Some("drvie".into());
     }),
     ("no kind", "missing key `does`", |file| file.objectives[0].does = None),
-    ("too many objectives", "at most 250 objectives", |file| file.lengthen(MAX_SUPERVISED_OBJECTIVES + 1)),
-    ("not supervised", "`does` is for missions that are supervised", |file| file.supervision.clear()),
+    ("too many objectives", "at most 250 objectives", |file| {
+        file.lengthen(MAX_SUPERVISED_OBJECTIVES + 1)
+    }),
+    ("not supervised", "`does` is for missions that are supervised", |file| {
+        file.supervision.clear()
+    }),
     ("a failure of a plain mission", "events of the kind `failure` are for missions", |file| {
         file.supervision.clear();
         file.events = failure(0, "RT1");
@@ -68,7 +77,9 @@ const BREAKINGS: [Breaking; 40] = [
     ("unknown supervision", "unknown supervision `cotema`; did you mean `cotama`?", |file| {
         file.supervision = "[supervision]\ndecides = \"cotema\"\n".into();
     }),
-    ("no supervision named", "missing key `decides`", |file| file.supervision = "[supervision]\n".into()),
+    ("no supervision named", "missing key `decides`", |file| {
+        file.supervision = "[supervision]\n".into()
+    }),
     ("recovery of no kind", "`recovery` must be `true` or `false`, not", |file| {
         file.supervision = "[supervision]\ndecides = \"cotama\"\nrecovery = 1\n".into();
     }),
@@ -79,13 +90,19 @@ const BREAKINGS: [Breaking; 40] = [
     ("an unknown configuration", "unknown configuration `TO.DEG`", |file| {
         file.options[0].configuration = Some("TO.DEG".into());
     }),
-    ("no configuration", "missing key `configuration`", |file| file.options[0].configuration = None),
+    ("no configuration", "missing key `configuration`", |file| {
+        file.options[0].configuration = None
+    }),
     ("a standing configuration", "unknown key `configuration`", |file| {
         file.options.last_mut().unwrap().configuration = Some("PF.OPT".into());
     }),
-    ("a module that the robot lacks", "runs the module SMZ, which the robot does not have", |file| {
-        file.without_module("SMZ");
-    }),
+    (
+        "a module that the robot lacks",
+        "runs the module SMZ, which the robot does not have",
+        |file| {
+            file.without_module("SMZ");
+        },
+    ),
     ("a module that is not needed", "but the option does not need it", |file| {
         file.options[0].needs.retain(|it| it != "MCL");
     }),
@@ -100,8 +117,9 @@ const BREAKINGS: [Breaking; 40] = [
     ),
     ("a zone that could block", " or UST or ", |file| {
         let end = file.path_length;
-        file.zones =
-            format!("[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_hardware = \"UST\"\n");
+        file.zones = format!(
+            "[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_hardware = \"UST\"\n"
+        );
         file.events.clear();
         file.without_module("LAN");
     }),
@@ -111,8 +129,9 @@ const BREAKINGS: [Breaking; 40] = [
     }),
     ("a zone without an option", "is left without alternatives", |file| {
         let end = file.path_length;
-        file.zones =
-            format!("[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_tio = \"in\"\n");
+        file.zones = format!(
+            "[[zone]]\nid = \"z\"\nx_start_mm = 0\nx_end_mm = {end}\nrequire_tio = \"in\"\n"
+        );
     }),
     ("no option for a task", "no option implements the task `DLV`", |file| {
         file.options.retain(|it| it.task != "DLV");
@@ -129,10 +148,14 @@ const BREAKINGS: [Breaking; 40] = [
     ("answers without an end", "the robot would wait for ever", |file| {
         file.events = operator(0, "\"teleoperate\", \"teleprogram\"");
     }),
-    ("an operator without a camera", "runs the module CAM, which the robot does not have", |file| {
-        file.without_module("CAM");
-        file.events = operator(0, "\"teleoperate\", \"goal\"");
-    }),
+    (
+        "an operator without a camera",
+        "runs the module CAM, which the robot does not have",
+        |file| {
+            file.without_module("CAM");
+            file.events = operator(0, "\"teleoperate\", \"goal\"");
+        },
+    ),
 ];
 
 #[test]

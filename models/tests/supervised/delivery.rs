@@ -15,13 +15,20 @@ fn delivery() -> Mission {
 fn it_is_two_drives_with_the_options_of_the_adapter() {
     let mission = delivery();
     assert_eq!(mission.supervision, Some(Supervision::Cotama));
-    let does: Vec<_> = mission.objectives.iter().map(|it| it.does.as_ref().unwrap().value).collect();
+    let does: Vec<_> =
+        mission.objectives.iter().map(|it| it.does.as_ref().unwrap().value).collect();
     assert_eq!(does, [Does::Drive, Does::Receive, Does::Drive, Does::Deliver]);
-    let labels: Vec<_> = mission.scenario().activities.iter().map(|it| it.labels.join(" ")).collect();
+    let labels: Vec<_> =
+        mission.scenario().activities.iter().map(|it| it.labels.join(" ")).collect();
     let drive = "PF.OPT PF.OPTR PF.ODO PF.DEG";
     assert_eq!(labels, [drive, "hand-in", drive, "hand-over"]);
     let configured: Vec<_> = mission.tios.iter().filter_map(|tio| tio.configuration).collect();
-    assert!(configured.iter().zip(&mission.tios).all(|(configuration, tio)| configuration.name() == tio.id));
+    assert!(
+        configured
+            .iter()
+            .zip(&mission.tios)
+            .all(|(configuration, tio)| configuration.name() == tio.id)
+    );
 }
 
 #[test]
@@ -31,7 +38,11 @@ fn a_lost_module_removes_the_options_that_need_it() {
         let kind = mission.hardware.iter().position(|it| it.name == module).unwrap();
         let available = mission.available().without(kind, 1);
         let drive = &mission.scenario().activities[2];
-        let kept = drive.alternatives.iter().zip(&drive.labels).filter(|(it, _)| available.covers(it.needs));
+        let kept = drive
+            .alternatives
+            .iter()
+            .zip(&drive.labels)
+            .filter(|(it, _)| available.covers(it.needs));
         kept.map(|(_, label)| label.as_str()).collect::<Vec<_>>().join(" ")
     };
     assert_eq!(left("MCL"), "PF.ODO PF.DEG");
@@ -69,7 +80,8 @@ fn its_script_is_the_timeline_of_the_seven_points() {
     assert_eq!(told, timeline);
 }
 
-/// The answers of an operator are the ways through the local supervisor from the place where it asks him.
+/// The answers of an operator are the ways through the local supervisor from the place where it
+/// asks him.
 #[test]
 fn answers_follow_each_other_as_in_the_local_supervisor() {
     use cotama_models::cotama::local::NET;
@@ -88,7 +100,8 @@ fn answers_follow_each_other_as_in_the_local_supervisor() {
                 && it.take.iter().any(|arc| arc.place.0 as usize == place(from))
         })
     };
-    let all = [Answer::Teleoperate, Answer::Teleprogram, Answer::Waypoints, Answer::Path, Answer::Goal];
+    let all =
+        [Answer::Teleoperate, Answer::Teleprogram, Answer::Waypoints, Answer::Path, Answer::Goal];
     let places = [
         ("HandOver", Answer::FIRST),
         ("Teleoperated", Answer::Teleoperate.next()),
@@ -121,7 +134,8 @@ fn its_supervisor_is_the_one_written_by_hand() {
     let mission = delivery();
     let net = mission.supervisor().unwrap();
     assert_eq!(shape(&net.view().net()), shape(&global::NET));
-    // And the one written by hand passes the check, once its places have the names of the objectives.
+    // And the one written by hand passes the check, once its places have the names of the
+    // objectives.
     let mut by_hand = cotama_core::net::owned::OwnedNet::from(&global::NET);
     for (place, named) in by_hand.places.iter_mut().zip(&net.places) {
         place.name.clone_from(&named.name);

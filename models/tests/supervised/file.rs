@@ -64,7 +64,8 @@ pub(crate) struct File {
     pub(crate) events: String,
 }
 
-const MODULES: [&str; 11] = ["P3D", "SIM", "UST", "MCL", "NAV", "PPL", "GUI", "SMZ", "DVZ", "LAN", "CAM"];
+const MODULES: [&str; 11] =
+    ["P3D", "SIM", "UST", "MCL", "NAV", "PPL", "GUI", "SMZ", "DVZ", "LAN", "CAM"];
 const MODES: [&str; 6] = ["RT1", "LOC2", "SON1", "COL1", "COM1", "OPR1"];
 const ANSWERS: [&str; 7] = [
     "\"teleoperate\", \"teleprogram\", \"path\"",
@@ -91,7 +92,8 @@ fn standing(id: &str, task: &'static str) -> Option_ {
 }
 
 impl File {
-    /// A right mission: one object or more, received after at least one drive and delivered after at least another.
+    /// A right mission: one object or more, received after at least one drive and delivered after
+    /// at least another.
     pub(crate) fn right(seed: u64) -> Self {
         let mut random = Random(seed);
         let mut objectives = Vec::new();
@@ -130,8 +132,11 @@ impl File {
         for zone in 0..random.below(3) {
             let start = random.below(x);
             let end = start + 1 + random.below(x - start);
-            let hardware =
-                random.one_of(&["", "require_hardware = \"UST\"\n", "require_hardware = \"P3D\"\n"]);
+            let hardware = random.one_of(&[
+                "",
+                "require_hardware = \"UST\"\n",
+                "require_hardware = \"P3D\"\n",
+            ]);
             let _ = write!(
                 zones,
                 "[[zone]]\nid = \"zone{zone}\"\nx_start_mm = {start}\nx_end_mm = {end}\nspeed_max_mm_s = 200\n{hardware}"
@@ -184,13 +189,18 @@ pub(crate) fn failure(x: u64, mode: &str) -> String {
 }
 
 pub(crate) fn operator(x: u64, answers: &str) -> String {
-    format!("[[run.event]]\nx_mm = {x}\nkind = \"operator\"\nanswers = [{answers}]\ndelay_ms = 5000\n")
+    format!(
+        "[[run.event]]\nx_mm = {x}\nkind = \"operator\"\nanswers = [{answers}]\ndelay_ms = 5000\n"
+    )
 }
 
 impl fmt::Display for File {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { supervision, path_length, limits: [duration, energy], .. } = self;
-        writeln!(f, "format = \"panorama-mission/1\"\nname = \"generated\"\npath_length_mm = {path_length}")?;
+        writeln!(
+            f,
+            "format = \"panorama-mission/1\"\nname = \"generated\"\npath_length_mm = {path_length}"
+        )?;
         write!(f, "{supervision}")?;
         writeln!(f, "[limits]\norder = [\"duration\", \"energy\"]\nduration_ms = {duration}")?;
         writeln!(f, "energy_mj = {energy}\n[robot]\nmass_g = 9000\nspeed_max_mm_s = 300")?;

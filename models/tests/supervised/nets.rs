@@ -3,7 +3,9 @@
 use crate::file::File;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{EventId, OutputId, PlaceId};
-use cotama_models::cotama::mission_net::{MAX_OBJECTIVES, MissionNetError, check, global_supervisor};
+use cotama_models::cotama::mission_net::{
+    MAX_OBJECTIVES, MissionNetError, check, global_supervisor,
+};
 use cotama_models::embedded;
 use cotama_models::mission::Mission;
 
@@ -29,10 +31,14 @@ fn mutants(net: &OwnedNet) -> Vec<(String, OwnedNet)> {
                 });
             }
             if transition.give[0].place != place {
-                add(format!("{name} gives to {place:?}"), &|it| it.transitions[number].give[0].place = place);
+                add(format!("{name} gives to {place:?}"), &|it| {
+                    it.transitions[number].give[0].place = place
+                });
             }
         }
-        for event in ids(net.events.len()).map(EventId).filter(|&event| transition.on != Some(event)) {
+        for event in
+            ids(net.events.len()).map(EventId).filter(|&event| transition.on != Some(event))
+        {
             add(format!("{name} on {event:?}"), &|it| it.transitions[number].on = Some(event));
         }
         for output in ids(net.outputs.len()).map(OutputId) {
@@ -117,7 +123,10 @@ fn objectives_that_no_supervisor_can_have_are_refused() {
     let patrol = embedded::mission("patrol").unwrap();
     let plain = Mission::parse(patrol.name, patrol.text).unwrap();
     assert_eq!(plain.supervisor(), None);
-    assert_eq!(global_supervisor(&plain.objectives), Err(MissionNetError::NotSupervised { objective: 0 }));
+    assert_eq!(
+        global_supervisor(&plain.objectives),
+        Err(MissionNetError::NotSupervised { objective: 0 })
+    );
 }
 
 #[test]

@@ -22,9 +22,12 @@ pub(super) fn section(view: &View<'_>) -> String {
         }
     };
     let chosen = chosen(view);
-    let mut html = String::from("<section class=\"activities\"><h2>Activities and candidates</h2>\n");
-    let combinations =
-        mission.scenario().combinations().map_or("more than 3.4 × 10³⁸".into(), super::format::grouped);
+    let mut html =
+        String::from("<section class=\"activities\"><h2>Activities and candidates</h2>\n");
+    let combinations = mission
+        .scenario()
+        .combinations()
+        .map_or("more than 3.4 × 10³⁸".into(), super::format::grouped);
     let _ = write!(
         html,
         "<p class=\"note\">Candidates are the products of the options of an activity’s tasks; constraints of \
@@ -33,13 +36,16 @@ pub(super) fn section(view: &View<'_>) -> String {
          <span>Speed limit</span><span>Candidates</span><span>Chosen</span></div>\n",
     );
     let mut budget = MAX_CANDIDATES;
-    for (step, activity) in view.activities.iter().zip(&mission.scenario().activities).take(MAX_ROWS) {
+    for (step, activity) in
+        view.activities.iter().zip(&mission.scenario().activities).take(MAX_ROWS)
+    {
         let choices = chosen.get(step.id.as_str()).map_or(&[][..], Vec::as_slice);
         row(&mut html, mission, step, activity, choices, &mut budget);
     }
     let hidden = view.activities.len().saturating_sub(MAX_ROWS);
     if hidden > 0 {
-        let _ = writeln!(html, "<p class=\"note\">{hidden} further activities are in the mission.</p>");
+        let _ =
+            writeln!(html, "<p class=\"note\">{hidden} further activities are in the mission.</p>");
     }
     html.push_str("</section>\n");
     html
@@ -66,8 +72,9 @@ fn row(
     budget: &mut usize,
 ) {
     let objective = mission.objectives.get(activity.objective);
-    let tasks = objective
-        .map_or(Vec::new(), |it| it.tasks.iter().map(|task| super::plans::task_name(*task)).collect());
+    let tasks = objective.map_or(Vec::new(), |it| {
+        it.tasks.iter().map(|task| super::plans::task_name(*task)).collect()
+    });
     let range = if step.travels() {
         format!("{} – {}", milli(step.x_start_mm.into(), 1), metres(step.x_end_mm))
     } else {
@@ -117,7 +124,8 @@ fn table(html: &mut String, activity: &PlannedActivity, chosen: &str) {
         let rest = whole.whole(alternative);
         let [duration, energy] = alternative.cost(rest).unwrap_or([0; 2]);
         let quality = alternative.quality_of(rest).unwrap_or(0);
-        let mark = if label == chosen { (" class=\"chosen\"", " <em>chosen</em>") } else { ("", "") };
+        let mark =
+            if label == chosen { (" class=\"chosen\"", " <em>chosen</em>") } else { ("", "") };
         let speed = if whole.travels() { speed(alternative.speed.0) } else { "–".into() };
         let _ = writeln!(
             html,

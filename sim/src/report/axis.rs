@@ -4,14 +4,15 @@ use super::format::milli;
 use super::svg::{Svg, text_width};
 use super::view::View;
 
-/// The numbers from `low` to `high` that are multiples of 1, 2 or 5 times a power of ten: at most `most` of
-/// them, as many as can be. Also the step between them.
+/// The numbers from `low` to `high` that are multiples of 1, 2 or 5 times a power of ten: at most
+/// `most` of them, as many as can be. Also the step between them.
 pub(super) fn ticks(low: i128, high: i128, most: i128) -> (Vec<i128>, i128) {
     let mut step: i128 = 1;
     let mut factors = [2, 5, 10].iter().cycle();
     let mut power: i128 = 1;
-    let count =
-        |step: i128| high.div_euclid(step) - low.div_euclid(step) + i128::from(low.rem_euclid(step) == 0);
+    let count = |step: i128| {
+        high.div_euclid(step) - low.div_euclid(step) + i128::from(low.rem_euclid(step) == 0)
+    };
     while count(step) > most.max(1) && power < 1_000_000_000_000_000_000_000 {
         let factor = *factors.next().unwrap_or(&10);
         step = power * factor;
@@ -98,8 +99,8 @@ struct Band {
 
 /// The axis along the path: distance, and at each stop a piece of time in between.
 ///
-/// The pieces of time get the share of the width that they have of the time of the run, but at most six tenths
-/// when there is a path to show, and never less than so much for an activity.
+/// The pieces of time get the share of the width that they have of the time of the run, but at most
+/// six tenths when there is a path to show, and never less than so much for an activity.
 pub(super) struct Axis {
     left: f64,
     per_mm: f64,
@@ -111,7 +112,8 @@ pub(super) struct Axis {
 impl Axis {
     pub(super) fn new(view: &View<'_>, layout: Layout) -> Self {
         let whole = layout.end() - layout.left;
-        let total_us = view.last().1.max(view.activities.iter().map(|step| step.end_us).max().unwrap_or(0));
+        let total_us =
+            view.last().1.max(view.activities.iter().map(|step| step.end_us).max().unwrap_or(0));
         let total_us = total_us.max(1) as f64;
         let duration = |start: u64, end: u64| end.saturating_sub(start) as f64;
         let wish = |stop: &super::view::Stop| {
@@ -120,7 +122,11 @@ impl Axis {
         };
         let wishes: f64 = view.stops.iter().map(wish).sum();
         let most = if view.length_mm == 0 { whole } else { 0.6 * whole };
-        let shrink = if wishes > most || (view.length_mm == 0 && wishes > 0.0) { most / wishes } else { 1.0 };
+        let shrink = if wishes > most || (view.length_mm == 0 && wishes > 0.0) {
+            most / wishes
+        } else {
+            1.0
+        };
         let per_mm = (whole - wishes * shrink).max(0.0) / (view.length_mm.max(1) as f64);
         let mut bands = Vec::new();
         let mut before = 0.0;
@@ -176,8 +182,9 @@ impl Axis {
         let mut free = f64::MIN;
         for band in &self.bands {
             let middle = band.left + band.width / 2.0;
-            let duration =
-                super::format::seconds(band.end_us.saturating_sub(band.start_us).saturating_add(500) / 1000);
+            let duration = super::format::seconds(
+                band.end_us.saturating_sub(band.start_us).saturating_add(500) / 1000,
+            );
             let planned = if band.reached { "" } else { " planned" };
             let label = format!("stop {duration}{planned}");
             let half = text_width(&label, self.layout.size - 1.0) / 2.0;
@@ -201,7 +208,11 @@ impl Axis {
             }
             svg.line("axis", [x, bottom], [x, bottom + 4.0]);
             let unit = if number == last { " m" } else { "" };
-            svg.text("m small muted", [x, bottom + 16.0], &format!("{}{unit}", tick_label(number, step)));
+            svg.text(
+                "m small muted",
+                [x, bottom + 16.0],
+                &format!("{}{unit}", tick_label(number, step)),
+            );
         }
     }
 }

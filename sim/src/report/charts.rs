@@ -54,8 +54,11 @@ pub(super) fn section(view: &View<'_>) -> String {
         ..empty()
     };
     let powers = view.samples.iter().flat_map(|it| [it.planned_power_mw, it.real_power_mw]);
-    let cut =
-        if leaves_out_zero(powers.map(i128::from)) { " · the axis does not start at zero" } else { "" };
+    let cut = if leaves_out_zero(powers.map(i128::from)) {
+        " · the axis does not start at zero"
+    } else {
+        ""
+    };
     let charts = [
         Chart {
             title: "Speed",
@@ -125,7 +128,9 @@ fn margins(view: &View<'_>, value: fn(&Margins) -> i64) -> Vec<Measured> {
 fn replans(view: &View<'_>, value: fn(&Margins) -> i64) -> Vec<(u64, u64, i64, i64)> {
     let plans = view.plans.iter().skip(1).take(super::MAX_PINS);
     plans
-        .filter_map(|plan| Some((plan.x_mm, plan.t_us, value(plan.before.as_ref()?), value(&plan.after))))
+        .filter_map(|plan| {
+            Some((plan.x_mm, plan.t_us, value(plan.before.as_ref()?), value(&plan.after)))
+        })
         .collect()
 }
 

@@ -11,7 +11,8 @@ use std::fmt::Write;
 
 /// The table of decisions and the ladder.
 pub(super) fn section(view: &View<'_>) -> String {
-    let mut html = String::from("<section class=\"decisions\"><h2>What was decided, and why</h2>\n");
+    let mut html =
+        String::from("<section class=\"decisions\"><h2>What was decided, and why</h2>\n");
     html.push_str(
         "<p class=\"note\">From flags to a diagnosis, from its report to a class by severity and one by what is still \
          available; the worse class wins, and its event goes to a supervisor. Times are since the failure.</p>\n\
@@ -95,7 +96,8 @@ fn event(html: &mut String, chain: &Chain<'_>, since: &impl Fn(u64) -> String) {
     };
     let line = |it: &&'_ Fired| format!("{} {}", it.net, it.line());
     let fired: Vec<_> = chain.reaction.iter().map(line).collect();
-    let _ = write!(html, "<td>{} <small>{}</small></td>", escape(&fired.join(", ")), since(first.t_us));
+    let _ =
+        write!(html, "<td>{} <small>{}</small></td>", escape(&fired.join(", ")), since(first.t_us));
 }
 
 /// How far up each reaction went, the mission above and a parameter below.
@@ -113,8 +115,12 @@ fn ladder(html: &mut String, points: &[Point<'_>]) {
         let _ = write!(html, "<tr><th>{}</th>", capital(rung.name()));
         for point in points {
             if point.rungs().contains(&rung) {
-                let _ =
-                    write!(html, "<td class=\"step {}\">{}</td>", rung.name(), escape(&step(point, rung)));
+                let _ = write!(
+                    html,
+                    "<td class=\"step {}\">{}</td>",
+                    rung.name(),
+                    escape(&step(point, rung))
+                );
             } else {
                 html.push_str("<td></td>");
             }

@@ -15,7 +15,9 @@ pub(super) fn glyph(kind: &str, x: f64, y: f64) -> String {
         "fault" => {
             format!("M{}L{}M{}L{}", at(-4.5, -4.5), at(4.5, 4.5), at(-4.5, 4.5), at(4.5, -4.5))
         }
-        "repair" => format!("M{}L{}M{}L{}", at(-5.0, 0.0), at(5.0, 0.0), at(0.0, -5.0), at(0.0, 5.0)),
+        "repair" => {
+            format!("M{}L{}M{}L{}", at(-5.0, 0.0), at(5.0, 0.0), at(0.0, -5.0), at(0.0, 5.0))
+        }
         _ => format!("M{}L{}L{}L{}Z", at(0.0, -5.5), at(5.5, 0.0), at(0.0, 5.5), at(-5.5, 0.0)),
     }
 }
@@ -100,15 +102,23 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
         }
         Record::Configuration(it) => {
             let words = it.configuration.as_deref().unwrap_or("nothing");
-            Some(Row { mark: none(), words: format!("Runs: {words}"), lost: none(), origin: it.mode.clone() })
+            Some(Row {
+                mark: none(),
+                words: format!("Runs: {words}"),
+                lost: none(),
+                origin: it.mode.clone(),
+            })
         }
         Record::Request(it) => {
             let words = format!("Operator asked: {}; {}", it.cause, it.reason);
             Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none(), origin: none() })
         }
         Record::End(it) => {
-            let mark =
-                if it.outcome == Outcome::Completed { "<b>■</b>" } else { "<b class=\"bad\">■</b>" };
+            let mark = if it.outcome == Outcome::Completed {
+                "<b>■</b>"
+            } else {
+                "<b class=\"bad\">■</b>"
+            };
             let reason = it.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
             let words = format!("End of the run, {}{reason}", it.outcome.name());
             Some(Row { mark: mark.into(), words, lost: none(), origin: none() })
@@ -156,8 +166,12 @@ pub(super) fn section(view: &View<'_>) -> String {
 
 /// What happened between two plans: `4 obstacles (10.8 s lost)`, and so on; empty if nothing.
 pub(super) fn summary(events: &[&Event]) -> String {
-    let kinds =
-        [("obstacle", "obstacle"), ("fault", "fault"), ("repair", "repair"), ("odometry", "odometry error")];
+    let kinds = [
+        ("obstacle", "obstacle"),
+        ("fault", "fault"),
+        ("repair", "repair"),
+        ("odometry", "odometry error"),
+    ];
     let mut parts = Vec::new();
     for (kind, noun) in kinds {
         let of_kind = events.iter().filter(|event| short(event).0 == kind);

@@ -1,4 +1,5 @@
-//! Numbers for people. Everything in a trace is counted in thousandths of what is shown: mm, ms, mJ, mW, mm/s.
+//! Numbers for people. Everything in a trace is counted in thousandths of what is shown: mm, ms,
+//! mJ, mW, mm/s.
 
 /// A number of thousandths with so many decimals (at most 3), rounded half away from zero.
 ///
@@ -11,7 +12,11 @@ pub(super) fn milli(value: i128, decimals: usize) -> String {
     let (whole, part) = (rounded / SCALES[decimals], rounded % SCALES[decimals]);
     let sign = if value < 0 && rounded > 0 { "\u{2212}" } else { "" };
     let whole = grouped(whole);
-    if decimals == 0 { format!("{sign}{whole}") } else { format!("{sign}{whole}.{part:0decimals$}") }
+    if decimals == 0 {
+        format!("{sign}{whole}")
+    } else {
+        format!("{sign}{whole}.{part:0decimals$}")
+    }
 }
 
 /// Thousandths without needless zeros: 0.41, 118, 63.4.
@@ -110,9 +115,15 @@ mod tests {
 
     #[test]
     fn units_read_as_in_reports() {
-        assert_eq!((trimmed(410), trimmed(118_000), trimmed(0)), ("0.41".into(), "118".into(), "0".into()));
+        assert_eq!(
+            (trimmed(410), trimmed(118_000), trimmed(0)),
+            ("0.41".into(), "118".into(), "0".into())
+        );
         assert_eq!((clock(545_900), clock(7_300_000)), ("9 min 6 s".into(), "2 h 1 min".into()));
         assert_eq!((watt_hours(8_640_000), percent(1, 8)), ("2.40\u{a0}Wh".into(), "12.5".into()));
-        assert_eq!((count(0, "replan"), count(1, "replan")), ("no replans".into(), "1 replan".into()));
+        assert_eq!(
+            (count(0, "replan"), count(1, "replan")),
+            ("no replans".into(), "1 replan".into())
+        );
     }
 }

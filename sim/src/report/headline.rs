@@ -31,7 +31,9 @@ fn outcome(outcome: Option<Outcome>) -> (&'static str, &'static str, &'static st
 }
 
 fn sentence(view: &View<'_>) -> String {
-    let Some(end) = view.end else { return "The trace breaks off before the end of the run.".into() };
+    let Some(end) = view.end else {
+        return "The trace breaks off before the end of the run.".into();
+    };
     let reason = end.reason.as_ref().map_or(String::new(), |reason| format!(": {reason}"));
     match end.outcome {
         Outcome::Completed => {
@@ -50,7 +52,9 @@ fn sentence(view: &View<'_>) -> String {
         Outcome::Safe if !view.points.is_empty() => {
             format!("The robot stands at {}{reason}.", metres(end.x_mm))
         }
-        Outcome::Safe => format!("The robot stopped at {} and asked its operator{reason}.", metres(end.x_mm)),
+        Outcome::Safe => {
+            format!("The robot stopped at {} and asked its operator{reason}.", metres(end.x_mm))
+        }
         Outcome::Failed => format!("The run ended at {}{reason}.", metres(end.x_mm)),
     }
 }
@@ -66,7 +70,8 @@ fn gauge(
     share: [u64; 2],
 ) {
     let [part, whole] = share;
-    let width = fixed(if whole == 0 { 100.0 } else { (part as f64 / whole as f64 * 100.0).min(100.0) });
+    let width =
+        fixed(if whole == 0 { 100.0 } else { (part as f64 / whole as f64 * 100.0).min(100.0) });
     let left = percent(margin.unsigned_abs(), whole);
     let (class, words) = if margin < 0 { (" over", "over the limit") } else { ("", "left") };
     let margin = milli(margin.unsigned_abs().into(), 1);
@@ -102,11 +107,13 @@ pub(super) fn section(view: &View<'_>) -> String {
         escape(name(view)),
         escape(&sentence(view))
     );
-    let used = view
-        .end
-        .map_or_else(|| view.samples.last().map_or(Used::default(), |sample| sample.used), |end| end.used);
-    let margin =
-        |limit: u64, used: u64| i64::try_from(i128::from(limit) - i128::from(used)).unwrap_or(i64::MIN);
+    let used = view.end.map_or_else(
+        || view.samples.last().map_or(Used::default(), |sample| sample.used),
+        |end| end.used,
+    );
+    let margin = |limit: u64, used: u64| {
+        i64::try_from(i128::from(limit) - i128::from(used)).unwrap_or(i64::MIN)
+    };
     let limits = header.limits;
     let left = view.end.map_or(
         Margins {
@@ -140,9 +147,15 @@ pub(super) fn section(view: &View<'_>) -> String {
     let requests = view.requests.len() as u64;
     let travelled = view.last().0;
     let facts = [
-        ("Distance", format!("{} of {}", milli(travelled.into(), 1), metres(header.path_length_mm))),
+        (
+            "Distance",
+            format!("{} of {}", milli(travelled.into(), 1), metres(header.path_length_mm)),
+        ),
         ("Replans", grouped(view.end.map_or(plans, |end| end.replans).into())),
-        ("Operator requests", grouped(view.end.map_or(requests, |end| end.operator_requests).into())),
+        (
+            "Operator requests",
+            grouped(view.end.map_or(requests, |end| end.operator_requests).into()),
+        ),
         happened(view),
         ("Faults", faults(header)),
         ("Seed", header.options.seed.to_string()),

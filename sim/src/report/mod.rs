@@ -1,9 +1,9 @@
 //! A run as one page: what was planned, what happened, what changed and why.
 //!
-//! The page is made from a [`Trace`] alone and needs nothing else: no network, no fonts, no scripts. Equal
-//! traces give equal bytes. It suits wide and narrow screens, light and dark ones, and paper; every drawing is
-//! there twice, for wide and for narrow, so that its text can be read. The table of plans follows Tables 6 and 7 of Lambert et al., J. Intell. Robot.
-//! Syst. 110, 2024.
+//! The page is made from a [`Trace`] alone and needs nothing else: no network, no fonts, no
+//! scripts. Equal traces give equal bytes. It suits wide and narrow screens, light and dark ones,
+//! and paper; every drawing is there twice, for wide and for narrow, so that its text can be read.
+//! The table of plans follows Tables 6 and 7 of Lambert et al., J. Intell. Robot. Syst. 110, 2024.
 
 #![allow(clippy::cast_precision_loss)] // places on a page need no more than 52 bits
 
@@ -50,8 +50,8 @@ const MAX_CANDIDATES: usize = 2_000;
 
 /// Writes the report of a run as an HTML page.
 ///
-/// Whatever the trace says is written as text. Parts that would make the page unwieldy are cut, and the page
-/// says so. A mission that cannot be read leaves out what only it tells.
+/// Whatever the trace says is written as text. Parts that would make the page unwieldy are cut, and
+/// the page says so. A mission that cannot be read leaves out what only it tells.
 ///
 /// ```
 /// use cotama_models::embedded;

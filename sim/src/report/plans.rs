@@ -1,4 +1,5 @@
-//! All plans in one table: rows are plans, columns are activities, as in Tables 6 and 7 of Lambert et al. 2024.
+//! All plans in one table: rows are plans, columns are activities, as in Tables 6 and 7 of Lambert
+//! et al. 2024.
 
 use super::events::capital;
 use super::format::{metres, trimmed};
@@ -57,8 +58,9 @@ pub(super) fn section(view: &View<'_>) -> String {
                 html.push_str("<td class=\"done\"></td>");
                 continue;
             };
-            let was =
-                before.get(id).filter(|was| was.choice != row.choice || was.speed_mm_s != row.speed_mm_s);
+            let was = before
+                .get(id)
+                .filter(|was| was.choice != row.choice || was.speed_mm_s != row.speed_mm_s);
             let speed = if row.speed_mm_s == 0 { "–".into() } else { trimmed(row.speed_mm_s) };
             let (changed, title) = match was {
                 Some(was) => (" changed", format!(" title=\"was {}\"", escape(&was.choice))),
@@ -132,7 +134,8 @@ fn legend(html: &mut String, view: &View<'_>, families: &[&str]) {
     html.push_str("<ul class=\"legend\">");
     for id in used {
         let Some(tio) = mission.tios.iter().find(|tio| tio.id == id) else { continue };
-        let class = if families.contains(&id) { tint(families, family(id)) } else { "plain".into() };
+        let class =
+            if families.contains(&id) { tint(families, family(id)) } else { "plain".into() };
         let _ = write!(
             html,
             "<li><b class=\"{class}\">{}</b>{}: {}</li>",

@@ -56,7 +56,11 @@ fn card(html: &mut String, view: &View<'_>, number: usize) {
         metres(plan.x_mm),
         moment(plan.t_us),
         escape(&plan.first_activity),
-        escape(&if view.points.is_empty() { why(plan, number, &events) } else { failed(view, plan) }),
+        escape(&if view.points.is_empty() {
+            why(plan, number, &events)
+        } else {
+            failed(view, plan)
+        }),
         changes(before, plan)
     );
     margins(html, plan, view.points.is_empty());
@@ -81,7 +85,8 @@ fn why(plan: &Plan, number: usize, events: &[&Event]) -> String {
     let old = number - 1;
     let below = |margins: &Margins, cause: &str| {
         let duration = cause.starts_with("duration");
-        let (value, unit) = if duration { (margins.duration_ms, "s") } else { (margins.energy_mj, "J") };
+        let (value, unit) =
+            if duration { (margins.duration_ms, "s") } else { (margins.energy_mj, "J") };
         format!("{}\u{a0}{unit}", milli(value.into(), 1))
     };
     let mut text = match (&plan.before, plan.cause.as_str()) {
@@ -102,7 +107,12 @@ fn why(plan: &Plan, number: usize, events: &[&Event]) -> String {
             let _ = write!(text, " Directly before, at {}: {}.", metres(last.x_mm), short(last).2);
         }
         Some(last) => {
-            let _ = write!(text, " The last event before, at {}: {}.", metres(last.x_mm), short(last).2);
+            let _ = write!(
+                text,
+                " The last event before, at {}: {}.",
+                metres(last.x_mm),
+                short(last).2
+            );
         }
         None => {
             let _ = write!(text, " Nothing else had happened since plan {old}.");
@@ -116,12 +126,17 @@ fn why(plan: &Plan, number: usize, events: &[&Event]) -> String {
 
 /// A row's choice, with its speed if that changes too.
 fn said(row: &PlanRow, with_speed: bool) -> String {
-    if with_speed { format!("{} at {}", row.choice, speed(row.speed_mm_s)) } else { row.choice.clone() }
+    if with_speed {
+        format!("{} at {}", row.choice, speed(row.speed_mm_s))
+    } else {
+        row.choice.clone()
+    }
 }
 
 /// Activities whose choice changed; neighbours with the same change together.
 fn changes(before: &Plan, after: &Plan) -> String {
-    let old: HashMap<&str, &PlanRow> = before.plan.iter().map(|row| (row.activity.as_str(), row)).collect();
+    let old: HashMap<&str, &PlanRow> =
+        before.plan.iter().map(|row| (row.activity.as_str(), row)).collect();
     let mut groups: Vec<(Vec<&str>, String, String)> = Vec::new();
     let mut open = false;
     for row in &after.plan {
@@ -163,7 +178,10 @@ fn changes(before: &Plan, after: &Plan) -> String {
     if total == 1 {
         html.push_str("</ul>\n<p class=\"note\">The only remaining activity.</p>");
     } else {
-        let _ = write!(html, "</ul>\n<p class=\"note\">{changed} of the {total} remaining activities.</p>");
+        let _ = write!(
+            html,
+            "</ul>\n<p class=\"note\">{changed} of the {total} remaining activities.</p>"
+        );
     }
     html
 }
@@ -178,10 +196,10 @@ fn margins(html: &mut String, plan: &Plan, with_ends: bool) {
         format!("<td class=\"{class}\">{}\u{a0}{unit}</td>", milli(value.into(), 1))
     };
     let mut row = |name: &str, class: &str, margins: Option<&Margins>| {
-        let cells = margins
-            .map_or("<td class=\"n muted\" colspan=\"2\">no way with this hardware</td>".into(), |it| {
-                format!("{}{}", cell(it.duration_ms, "s"), cell(it.energy_mj, "J"))
-            });
+        let cells = margins.map_or(
+            "<td class=\"n muted\" colspan=\"2\">no way with this hardware</td>".into(),
+            |it| format!("{}{}", cell(it.duration_ms, "s"), cell(it.energy_mj, "J")),
+        );
         let _ = writeln!(html, "<tr class=\"{class}\"><th>{name}</th>{cells}</tr>");
     };
     if let Some(before) = &plan.before {

@@ -6,15 +6,18 @@ use std::fmt::Write;
 /// A point of a series: where it is drawn along the axis, and its value in thousandths.
 pub(super) type Point = (f64, i64);
 
-/// At most four points for each column of a screen: the first, the lowest, the highest and the last one.
+/// At most four points for each column of a screen: the first, the lowest, the highest and the last
+/// one.
 ///
-/// The order of the points is kept, so that what is drawn covers the same pixels as all points would.
+/// The order of the points is kept, so that what is drawn covers the same pixels as all points
+/// would.
 pub(super) fn thinned(points: &[Point]) -> Vec<Point> {
     let mut kept = Vec::new();
     let mut start = 0;
     while let Some(&(x, _)) = points.get(start) {
         let column = x.round();
-        let length = points[start..].iter().take_while(|point| point.0.round() <= column).count().max(1);
+        let length =
+            points[start..].iter().take_while(|point| point.0.round() <= column).count().max(1);
         let piece = &points[start..start + length];
         let places = 0..piece.len();
         let lowest = places.clone().min_by_key(|&place| piece[place].1).unwrap_or(0);
@@ -136,7 +139,8 @@ mod tests {
         let points: Vec<Point> = [5, 9, 3, 4, 4].iter().map(|&value| (1.0, value)).collect();
         let kept: Vec<i64> = thinned(&points).into_iter().map(|point| point.1).collect();
         assert_eq!(kept, [5, 9, 3, 4]);
-        let many: Vec<Point> = (0..100_000).map(|it| (f64::from(it) / 1000.0, i64::from(it % 7))).collect();
+        let many: Vec<Point> =
+            (0..100_000).map(|it| (f64::from(it) / 1000.0, i64::from(it % 7))).collect();
         assert!(thinned(&many).len() <= 4 * 101);
     }
 

@@ -37,7 +37,9 @@ pub(super) fn section(view: &View<'_>) -> String {
         let _ = write!(html, "<span class=\"key\">{}{words}</span>", glyph.trim_end());
     }
     if !view.stops.is_empty() {
-        html.push_str("<span class=\"key\"><i class=\"swatch stop\"></i>stop: time passes, no path</span>");
+        html.push_str(
+            "<span class=\"key\"><i class=\"swatch stop\"></i>stop: time passes, no path</span>",
+        );
     }
     html.push_str("</figcaption></figure></section>\n");
     html
@@ -61,7 +63,8 @@ impl Lanes {
 
     /// The same in the first lanes only.
     fn place_within(&mut self, most: usize, from: f64, to: f64) -> Option<usize> {
-        let clear = |lane: &Vec<(f64, f64)>| lane.iter().all(|&(start, end)| end <= from || to <= start);
+        let clear =
+            |lane: &Vec<(f64, f64)>| lane.iter().all(|&(start, end)| end <= from || to <= start);
         let lane = match self.lanes.iter().take(most).position(clear) {
             Some(lane) => lane,
             None if self.lanes.len() < self.most.min(most) => {
@@ -79,13 +82,19 @@ impl Lanes {
     }
 }
 
-/// The numbered pins of the replans, with a line down to `bottom`; where they crowd, the line alone.
+/// The numbered pins of the replans, with a line down to `bottom`; where they crowd, the line
+/// alone.
 pub(super) fn draw_pins(svg: &mut Svg, axis: &Axis, view: &View<'_>, y: f64, bottom: f64) {
     let mut free = f64::MIN;
     for (number, plan) in view.plans.iter().enumerate().skip(1).take(MAX_PINS) {
         let x = axis.at(plan.x_mm, plan.t_us);
         let radius = if number < 100 { 8.0 } else { 11.0 };
-        let title = format!("Plan {number} at {}, {}: {}", metres(plan.x_mm), moment(plan.t_us), plan.cause);
+        let title = format!(
+            "Plan {number} at {}, {}: {}",
+            metres(plan.x_mm),
+            moment(plan.t_us),
+            plan.cause
+        );
         svg.titled(&title, |svg| {
             svg.line("replan", [x, y], [x, bottom]);
             if x - radius > free {
@@ -97,7 +106,8 @@ pub(super) fn draw_pins(svg: &mut Svg, axis: &Axis, view: &View<'_>, y: f64, bot
     }
 }
 
-/// Where the run ended, if that is not the end of the path; in words too, with a layout to write them in.
+/// Where the run ended, if that is not the end of the path; in words too, with a layout to write
+/// them in.
 pub(super) fn draw_end(
     svg: &mut Svg,
     axis: &Axis,
@@ -147,8 +157,8 @@ impl<A> Rows<A> {
         }
     }
 
-    /// A row of bars, one after the other. What has no room for its label has it underneath; with `merge`,
-    /// neighbours share one: `A2–A3`.
+    /// A row of bars, one after the other. What has no room for its label has it underneath; with
+    /// `merge`, neighbours share one: `A2–A3`.
     pub(super) fn bars(&mut self, bars: &[Bar], merge: bool) {
         let size = self.layout.size - 1.0;
         let mut runs: Vec<(usize, usize)> = Vec::new();
@@ -198,7 +208,11 @@ impl Rows<&Axis> {
         for zone in zones {
             let (from, to) = (self.axis.after(zone.x_start.0), self.axis.before(zone.x_end.0));
             let demands = demands(zone, mission);
-            let label = if demands.is_empty() { zone.id.clone() } else { format!("{}  {demands}", zone.id) };
+            let label = if demands.is_empty() {
+                zone.id.clone()
+            } else {
+                format!("{}  {demands}", zone.id)
+            };
             let width = text_width(&label, size) + 8.0;
             let inside = width <= to - from;
             let leftwards = !inside && to + width > self.layout.width;
@@ -206,8 +220,12 @@ impl Rows<&Axis> {
             let right = if inside || leftwards { to } else { to + width };
             let Some(lane) = lanes.place(left, right) else { continue };
             let y = self.y + lane as f64 * (BAR + 3.0);
-            let title =
-                format!("{}: {} to {}, {demands}", zone.id, metres(zone.x_start.0), metres(zone.x_end.0));
+            let title = format!(
+                "{}: {} to {}, {demands}",
+                zone.id,
+                metres(zone.x_start.0),
+                metres(zone.x_end.0)
+            );
             self.svg.titled(&title, |svg| {
                 svg.rect("zone", [from + 0.5, y], [(to - from - 1.0).max(1.0), BAR]);
                 if inside {
@@ -226,7 +244,8 @@ impl Rows<&Axis> {
         self.name("Events");
         let size = self.layout.size - 1.0;
         let mut events: Vec<_> = view.events.iter().take(MAX_MARKS).collect();
-        // Those that change the hardware are labelled first; where it is crowded, the others lose their labels.
+        // Those that change the hardware are labelled first; where it is crowded, the others lose
+        // their labels.
         events.sort_by_key(|event| !matches!(short(event).0, "fault" | "repair"));
         if events.is_empty() {
             self.svg.text("small muted", [self.layout.left, self.y + 13.0], "none");
@@ -257,7 +276,8 @@ impl Rows<&Axis> {
 
 /// What a zone demands: `≤ 0.33 m/s, sonar`.
 pub(super) fn demands(zone: &Zone, mission: &Mission) -> String {
-    let mut demands: Vec<String> = zone.speed_max.iter().map(|it| format!("≤ {}", speed(it.0))).collect();
+    let mut demands: Vec<String> =
+        zone.speed_max.iter().map(|it| format!("≤ {}", speed(it.0))).collect();
     if let Some(required) = &zone.require_hardware {
         let name = mission.hardware.get(required.value.hardware).map_or("?", |it| it.name.as_str());
         let units = required.value.units;
@@ -290,7 +310,8 @@ fn objectives(view: &View<'_>, mission: &Mission, axis: &Axis) -> Vec<Bar> {
         }
         last = Some(planned.objective);
         let Some(objective) = mission.objectives.get(planned.objective) else { continue };
-        let tasks: Vec<_> = objective.tasks.iter().map(|task| super::plans::task_name(*task)).collect();
+        let tasks: Vec<_> =
+            objective.tasks.iter().map(|task| super::plans::task_name(*task)).collect();
         let class = if step.travels() { "bar" } else { "bar point" }.into();
         let title = format!("{}: {}", objective.id, tasks.join(", "));
         bars.push(Bar { from, to, class, label: objective.id.clone(), title });
@@ -313,7 +334,8 @@ fn draw(view: &View<'_>, layout: Layout) -> String {
         .map(|step| {
             let (from, to) = bar_of(step, &axis);
             let class = if step.started { "bar" } else { "bar todo" }.into();
-            let title = format!("{}: {} to {}", step.id, metres(step.x_start_mm), metres(step.x_end_mm));
+            let title =
+                format!("{}: {} to {}", step.id, metres(step.x_start_mm), metres(step.x_end_mm));
             Bar { from, to, class, label: step.id.clone(), title }
         })
         .collect();
@@ -341,7 +363,8 @@ fn draw(view: &View<'_>, layout: Layout) -> String {
     draw_pins(&mut under, &axis, view, 10.0, bottom);
     draw_end(&mut under, &axis, view, [10.0, bottom], Some(layout));
     let length = metres(view.length_mm);
-    let label = format!("The path of {length} with its zones, objectives, activities, choices and events");
+    let label =
+        format!("The path of {length} with its zones, objectives, activities, choices and events");
     under.append(&rows.svg);
     under.finish(layout.class, [layout.width, bottom + 38.0], &label)
 }

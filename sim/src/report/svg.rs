@@ -4,7 +4,8 @@
 
 use std::fmt::Write;
 
-/// Text made safe between tags and in attributes; characters that HTML does not allow become `U+FFFD`.
+/// Text made safe between tags and in attributes; characters that HTML does not allow become
+/// `U+FFFD`.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for char in text.chars() {
@@ -50,7 +51,8 @@ impl Svg {
 
     /// A rectangle; a negative width or height is none.
     pub(super) fn rect(&mut self, class: &str, [x, y]: [f64; 2], [width, height]: [f64; 2]) {
-        let (x, y, width, height) = (fixed(x), fixed(y), fixed(width.max(0.0)), fixed(height.max(0.0)));
+        let (x, y, width, height) =
+            (fixed(x), fixed(y), fixed(width.max(0.0)), fixed(height.max(0.0)));
         let _ = write!(
             self.body,
             "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>"
@@ -60,8 +62,10 @@ impl Svg {
     /// A straight line.
     pub(super) fn line(&mut self, class: &str, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2]) {
         let (x1, y1, x2, y2) = (fixed(x1), fixed(y1), fixed(x2), fixed(y2));
-        let _ =
-            write!(self.body, "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>");
+        let _ = write!(
+            self.body,
+            "<line class=\"{class}\" x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\"/>"
+        );
     }
 
     /// A path given by its commands.
@@ -74,7 +78,8 @@ impl Svg {
     /// A circle.
     pub(super) fn circle(&mut self, class: &str, [x, y]: [f64; 2], radius: f64) {
         let (x, y, radius) = (fixed(x), fixed(y), fixed(radius));
-        let _ = write!(self.body, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>");
+        let _ =
+            write!(self.body, "<circle class=\"{class}\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>");
     }
 
     /// Text with its base line at `y`; classes `m` and `e` put its middle or its end at `x`.

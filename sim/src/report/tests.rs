@@ -96,7 +96,9 @@ fn the_patrol_shows_its_outcome_all_plans_and_all_events() {
     assert_eq!(page.matches(" changed\"").count(), 2 + 3 + 1);
     assert!(page.contains("<span class=\"id\">A14–A15</span><s>M5 L2</s>"));
     assert!(page.contains("Directly before, at 63.4\u{a0}m: obstacle, 6.8\u{a0}s lost."));
-    assert!(page.contains("9 dropped: zone glass-out requires the moving option to use 1 of sonar"));
+    assert!(
+        page.contains("9 dropped: zone glass-out requires the moving option to use 1 of sonar")
+    );
     assert!(page.contains("768\u{202f}288\u{202f}795\u{202f}144\u{202f}192 plans"));
     assert_eq!(page.matches("<path class=\"mark obstacle\"").count(), 6 * 3 + 1);
     assert!(page.contains("cotama replay trace.jsonl"));
@@ -147,8 +149,9 @@ fn a_hostile_name_is_only_text() {
 
 #[test]
 fn the_other_outcomes_are_told_with_their_reasons() {
-    let safe =
-        patrol_under("event = [{ x_mm = 60000, kind = \"fault\", hardware = \"kinect\", units_lost = 1 }]");
+    let safe = patrol_under(
+        "event = [{ x_mm = 60000, kind = \"fault\", hardware = \"kinect\", units_lost = 1 }]",
+    );
     let page = html(&safe);
     assert_sound(&page);
     assert!(page.contains("<strong>Stopped safely</strong>"));
@@ -157,7 +160,9 @@ fn the_other_outcomes_are_told_with_their_reasons() {
     assert!(page.contains("run ended") && page.contains("class=\"bar todo\""));
 
     let failed = patrol_under("event = [{ x_mm = 187000, kind = \"obstacle\", delay_ms = 94000 }]");
-    assert!(matches!(failed.records.last(), Some(Record::End(end)) if end.outcome == Outcome::Failed));
+    assert!(
+        matches!(failed.records.last(), Some(Record::End(end)) if end.outcome == Outcome::Failed)
+    );
     let page = html(&failed);
     assert_sound(&page);
     assert!(page.contains("<strong>Failed</strong>") && page.contains("over the limit"));
@@ -237,7 +242,8 @@ fn numbers_at_their_ends_do_not_break_the_page() {
 #[test]
 fn thousands_of_replans_are_cut_and_said_to_be() {
     let mut trace = patrol();
-    let plan = trace.records.iter().find(|record| matches!(record, Record::Plan(_))).unwrap().clone();
+    let plan =
+        trace.records.iter().find(|record| matches!(record, Record::Plan(_))).unwrap().clone();
     let end = trace.records.pop().unwrap();
     trace.records.extend(std::iter::repeat_n(plan, 10_000));
     trace.records.push(end);
@@ -256,10 +262,14 @@ fn delivery_under(faults: FaultChoice) -> Trace {
 fn failures(modes: &[&str]) -> FaultChoice {
     let text = embedded::mission("delivery").unwrap().text;
     let mission = Mission::parse("delivery", text).unwrap();
-    let event = |mode: &&str| format!("[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"{mode}\"\n");
+    let event =
+        |mode: &&str| format!("[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"{mode}\"\n");
     let body: String = modes.iter().map(event).collect();
     let body = format!("format = \"panorama-faults/1\"\n{body}");
-    FaultChoice::Given { source: "f.toml".into(), faults: Faults::parse("f.toml", &body, &mission).unwrap() }
+    FaultChoice::Given {
+        source: "f.toml".into(),
+        faults: Faults::parse("f.toml", &body, &mission).unwrap(),
+    }
 }
 
 #[test]
@@ -268,15 +278,22 @@ fn the_delivery_shows_seven_points_with_their_decisions_and_how_far_up_they_went
     assert_sound(&page);
     // Marked in both figures, wide and narrow.
     assert_eq!(page.matches("<circle class=\"pin point\"").count(), 7 * 4);
-    for lane in ["Failures", "Mode", "Runs", "Global", "Local", "Adapter PF", "Adapter TO", "Permit"] {
+    for lane in
+        ["Failures", "Mode", "Runs", "Global", "Local", "Adapter PF", "Adapter TO", "Permit"]
+    {
         assert!(page.contains(&format!(">{lane}</text>")), "{lane}");
     }
     let decisions = page.split_once("class=\"decisions\"").unwrap().1;
-    let [table, ladder] = decisions.split("<h2>The ladder</h2>").collect::<Vec<_>>()[..] else { panic!() };
+    let [table, ladder] = decisions.split("<h2>The ladder</h2>").collect::<Vec<_>>()[..] else {
+        panic!()
+    };
     assert_eq!(table.matches("<tr class=\"point\">").count(), 7);
     assert!(table.contains("<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>sonar</td><td>medium → adapter</td><td>adapter</td><td><b>adapt_sonar</b> <small>5.0\u{a0}s, sonar1</small></td><td>pf a8 <small>5.1\u{a0}s</small></td><td class=\"n\">5.2\u{a0}s</td>"));
     let steps = |rung: &str| ladder.matches(&format!("<td class=\"step {rung}\">")).count();
-    assert_eq!(["parameter", "set", "activity", "objective", "mission"].map(steps), [1, 1, 4, 1, 0]);
+    assert_eq!(
+        ["parameter", "set", "activity", "objective", "mission"].map(steps),
+        [1, 1, 4, 1, 0]
+    );
     assert!(page.contains("Point 6, SON1: sonar array, one transducer stuck at maximum range."));
     assert!(page.contains("<dt>Failures</dt><dd>4, 4 found</dd>"));
 }
@@ -286,7 +303,9 @@ fn a_supervised_mission_that_is_given_up_says_why() {
     let page = html(&delivery_under(failures(&["BAT2"])));
     assert_sound(&page);
     assert!(
-        page.contains("The robot stands at 5.0\u{a0}m: the global supervisor ended the mission: battery"),
+        page.contains(
+            "The robot stands at 5.0\u{a0}m: the global supervisor ended the mission: battery"
+        ),
         "{page}"
     );
     assert!(page.contains("<td class=\"step mission\">ended safely</td>"));

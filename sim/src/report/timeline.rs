@@ -1,4 +1,5 @@
-//! Who was in which place when: the supervisors of a mission over time, one lane each, with speed, position and margin below.
+//! Who was in which place when: the supervisors of a mission over time, one lane each, with speed,
+//! position and margin below.
 
 use super::MAX_POINTS;
 use super::axis::{Layout, NARROW, WIDE, tick_label, ticks};
@@ -13,10 +14,16 @@ use cotama_models::cotama::delivery;
 use std::fmt::Write;
 
 /// The nets that have a lane, with its name.
-const NETS: [(&str, &str); 5] =
-    [("gs", "Global"), ("ls", "Local"), ("pf", "Adapter PF"), ("to", "Adapter TO"), ("permit", "Permit")];
+const NETS: [(&str, &str); 5] = [
+    ("gs", "Global"),
+    ("ls", "Local"),
+    ("pf", "Adapter PF"),
+    ("to", "Adapter TO"),
+    ("permit", "Permit"),
+];
 
-/// The timeline and its key; once more from the first point to the last, if those lie close together.
+/// The timeline and its key; once more from the first point to the last, if those lie close
+/// together.
 pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from(
         "<section class=\"timeline\"><h2>Who was where, when</h2>\n<p class=\"note\">A lane is a supervisor, a bar a place \
@@ -25,7 +32,8 @@ pub(super) fn section(view: &View<'_>) -> String {
     );
     let whole = Span { from_us: 0, to_us: view.last().1.max(1) };
     figure(&mut html, view, whole, "The whole mission");
-    let (first, last) = (view.points.first().map(|it| it.t_us), view.points.last().map(|it| it.t_us));
+    let (first, last) =
+        (view.points.first().map(|it| it.t_us), view.points.last().map(|it| it.t_us));
     if let (Some(first), Some(last)) = (first, last) {
         let room = (last - first) / 12 + 1_000_000;
         let end = leaving(view, last).saturating_add(room).min(whole.to_us);
@@ -86,7 +94,8 @@ impl Time {
     /// The axis line and its ticks in seconds, with grid lines up to `top`.
     fn draw(&self, svg: &mut Svg, top: f64, bottom: f64) {
         let ms = |us: u64| i128::from(us / 1000);
-        let (numbers, step) = ticks(ms(self.span.from_us), ms(self.span.to_us), self.layout.x_ticks);
+        let (numbers, step) =
+            ticks(ms(self.span.from_us), ms(self.span.to_us), self.layout.x_ticks);
         svg.line("axis", [self.layout.left, bottom], [self.layout.end(), bottom]);
         let last = numbers.last().copied();
         for number in numbers {
@@ -94,7 +103,11 @@ impl Time {
             svg.line("grid", [x, top], [x, bottom]);
             svg.line("axis", [x, bottom], [x, bottom + 4.0]);
             let unit = if Some(number) == last { " s" } else { "" };
-            svg.text("m small muted", [x, bottom + 16.0], &format!("{}{unit}", tick_label(number, step)));
+            svg.text(
+                "m small muted",
+                [x, bottom + 16.0],
+                &format!("{}{unit}", tick_label(number, step)),
+            );
         }
     }
 }
@@ -107,7 +120,9 @@ fn draw(view: &View<'_>, span: Span, layout: Layout) -> String {
     lane(&mut rows, "Failures", &failures(view, time));
     let configured = |mode: bool| {
         stretches(view, time, move |it| match it {
-            Record::Configuration(it) if mode => Some(if it.mode == "rest" { "" } else { it.mode.as_str() }),
+            Record::Configuration(it) if mode => {
+                Some(if it.mode == "rest" { "" } else { it.mode.as_str() })
+            }
             Record::Configuration(it) => Some(it.configuration.as_deref().unwrap_or("")),
             _ => None,
         })
@@ -138,8 +153,12 @@ fn draw(view: &View<'_>, span: Span, layout: Layout) -> String {
     for (row, pins) in pins.iter().enumerate() {
         for &(number, x) in pins {
             let Some(point) = view.points.get(number - 1) else { continue };
-            let title =
-                format!("{number}: {} at {}, {}", point.title(), metres(point.x_mm), moment(point.t_us));
+            let title = format!(
+                "{number}: {} at {}, {}",
+                point.title(),
+                metres(point.x_mm),
+                moment(point.t_us)
+            );
             let y = 10.0 + row as f64 * 18.0;
             under.titled(&title, |svg| {
                 svg.line("replan point", [x, y], [x, bottom]);
@@ -183,8 +202,10 @@ fn failures(view: &View<'_>, time: Time) -> Vec<Bar> {
     let mut bars: Vec<Bar> = Vec::new();
     for point in view.points.iter().take(MAX_POINTS) {
         let Some(chain) = point.chain() else { continue };
-        let to_us =
-            chain.reaction.first().map_or(chain.diagnosis.map_or(u64::MAX, |it| it.t_us), |it| it.t_us);
+        let to_us = chain
+            .reaction
+            .first()
+            .map_or(chain.diagnosis.map_or(u64::MAX, |it| it.t_us), |it| it.t_us);
         if !time.shows(point.t_us) {
             continue;
         }
@@ -196,12 +217,21 @@ fn failures(view: &View<'_>, time: Time) -> Vec<Bar> {
     bars
 }
 
-/// What holds from each record on until the next one that says so; where it is empty there is no bar.
-fn stretches<'t>(view: &View<'t>, time: Time, what: impl Fn(&'t Record) -> Option<&'t str>) -> Vec<Bar> {
+/// What holds from each record on until the next one that says so; where it is empty there is no
+/// bar.
+fn stretches<'t>(
+    view: &View<'t>,
+    time: Time,
+    what: impl Fn(&'t Record) -> Option<&'t str>,
+) -> Vec<Bar> {
     let mut bars: Vec<Bar> = Vec::new();
     let mut add = |name: &str, from_us: u64, to_us: u64| {
         let (from, to) = (time.at(from_us), time.at(to_us));
-        if name.is_empty() || to_us <= time.span.from_us || from_us >= time.span.to_us || to - from < 0.2 {
+        if name.is_empty()
+            || to_us <= time.span.from_us
+            || from_us >= time.span.to_us
+            || to - from < 0.2
+        {
             return;
         }
         let title = format!(
@@ -226,17 +256,20 @@ fn stretches<'t>(view: &View<'t>, time: Time, what: impl Fn(&'t Record) -> Optio
 /// The places of a net, but for that where it rests: the one it starts in.
 fn places(view: &View<'_>, time: Time, net: &str) -> Vec<Bar> {
     let component = delivery::SYSTEM.components.iter().find(|it| it.name == net);
-    let rest =
-        component.and_then(|it| it.net.places.iter().find(|it| it.initial > 0 && it.role == Role::State));
+    let rest = component
+        .and_then(|it| it.net.places.iter().find(|it| it.initial > 0 && it.role == Role::State));
     let rest = rest.map_or("", |it| it.name);
     stretches(view, time, |record| match record {
-        Record::Fired(it) if it.net == net => Some(if it.place == rest { "" } else { it.place.as_str() }),
+        Record::Fired(it) if it.net == net => {
+            Some(if it.place == rest { "" } else { it.place.as_str() })
+        }
         _ => None,
     })
 }
 
-/// The colour of a place, a mode or a configuration: blue for the robot alone, as planned; amber while it waits for the
-/// operator; violet and red for what he does; green and grey for what is degraded. The label says the same.
+/// The colour of a place, a mode or a configuration: blue for the robot alone, as planned; amber
+/// while it waits for the operator; violet and red for what he does; green and grey for what is
+/// degraded. The label says the same.
 fn tint(name: &str) -> &'static str {
     match name {
         "autonomous" | "Following" | "PF.OPT" | "Optimal" | "DriveA" | "DriveB" => "f0",
@@ -245,7 +278,9 @@ fn tint(name: &str) -> &'static str {
         "PF.ODO" | "PF.DEG" | "PF.DVZ" | "Odometric" | "Degraded" | "Granted" => "f5",
         "hand-over" | "HandOver" | "Security" => "f2",
         "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
-        "teleoperated" | "Teleoperated" | "TO.FULL" | "TO.DEG" | "Full" | "Safe" | "Destroyed" => "f4",
+        "teleoperated" | "Teleoperated" | "TO.FULL" | "TO.DEG" | "Full" | "Safe" | "Destroyed" => {
+            "f4"
+        }
         // Planning, standing at an objective, and the ends.
         _ => "f6",
     }
@@ -258,7 +293,8 @@ fn curve(rows: &mut Rows<Time>, name: &str, height: f64, values: &[(u64, i64)], 
     let (top, bottom) = (rows.y + 2.0, rows.y + height);
     let shown: Vec<(u64, i64)> = values.iter().filter(|it| time.shows(it.0)).copied().collect();
     let of = |pick: fn(i64, i64) -> i64| shown.iter().map(|it| it.1).fold(0, pick);
-    let scale = Scale { low: of(i64::min).into(), high: i128::from(of(i64::max)).max(1), top, bottom };
+    let scale =
+        Scale { low: of(i64::min).into(), high: i128::from(of(i64::max)).max(1), top, bottom };
     let (numbers, step) = ticks(scale.low, scale.high, (height / 18.0) as i128);
     for number in numbers {
         let y = scale.y(number);
@@ -275,7 +311,8 @@ fn curve(rows: &mut Rows<Time>, name: &str, height: f64, values: &[(u64, i64)], 
         };
         rows.svg.text(class, [x, y + 4.0], &tick_label(number, step));
     }
-    let drawn: Vec<Point> = thinned(&shown.iter().map(|&(t, value)| (time.at(t), value)).collect::<Vec<_>>());
+    let drawn: Vec<Point> =
+        thinned(&shown.iter().map(|&(t, value)| (time.at(t), value)).collect::<Vec<_>>());
     if !held {
         rows.svg.path("below", &below_zero(&drawn, scale));
     }

@@ -1,4 +1,5 @@
-//! A trace as the report looks at it: activities with places and times, stops, stretches of one choice.
+//! A trace as the report looks at it: activities with places and times, stops, stretches of one
+//! choice.
 
 use crate::supervised::story::{Point, points};
 use crate::trace::{End, Event, Plan, Record, Request, Sample, Trace};
@@ -29,7 +30,8 @@ pub(super) struct Step {
     pub(super) id: String,
     pub(super) x_start_mm: u64,
     pub(super) x_end_mm: u64,
-    /// When it started and ended; planned durations after the end of the run for one that did not start.
+    /// When it started and ended; planned durations after the end of the run for one that did not
+    /// start.
     pub(super) start_us: u64,
     pub(super) end_us: u64,
     pub(super) started: bool,
@@ -65,7 +67,12 @@ impl<'t> View<'t> {
         let header = &trace.header;
         let mission = Mission::parse(&header.mission_source, &header.mission);
         let mission = mission.map_err(|errors| {
-            errors.to_string().lines().next().unwrap_or("the mission text cannot be read").to_owned()
+            errors
+                .to_string()
+                .lines()
+                .next()
+                .unwrap_or("the mission text cannot be read")
+                .to_owned()
         });
         let mut view = Self {
             trace,
@@ -113,9 +120,13 @@ impl<'t> View<'t> {
             _ => None,
         });
         let started: Vec<_> = started.collect();
-        let next = |index: usize| started.get(index + 1).map_or((last_x, last_us), |&(_, x, t)| (x, t));
-        let times: HashMap<&str, (u64, u64)> =
-            started.iter().enumerate().map(|(index, &(id, _, t))| (id, (t, next(index).1))).collect();
+        let next =
+            |index: usize| started.get(index + 1).map_or((last_x, last_us), |&(_, x, t)| (x, t));
+        let times: HashMap<&str, (u64, u64)> = started
+            .iter()
+            .enumerate()
+            .map(|(index, &(id, _, t))| (id, (t, next(index).1)))
+            .collect();
         let planned: HashMap<&str, u64> = self
             .plans
             .iter()
@@ -141,7 +152,8 @@ impl<'t> View<'t> {
                 (step.start_us, step.end_us, step.started) = (start_us, end_us.max(start_us), true);
             } else {
                 step.start_us = free_us;
-                step.end_us = free_us.saturating_add(planned.get(step.id.as_str()).copied().unwrap_or(0));
+                step.end_us =
+                    free_us.saturating_add(planned.get(step.id.as_str()).copied().unwrap_or(0));
                 free_us = step.end_us;
             }
         }

@@ -1,4 +1,5 @@
-//! What a failure does to the robot at mission fidelity, and when it can be seen: assumed, after the rows of the FMECA.
+//! What a failure does to the robot at mission fidelity, and when it can be seen: assumed, after
+//! the rows of the FMECA.
 
 use cotama_core::units::Millis;
 use cotama_models::cotama::{Configuration, FailureMode, Module, Situation, local};
@@ -63,7 +64,9 @@ pub const fn effect(mode: FailureMode) -> Effect {
         F::Son4 | F::Odo3 | F::Cam2 | F::P3d2 | F::Com2 => Ends::After(Millis(10_000)),
         F::Rt2 => Ends::After(Millis(100)),
         F::Col1 => Ends::After(Millis(5_000)),
-        F::Mot3 | F::Loc1 | F::Loc2 | F::Loc3 | F::Ppl1 | F::P3d3 | F::Bmp2 | F::Whl1 => Ends::Helped,
+        F::Mot3 | F::Loc1 | F::Loc2 | F::Loc3 | F::Ppl1 | F::P3d3 | F::Bmp2 | F::Whl1 => {
+            Ends::Helped
+        }
         _ => Ends::Never,
     };
     Effect { motion, ends }
@@ -79,7 +82,9 @@ pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool) 
         F::Mot1 | F::Mot3 | F::Whl1 | F::Bmp1 | F::Bmp2 | F::Col1 => wants_to_move(running),
         F::Rt1 | F::Loc1 => uses(Module::Mcl),
         F::Loc2 | F::Hum1 => matches!(situation.local, local::State::Following),
-        F::Loc3 => matches!(running, Some(Configuration::FollowingDegraded)) && wants_to_move(running),
+        F::Loc3 => {
+            matches!(running, Some(Configuration::FollowingDegraded)) && wants_to_move(running)
+        }
         F::Ppl1 => matches!(situation.local, local::State::Planning),
         F::Opr1 => false, // the patience of the robot is the operator's side of the simulation
         F::Cam2 => matches!(situation.local, local::State::Teleoperated),

@@ -1,5 +1,5 @@
-//! Missions under COTAMA's supervisors (Durand et al., TAROS 2010), at mission fidelity: travel, energy, failures, observers
-//! with their latencies, an operator; no rays.
+//! Missions under COTAMA's supervisors (Durand et al., TAROS 2010), at mission fidelity: travel,
+//! energy, failures, observers with their latencies, an operator; no rays.
 //!
 //! ```
 //! use cotama_models::{embedded, mission::Mission};
@@ -31,8 +31,8 @@ use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::{Packed, Program, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
-    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told, delivery,
-    global, local, recovering,
+    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told,
+    delivery, global, local, recovering,
 };
 use cotama_models::faults::{Faults, IncidentKind};
 use cotama_models::mission::{Does, Mission};
@@ -137,12 +137,13 @@ pub struct Conduct {
     pub decided: Option<(Millis, Decided)>,
     /// When a supervisor first acted on it.
     pub answered: Option<Millis>,
-    /// For how long, in all, the robot moved while its configuration required a module that this failure breaks.
+    /// For how long, in all, the robot moved while its configuration required a module that this
+    /// failure breaks.
     pub exposed: Millis,
 }
 
-/// How a diagnosis was judged: the two rules of the contextual supervisor (Durand et al., TAROS 2010, Section IV; that the
-/// worse class wins is inferred).
+/// How a diagnosis was judged: the two rules of the contextual supervisor (Durand et al., TAROS
+/// 2010, Section IV; that the worse class wins is inferred).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Judged {
     /// The report to the contextual supervisor; none for what is recorded only.
@@ -192,7 +193,8 @@ impl From<&str> for Decided {
 /// What a supervised run comes to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Run {
-    /// How it ended: completed, safe (the global supervisor gave up and the robot stands), or failed.
+    /// How it ended: completed, safe (the global supervisor gave up and the robot stands), or
+    /// failed.
     pub outcome: Outcome,
     /// When.
     pub time: Millis,
@@ -214,7 +216,8 @@ pub struct Run {
     pub configurations: Vec<(Millis, Option<Configuration>)>,
     /// The plans of PANORAMA.
     pub plans: Vec<PlanMade>,
-    /// The longest time that the robot moved while a module was broken that its configuration requires.
+    /// The longest time that the robot moved while a module was broken that its configuration
+    /// requires.
     pub exposed: Millis,
     /// The longest way that it went on after the permit to move was gone.
     pub braked: Millimetres,
@@ -256,21 +259,26 @@ pub enum Unsupervised {
 impl std::fmt::Display for Unsupervised {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Plain => f.write_str("the mission is not supervised: it has no [supervision] table"),
-            Self::Unfit(defect) => write!(f, "its global supervisor does not fit the others: {defect:?}"),
+            Self::Plain => {
+                f.write_str("the mission is not supervised: it has no [supervision] table")
+            }
+            Self::Unfit(defect) => {
+                write!(f, "its global supervisor does not fit the others: {defect:?}")
+            }
         }
     }
 }
 
 impl std::error::Error for Unsupervised {}
 
-/// Who plans unless it is said otherwise: the rule of the paper fills the limits, and would choose the most degraded
-/// configuration where there is time for it.
+/// Who plans unless it is said otherwise: the rule of the paper fills the limits, and would choose
+/// the most degraded configuration where there is time for it.
 pub const PLANNER: Planner = Planner::Exact { aim: Aim::Quality, steps: 100_000 };
 
 impl<'m> Supervised<'m> {
-    /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its own where its objectives
-    /// are others, and those that use again what returns where it asks for them; [`PLANNER`] plans.
+    /// Makes a mission ready: the supervisors of the embedded one, with a global supervisor of its
+    /// own where its objectives are others, and those that use again what returns where it asks for
+    /// them; [`PLANNER`] plans.
     ///
     /// # Errors
     /// When its file names no supervision.
@@ -305,10 +313,11 @@ impl<'m> Supervised<'m> {
         self.run_recorded(script, Millis(1_000), &mut Silent)
     }
 
-    /// Runs it and records what happens, with a sample after every `period`, rounded up to whole rounds.
+    /// Runs it and records what happens, with a sample after every `period`, rounded up to whole
+    /// rounds.
     ///
-    /// Records of one round are in this order: what failed, what was found, plans, what fired and what was decided, what was
-    /// told, requests, configurations, activities, samples.
+    /// Records of one round are in this order: what failed, what was found, plans, what fired and
+    /// what was decided, what was told, requests, configurations, activities, samples.
     ///
     /// # Errors
     /// When there is no plan at the start; nothing is run or recorded then.
@@ -325,7 +334,8 @@ impl<'m> Supervised<'m> {
                 Ok(finish(world, period, recorder))
             }
             Supervisors::Recovering => {
-                let world = World::start(mission, global::NET, recovering::Program, script, planner)?;
+                let world =
+                    World::start(mission, global::NET, recovering::Program, script, planner)?;
                 Ok(finish(world, period, recorder))
             }
             Supervisors::Made(net, packed) => {

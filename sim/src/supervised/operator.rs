@@ -83,7 +83,8 @@ impl Operator {
             self.stands_since = now;
         }
         let stood = now.0.saturating_sub(self.stands_since.0);
-        // That he is silent is noticed on the robot, whether he hears of it or not; that it does not obey him, by him.
+        // That he is silent is noticed on the robot, whether he hears of it or not; that it does
+        // not obey him, by him.
         if waited >= PATIENCE.0 && stood >= PATIENCE.0 {
             return Some(operator::Event::gives_up);
         }

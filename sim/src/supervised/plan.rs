@@ -1,7 +1,9 @@
-//! PANORAMA under the supervisors: which configuration each drive uses, within what is left of the limits.
+//! PANORAMA under the supervisors: which configuration each drive uses, within what is left of the
+//! limits.
 //!
-//! Configurations of the adapter are task implementation options (Lambert et al., J. Intell. Robot. Syst. 110, 2024,
-//! Section 4), modules are their hardware. A lost module removes options and the rest of the mission is planned again.
+//! Configurations of the adapter are task implementation options (Lambert et al., J. Intell. Robot.
+//! Syst. 110, 2024, Section 4), modules are their hardware. A lost module removes options and the
+//! rest of the mission is planned again.
 
 use crate::options::Planner;
 use crate::run::{Cause, NoPlan, PlanMade};
@@ -44,7 +46,8 @@ impl<'m> Planning<'m> {
         let scenario = mission.scenario();
         let activities = scenario.activities();
         let named = |label: &String| {
-            let option = label.split(' ').find_map(|id| mission.tios.iter().find(|tio| tio.id == id))?;
+            let option =
+                label.split(' ').find_map(|id| mission.tios.iter().find(|tio| tio.id == id))?;
             option.configuration
         };
         let configurations =
@@ -62,7 +65,12 @@ impl<'m> Planning<'m> {
     }
 
     /// Plans what is left with these modules.
-    pub(super) fn plan(&mut self, cause: Cause, at: Progress, available: Modules) -> Result<(), NoPlan> {
+    pub(super) fn plan(
+        &mut self,
+        cause: Cause,
+        at: Progress,
+        available: Modules,
+    ) -> Result<(), NoPlan> {
         let units = self.units(available);
         let scenario = self.mission.scenario();
         let first = at.activity;
@@ -71,9 +79,12 @@ impl<'m> Planning<'m> {
             .enumerate()
             .map(|(number, activity)| {
                 let rest = at.rest.filter(|_| number == 0);
-                let working = activity.alternatives.iter().zip(0..).filter(|(it, _)| units.covers(it.needs));
+                let working =
+                    activity.alternatives.iter().zip(0..).filter(|(it, _)| units.covers(it.needs));
                 working
-                    .filter_map(|(it, id)| it.candidate(rest.unwrap_or_else(|| activity.whole(it)), id))
+                    .filter_map(|(it, id)| {
+                        it.candidate(rest.unwrap_or_else(|| activity.whole(it)), id)
+                    })
                     .collect()
             })
             .collect();
@@ -91,8 +102,11 @@ impl<'m> Planning<'m> {
             }
             NotFound::Unknown { steps } => NoPlan::Unknown { steps },
         })?;
-        let picked: Vec<Candidate<2>> =
-            lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]).collect();
+        let picked: Vec<Candidate<2>> = lists
+            .iter()
+            .zip(&self.solver.plan)
+            .map(|(list, &index)| list[usize::from(index)])
+            .collect();
         let choice: Vec<u16> = picked.iter().map(|it| it.id).collect();
         let signed_left = left.map(signed);
         let before = (!self.made.is_empty()).then(|| {
@@ -120,7 +134,9 @@ impl<'m> Planning<'m> {
     /// What is left of the plan in force takes, in ms and mJ.
     pub(super) fn rest(&self, at: Progress) -> [u64; 2] {
         let mut sum = [0; 2];
-        for (activity, &id) in (at.activity..).zip(self.choice.get(at.activity..).unwrap_or_default()) {
+        for (activity, &id) in
+            (at.activity..).zip(self.choice.get(at.activity..).unwrap_or_default())
+        {
             let activity_table = &self.activities[activity];
             let alternative = &activity_table.alternatives[usize::from(id)];
             let rest = at.rest.filter(|_| activity == at.activity);
@@ -151,13 +167,16 @@ impl<'m> Planning<'m> {
         self.configurations[activity][usize::from(self.choice[activity])]
     }
 
-    /// What an activity takes in a configuration: speed and power; the planned alternative when none has it.
+    /// What an activity takes in a configuration: speed and power; the planned alternative when
+    /// none has it.
     pub(super) fn pace(
         &self,
         activity: usize,
         configuration: Option<Configuration>,
     ) -> (MillimetresPerSecond, Milliwatts) {
-        let with = self.configurations[activity].iter().position(|it| it.is_some() && *it == configuration);
+        let with = self.configurations[activity]
+            .iter()
+            .position(|it| it.is_some() && *it == configuration);
         let at = with.unwrap_or_else(|| usize::from(self.choice[activity]));
         let alternative = &self.activities[activity].alternatives[at];
         (alternative.speed, alternative.power)
@@ -181,7 +200,8 @@ impl<'m> Planning<'m> {
         let works = |name: &str| available.iter().any(|it| it.name() == name);
         let kinds = self.mission.hardware.iter().enumerate();
         kinds.fold(Units::NONE, |all, (kind, it)| {
-            let module = cotama_models::cotama::Module::ALL.iter().any(|module| module.name() == it.name);
+            let module =
+                cotama_models::cotama::Module::ALL.iter().any(|module| module.name() == it.name);
             let count = if module && !works(&it.name) { 0 } else { it.units };
             all.with(kind, count).unwrap_or(all)
         })

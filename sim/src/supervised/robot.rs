@@ -1,11 +1,13 @@
 //! The robot at mission fidelity: how far along the path, and how fast.
 //!
-//! Speeds up and slows down by [`ACCELERATION`]; within a step the speed changes evenly. Lengths are µm, so that a step of a
-//! whole number of ms rounds nothing but the half of an odd sum of speeds.
+//! Speeds up and slows down by [`ACCELERATION`]; within a step the speed changes evenly. Lengths
+//! are µm, so that a step of a whole number of ms rounds nothing but the half of an odd sum of
+//! speeds.
 
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 
-/// How fast the speed changes, in mm/s²: the default of the micro-controller (Pioneer 3-DX, acceleration and deceleration).
+/// How fast the speed changes, in mm/s²: the default of the micro-controller (Pioneer 3-DX,
+/// acceleration and deceleration).
 pub const ACCELERATION: u64 = 300;
 
 /// Where the robot is on its path, and its speed.

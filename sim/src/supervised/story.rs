@@ -1,7 +1,9 @@
-//! The story of a supervised run, from its trace: numbered points, each with what was found, decided and done.
+//! The story of a supervised run, from its trace: numbered points, each with what was found,
+//! decided and done.
 //!
-//! Points are numbered as in the published run (Durand et al., TAROS 2010, Section VI): the start, each failure, and what the
-//! operator does before the robot goes on alone. What he does until the goal belongs to the failure he was asked about.
+//! Points are numbered as in the published run (Durand et al., TAROS 2010, Section VI): the start,
+//! each failure, and what the operator does before the robot goes on alone. What he does until the
+//! goal belongs to the failure he was asked about.
 
 use crate::trace::Record;
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Failure, Fired, Told};
@@ -32,7 +34,8 @@ pub enum What<'t> {
     Start,
     /// Something failed.
     Failure(Box<Chain<'t>>),
-    /// The operator, who had been asked, did this; the last answer is the event's name, as `new_path`.
+    /// The operator, who had been asked, did this; the last answer is the event's name, as
+    /// `new_path`.
     Operator(&'t str),
 }
 
@@ -57,9 +60,9 @@ pub struct Chain<'t> {
     pub exposed_ms: u64,
 }
 
-/// How far up a reaction went, from the change of a number to the end of the mission: the first two and the fourth are levels
-/// of Durand et al. (TAROS 2010, Sections IV and V), planning the rest again is that of Lambert et al. (J. Intell. Robot.
-/// Syst. 110, 2024, Section 5).
+/// How far up a reaction went, from the change of a number to the end of the mission: the first two
+/// and the fourth are levels of Durand et al. (TAROS 2010, Sections IV and V), planning the rest
+/// again is that of Lambert et al. (J. Intell. Robot. Syst. 110, 2024, Section 5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Rung {
     /// A module goes on with other parameters.
@@ -76,7 +79,8 @@ pub enum Rung {
 
 impl Rung {
     /// All, from the lowest.
-    pub const ALL: [Self; 5] = [Self::Parameter, Self::Set, Self::Activity, Self::Objective, Self::Mission];
+    pub const ALL: [Self; 5] =
+        [Self::Parameter, Self::Set, Self::Activity, Self::Objective, Self::Mission];
 
     /// Its name.
     pub const fn name(self) -> &'static str {
@@ -222,8 +226,8 @@ impl<'t> Story<'t> {
         }
     }
 
-    /// The robot goes on alone after what the operator did: driving is a point, and so is the path or the way-points he gave,
-    /// from when he began to edit.
+    /// The robot goes on alone after what the operator did: driving is a point, and so is the path
+    /// or the way-points he gave, from when he began to edit.
     fn alone_again(&mut self) {
         let said = std::mem::take(&mut self.said);
         let Some(last) = said.last() else { return };
@@ -259,7 +263,13 @@ impl Point<'_> {
                 let mode = &chain.failure.mode;
                 FailureMode::named(mode).map_or_else(
                     || mode.clone(),
-                    |it| format!("{mode}: {}, {}", it.description().component, it.description().failure),
+                    |it| {
+                        format!(
+                            "{mode}: {}, {}",
+                            it.description().component,
+                            it.description().failure
+                        )
+                    },
                 )
             }
             What::Operator(answer) => said(answer).into(),
@@ -319,15 +329,24 @@ impl Point<'_> {
         let runs = runs.unwrap_or_else(|| "the same modules run on".into());
         let again = if chain.planned_again { "; the rest is planned again" } else { "" };
         let later = chain.asked_us.filter(|&it| it > first.t_us);
-        let asked = later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
+        let asked =
+            later.map_or_else(String::new, |it| format!("; it asks after {}", self.since(it)));
         let said: String = chain.operator.iter().flat_map(|it| ["; ", said(answer(it))]).collect();
-        Some(format!("after {}, {}: {runs}{again}{asked}{said}", self.since(first.t_us), by.join(" ")))
+        Some(format!(
+            "after {}, {}: {runs}{again}{asked}{said}",
+            self.since(first.t_us),
+            by.join(" ")
+        ))
     }
 
     /// The rungs of the ladder that were taken, the lowest first.
     pub fn rungs(&self) -> Vec<Rung> {
         let Some(chain) = self.chain() else {
-            return if matches!(self.what, What::Operator(_)) { vec![Rung::Activity] } else { vec![] };
+            return if matches!(self.what, What::Operator(_)) {
+                vec![Rung::Activity]
+            } else {
+                vec![]
+            };
         };
         let event = chain.decision.and_then(|it| it.event.as_deref());
         let mut rungs = match event {

@@ -9,8 +9,9 @@ use cotama_models::mission::Mission;
 const PJ_PER_MJ: u128 = 1_000_000_000;
 
 impl Run {
-    /// Plans, margins and amounts as of a run without supervisors. Margins were not checked under way, and what happened is in
-    /// [`conduct`](Self::conduct): both are counted as none. `mission` must be the mission that was run.
+    /// Plans, margins and amounts as of a run without supervisors. Margins were not checked under
+    /// way, and what happened is in [`conduct`](Self::conduct): both are counted as none. `mission`
+    /// must be the mission that was run.
     pub fn summary(&self, mission: &Mission) -> crate::run::Run {
         let limits = mission.scenario().limits;
         let left = |axis: usize| {
@@ -39,13 +40,16 @@ impl Run {
         match self.outcome {
             Outcome::Completed => None,
             Outcome::Failed if self.time >= LONGEST => Some(Reason::TooLong),
-            Outcome::Failed => {
-                exceeded.map(|axis| Reason::LimitExceeded { axis, by: self.used[axis] - limits[axis] })
-            }
+            Outcome::Failed => exceeded
+                .map(|axis| Reason::LimitExceeded { axis, by: self.used[axis] - limits[axis] }),
             Outcome::Safe => {
-                let aborts = |it: &&super::Fired| it.net == "gs" && it.transition.starts_with("abort");
-                let Some(abort) = self.fired.iter().find(aborts) else { return Some(Reason::Mindless) };
-                let failure = usize::from(abort.cause.0).checked_sub(1).and_then(|it| self.conduct.get(it));
+                let aborts =
+                    |it: &&super::Fired| it.net == "gs" && it.transition.starts_with("abort");
+                let Some(abort) = self.fired.iter().find(aborts) else {
+                    return Some(Reason::Mindless);
+                };
+                let failure =
+                    usize::from(abort.cause.0).checked_sub(1).and_then(|it| self.conduct.get(it));
                 Some(Reason::GivenUp { failure: failure.map(|it| it.mode) })
             }
         }

@@ -1,9 +1,10 @@
 //! One supervised mission, period after period.
 //!
-//! In each period, in this order: what is to fail fails; the robot goes on; observers raise their flags, which are diagnosed;
-//! the supervisors take one round and are then told *one* thing, the oldest failure first, else what the mission or the
-//! operator has to say. So a run is a run of the system that was checked: [`Told`] is its alphabet, and the list of what was
-//! told, a round each, is all that is needed to check that it is one.
+//! In each period, in this order: what is to fail fails; the robot goes on; observers raise their
+//! flags, which are diagnosed; the supervisors take one round and are then told *one* thing, the
+//! oldest failure first, else what the mission or the operator has to say. So a run is a run of the
+//! system that was checked: [`Told`] is its alphabet, and the list of what was told, a round each,
+//! is all that is needed to check that it is one.
 
 use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
 use super::operator::Operator;
@@ -30,7 +31,8 @@ mod telling;
 
 pub(super) use records::Recorded;
 
-/// The period of the control loop, of rounds, and of the steps of the robot (stated: below 0.1 s a loop).
+/// The period of the control loop, of rounds, and of the steps of the robot (stated: below 0.1 s a
+/// loop).
 pub const PERIOD: Millis = Millis(100);
 /// How long planning a path takes: assumed.
 pub const PLANNING: Millis = Millis(2_000);
@@ -75,7 +77,8 @@ pub(super) struct World<'m, P, const W: usize> {
     untold: VecDeque<(Told, Cause)>,
     planning: Planning<'m>,
     situation: Situation,
-    /// Since when the local supervisor and the global one are where they are, and when each place was first reached.
+    /// Since when the local supervisor and the global one are where they are, and when each place
+    /// was first reached.
     local_since: Millis,
     global: PlaceId,
     global_since: Millis,
@@ -211,13 +214,19 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it.when));
         self.waiting = wait;
         for failure in &mut self.failures {
-            let by_itself =
-                matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
+            let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
             failure.over |= by_itself || failure.until.is_some_and(due);
         }
         for Injection { mode, part, until, .. } in fail {
             let part = Modules::of(&[part]);
-            self.failures.push(Failure { mode, part, until, seen: Millis(0), since: now, over: false });
+            self.failures.push(Failure {
+                mode,
+                part,
+                until,
+                seen: Millis(0),
+                since: now,
+                over: false,
+            });
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
@@ -244,13 +253,15 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
         let (Objective::Stands(_) | Objective::Drives(_)) = self.objective() else {
             let before = self.robot;
             self.robot.go(MillimetresPerSecond(0), self.end(), PERIOD);
-            self.run.moved_when_safe |= matches!(self.objective(), Objective::Safe) && before.speed().0 > 0;
+            self.run.moved_when_safe |=
+                matches!(self.objective(), Objective::Safe) && before.speed().0 > 0;
             return;
         };
         let activity = self.activity();
         let (pace, power) = self.planning.pace(activity, self.situation.configuration());
         // Only who holds a permit may command motion.
-        let command = self.level.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
+        let command =
+            self.level.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
         let mut towards = command;
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
@@ -258,7 +269,9 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
                 Motion::Blocked => blocked |= observable(failure.mode, self.situation, true),
                 Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
                 Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
-                Motion::Silent | Motion::Mindless if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 => {
+                Motion::Silent | Motion::Mindless
+                    if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 =>
+                {
                     towards = MillimetresPerSecond(0);
                 }
                 Motion::Free | Motion::Runaway | Motion::Silent | Motion::Mindless => {}
@@ -282,7 +295,10 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
     pub(super) fn end(&self) -> Millimetres {
         match self.objective() {
             Objective::Drives(it) => self.mission.objectives[it].x_end,
-            _ => self.robot.x().max(Millimetres(self.robot.x().0 + self.robot.braking_distance().0 + 1)),
+            _ => self
+                .robot
+                .x()
+                .max(Millimetres(self.robot.x().0 + self.robot.braking_distance().0 + 1)),
         }
     }
 
@@ -299,19 +315,22 @@ impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
 
     /// How fast the running configuration goes.
     fn speed(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
-        let limit = self.situation.configuration().map_or(MillimetresPerSecond(0), |it| it.facts().speed);
+        let limit =
+            self.situation.configuration().map_or(MillimetresPerSecond(0), |it| it.facts().speed);
         pace.min(limit)
     }
 
     /// What must never happen, or not for long.
     fn measure(&mut self) {
         let moving = self.robot.speed().0 > 0;
-        let required = self.situation.configuration().map_or(Modules::NONE, |it| it.facts().required);
+        let required =
+            self.situation.configuration().map_or(Modules::NONE, |it| it.facts().required);
         let exposed = moving && !self.broken().available().covers(required);
         self.exposed = if exposed { Millis(self.exposed.0 + PERIOD.0) } else { Millis(0) };
         self.run.exposed = self.run.exposed.max(self.exposed);
         if exposed {
-            let breaks = |it: &Failure| !it.over && !it.mode.health(it.part).available().covers(required);
+            let breaks =
+                |it: &Failure| !it.over && !it.mode.health(it.part).available().covers(required);
             let conducts = self.failures.iter().zip(&mut self.run.conduct);
             for (_, it) in conducts.filter(|(it, _)| breaks(it)) {
                 it.exposed.0 += PERIOD.0;

@@ -70,8 +70,8 @@ impl Trace {
     /// Reads a trace within [`Limits::default`]. `source_name` is its name in messages.
     ///
     /// # Errors
-    /// The first error of the text: no header, another schema, a line that is not a record, time that runs
-    /// backwards, a missing or a second end, or more than the limits.
+    /// The first error of the text: no header, another schema, a line that is not a record, time
+    /// that runs backwards, a missing or a second end, or more than the limits.
     pub fn parse(source_name: &str, text: &str) -> Result<Self, TraceError> {
         Self::parse_within(source_name, text, Limits::default())
     }
@@ -88,7 +88,8 @@ impl Trace {
             message,
         };
         if text.len() > limits.bytes {
-            let message = format!("the trace has {} bytes, at most {} are read", text.len(), limits.bytes);
+            let message =
+                format!("the trace has {} bytes, at most {} are read", text.len(), limits.bytes);
             return Err(error(1, 1, message));
         }
         let mut canonical = text.ends_with('\n') && !text.contains('\r');
@@ -98,19 +99,24 @@ impl Trace {
         for (number, written) in (1..).zip(text.lines()) {
             last = number;
             if written.len() > limits.line_bytes {
-                let message =
-                    format!("the line has {} bytes, at most {} are read", written.len(), limits.line_bytes);
+                let message = format!(
+                    "the line has {} bytes, at most {} are read",
+                    written.len(),
+                    limits.line_bytes
+                );
                 return Err(error(number, limits.line_bytes, message));
             }
             let bad = |bad: serde_json::Error| {
                 let said = bad.to_string();
-                let message = said.rsplit_once(" at line ").map_or(said.as_str(), |(message, _)| message);
+                let message =
+                    said.rsplit_once(" at line ").map_or(said.as_str(), |(message, _)| message);
                 error(number, bad.column(), message.into())
             };
             if header.is_none() {
                 let found: Header = serde_json::from_str(written).map_err(bad)?;
                 if found.schema != SCHEMA {
-                    let message = format!("the schema is {:?}, only {SCHEMA:?} is read", found.schema);
+                    let message =
+                        format!("the schema is {:?}, only {SCHEMA:?} is read", found.schema);
                     return Err(error(number, 1, message));
                 }
                 canonical &= line(&found) == written;
@@ -126,7 +132,11 @@ impl Trace {
                 return Err(error(number, 1, "a record after the end of the mission".into()));
             }
             if before.is_some_and(|before| before.t_us() > record.t_us()) {
-                return Err(error(number, 1, "the time of this record is before that of the last".into()));
+                return Err(error(
+                    number,
+                    1,
+                    "the time of this record is before that of the last".into(),
+                ));
             }
             canonical &= line(&record) == written;
             records.push(record);

@@ -56,11 +56,13 @@ pub struct Replayed {
 }
 
 impl Trace {
-    /// Runs a mission from its text and records everything: under supervisors if its file names them. Those deal with the
-    /// incidents of the faults; other faults, the seed and the search for better plans change nothing there.
+    /// Runs a mission from its text and records everything: under supervisors if its file names
+    /// them. Those deal with the incidents of the faults; other faults, the seed and the search for
+    /// better plans change nothing there.
     ///
     /// # Errors
-    /// A [`RecordError`] for a text with errors, options that do not fit it, or no plan at the start.
+    /// A [`RecordError`] for a text with errors, options that do not fit it, or no plan at the
+    /// start.
     ///
     /// ```
     /// use cotama_models::embedded;
@@ -71,7 +73,11 @@ impl Trace {
     /// let read = Trace::parse("patrol.jsonl", &trace.to_json_lines()).unwrap();
     /// assert!(replay(&read).unwrap().identical);
     /// ```
-    pub fn record(mission_source: &str, text: &str, options: &Options) -> Result<(Self, Run), RecordError> {
+    pub fn record(
+        mission_source: &str,
+        text: &str,
+        options: &Options,
+    ) -> Result<(Self, Run), RecordError> {
         let mission = Mission::parse(mission_source, text).map_err(RecordError::Text)?;
         let period = options.monitor_period.unwrap_or(mission.run.monitor_period);
         let mut records = Vec::new();
@@ -79,7 +85,9 @@ impl Trace {
             supervised(&mission, options, period, &mut records)
         } else {
             let simulation = Simulation::new(&mission, options).map_err(RecordError::Setup)?;
-            simulation.run_recorded(options.seed, &mut records).map_err(|reason| infeasible(&mission, reason))
+            simulation
+                .run_recorded(options.seed, &mut records)
+                .map_err(|reason| infeasible(&mission, reason))
         }?;
         let faults = match &options.faults {
             FaultChoice::Script => RunFaults::Script,
@@ -88,9 +96,10 @@ impl Trace {
                 RunFaults::File { source: source.clone(), text: faults_text(faults, &mission) }
             }
         };
-        let upward = options
-            .upward
-            .map(|Upward { growth, reserve }| RunUpward { growth: growth.into(), reserve: reserve.into() });
+        let upward = options.upward.map(|Upward { growth, reserve }| RunUpward {
+            growth: growth.into(),
+            reserve: reserve.into(),
+        });
         let header = Header {
             schema: SCHEMA.into(),
             version: env!("CARGO_PKG_VERSION").into(),
@@ -155,7 +164,8 @@ fn supervised(
     period: Millis,
     records: &mut Vec<Record>,
 ) -> Result<Run, RecordError> {
-    let ready = Supervised::new(mission).map_err(RecordError::Unsupervised)?.with_planner(options.planner);
+    let ready =
+        Supervised::new(mission).map_err(RecordError::Unsupervised)?.with_planner(options.planner);
     if period.0 == 0 {
         return Err(RecordError::Setup(SetupError::ZeroPeriod));
     }
@@ -164,7 +174,9 @@ fn supervised(
         FaultChoice::None => Script::default(),
         FaultChoice::Given { faults, .. } => Script::from(faults),
     };
-    let run = ready.run_recorded(&script, period, records).map_err(|reason| infeasible(mission, reason))?;
+    let run = ready
+        .run_recorded(&script, period, records)
+        .map_err(|reason| infeasible(mission, reason))?;
     Ok(run.summary(mission))
 }
 

@@ -1,6 +1,8 @@
-//! What the supervisors of a mission leave in its trace (Durand et al., TAROS 2010): the chain from a failure to a reaction.
+//! What the supervisors of a mission leave in its trace (Durand et al., TAROS 2010): the chain from
+//! a failure to a reaction.
 //!
-//! Failures have numbers from 1 in the order of their happening; `cause` and `failure` are such numbers.
+//! Failures have numbers from 1 in the order of their happening; `cause` and `failure` are such
+//! numbers.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +13,8 @@ pub struct Fired {
     pub t_us: u64,
     /// Where, in mm.
     pub x_mm: u64,
-    /// The net, by its name in the system `delivery`: `gs`, `ls`, `pf`, `to`, `permit`, `gom` or `cs`.
+    /// The net, by its name in the system `delivery`: `gs`, `ls`, `pf`, `to`, `permit`, `gom` or
+    /// `cs`.
     pub net: String,
     /// The transition.
     pub transition: String,
@@ -23,7 +26,8 @@ pub struct Fired {
 }
 
 impl Fired {
-    /// The line of the net's definition: the transition without the variant of a counter or a group, as `as2`.
+    /// The line of the net's definition: the transition without the variant of a counter or a
+    /// group, as `as2`.
     pub fn line(&self) -> &str {
         self.transition.split('.').next().unwrap_or_default()
     }
@@ -68,8 +72,8 @@ pub struct Diagnosis {
     pub failures: Vec<u16>,
     /// The flags.
     pub flags: Vec<String>,
-    /// The rows of the FMECA that explain the flags: one is a unique diagnosis, several are an ambiguous one, none is an
-    /// unexplained one.
+    /// The rows of the FMECA that explain the flags: one is a unique diagnosis, several are an
+    /// ambiguous one, none is an unexplained one.
     pub candidates: Vec<String>,
     /// The report to the contextual supervisor; none for what is recorded only.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -103,7 +107,8 @@ pub struct Decision {
     pub since_ms: u64,
 }
 
-/// The robot has moved while its configuration required a module that a failure breaks; written when that is over.
+/// The robot has moved while its configuration required a module that a failure breaks; written
+/// when that is over.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Exposure {
     /// When it was over, in µs.

@@ -33,7 +33,9 @@ impl World<'_> {
             Ok(Request::Down(cause)) => {
                 let cause = match cause {
                     monitor::Cause::Margin { axis } => Cause::Margin { axis },
-                    monitor::Cause::Hardware => Cause::Hardware { hardware: self.lost.0, units: self.lost.1 },
+                    monitor::Cause::Hardware => {
+                        Cause::Hardware { hardware: self.lost.0, units: self.lost.1 }
+                    }
                 };
                 if self.plans.len() as u64 > MAX_REPLANS {
                     self.stop(cause, Reason::TooManyReplans, recorder);
@@ -49,7 +51,9 @@ impl World<'_> {
         let before = self.monitor.used();
         let used = self.used();
         // Both sides are at most MAX_AMOUNT, so this cannot be refused.
-        let _ = self.monitor.spend(&std::array::from_fn(|axis| used[axis].saturating_sub(before[axis])));
+        let _ = self
+            .monitor
+            .spend(&std::array::from_fn(|axis| used[axis].saturating_sub(before[axis])));
     }
 
     /// What was used, in ms and mJ, rounded half up; at most what the monitor can count.
@@ -57,9 +61,8 @@ impl World<'_> {
         const PJ_PER_MJ: u64 = 1_000_000_000;
         let energy_mj = match u64::try_from(self.energy_pj) {
             Ok(pj) => mul_div_half_up(pj, 1, PJ_PER_MJ).unwrap_or(u64::MAX),
-            Err(_) => {
-                u64::try_from((self.energy_pj + 500_000_000) / u128::from(PJ_PER_MJ)).unwrap_or(u64::MAX)
-            }
+            Err(_) => u64::try_from((self.energy_pj + 500_000_000) / u128::from(PJ_PER_MJ))
+                .unwrap_or(u64::MAX),
         };
         let time_ms = mul_div_half_up(self.time_us, 1, 1000).unwrap_or(u64::MAX);
         [time_ms.min(MAX_AMOUNT), energy_mj.min(MAX_AMOUNT)]
@@ -93,7 +96,8 @@ impl World<'_> {
             mul_div_half_up(self.standing_us, 1, 1000)
         };
         let duration = duration.unwrap_or(MAX_AMOUNT);
-        let energy = Millijoules::spent(alternative.power, Millis(duration)).map_or(MAX_AMOUNT, |it| it.0);
+        let energy =
+            Millijoules::spent(alternative.power, Millis(duration)).map_or(MAX_AMOUNT, |it| it.0);
         let mut cost = later;
         cost[DURATION] = cost[DURATION].saturating_add(duration);
         cost[ENERGY] = cost[ENERGY].saturating_add(energy);

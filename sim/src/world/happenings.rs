@@ -67,10 +67,11 @@ impl World<'_> {
         self.take(us, power_uw);
     }
 
-    /// The speed (mm/s, above zero) and the real power (µW) of the current activity, or of the first one after it
-    /// that travels; none if none does.
+    /// The speed (mm/s, above zero) and the real power (µW) of the current activity, or of the
+    /// first one after it that travels; none if none does.
     fn driving(&self) -> Option<(u64, u64)> {
-        let mut remaining = (self.activity..self.choice.len()).map(|activity| self.chosen(activity));
+        let mut remaining =
+            (self.activity..self.choice.len()).map(|activity| self.chosen(activity));
         let alternative = remaining.find(|alternative| alternative.speed.0 > 0)?;
         Some((alternative.speed.0, self.real_uw(&alternative)))
     }

@@ -38,9 +38,15 @@ impl World<'_> {
         Ok(())
     }
 
-    /// Plans within the room that an upward plan may use. The new plan comes into force if it has more quality
-    /// than the rest of the present one or, at equal quality, if it is higher on the axis treated last.
-    pub(super) fn plan_upwards<R: Recorder>(&mut self, rest: &[u64; 2], before: [i64; 2], recorder: &mut R) {
+    /// Plans within the room that an upward plan may use. The new plan comes into force if it has
+    /// more quality than the rest of the present one or, at equal quality, if it is higher on the
+    /// axis treated last.
+    pub(super) fn plan_upwards<R: Recorder>(
+        &mut self,
+        rest: &[u64; 2],
+        before: [i64; 2],
+        recorder: &mut R,
+    ) {
         if self.plans.len() as u64 <= MAX_REPLANS
             && let Ok(proposal) = self.propose::<R>(self.monitor.room())
         {
@@ -76,14 +82,17 @@ impl World<'_> {
         let simulation = self.simulation;
         let first = self.first_remaining();
         let everything = self.available == simulation.all_hardware();
-        // Candidates of the first activity if it is under way, and of those that lost hardware thins out.
+        // Candidates of the first activity if it is under way, and of those that lost hardware
+        // thins out.
         let mut own: Vec<Option<Vec<Candidate<2>>>> = Vec::with_capacity(self.choice.len() - first);
         for activity in first..self.choice.len() {
             let alternatives = simulation.activities[activity].alternatives;
             let works = |id: u16| self.available.covers(alternatives[usize::from(id)].needs);
             let rest = if activity == self.activity { self.rest_of_current() } else { None };
             own.push(match rest {
-                Some(rest) => Some(candidates(&simulation.activities[activity], rest, self.available)),
+                Some(rest) => {
+                    Some(candidates(&simulation.activities[activity], rest, self.available))
+                }
                 None if everything => None,
                 None => {
                     let whole = simulation.whole[activity].iter();
@@ -101,7 +110,8 @@ impl World<'_> {
         }
         let order = simulation.mission.scenario().order;
         let Ok(problem) = Problem::new(&lists, limits, order) else {
-            // Lists were checked above, the order when the mission was read, the counts by their limits.
+            // Lists were checked above, the order when the mission was read, the counts by their
+            // limits.
             return Err(NoPlan::Unknown { steps: 0 });
         };
         let found = self.solver.solve(simulation.planner, &problem).map_err(|none| match none {
@@ -110,7 +120,8 @@ impl World<'_> {
             }
             NotFound::Unknown { steps } => NoPlan::Unknown { steps },
         })?;
-        let picked = lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]);
+        let picked =
+            lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]);
         Ok(Proposal {
             choice: picked.clone().map(|candidate| candidate.id).collect(),
             first_cost: picked.clone().next().map_or([0; 2], |candidate| candidate.cost),
@@ -178,8 +189,8 @@ impl World<'_> {
         (first..self.choice.len()).map(quality).sum()
     }
 
-    /// The most that travelling back to the start can cost with the hardware that works; none if some part of the
-    /// way has no alternative.
+    /// The most that travelling back to the start can cost with the hardware that works; none if
+    /// some part of the way has no alternative.
     pub(super) fn way_back(&self) -> Option<[u64; 2]> {
         let mut total = [0u64; 2];
         for activity in &self.simulation.activities[..=self.activity] {
@@ -203,6 +214,7 @@ impl World<'_> {
 
 /// The candidates of a rest with this hardware; one whose cost does not fit is none.
 fn candidates(activity: &Activity<'_>, rest: Rest, available: Units) -> Vec<Candidate<2>> {
-    let working = activity.alternatives.iter().zip(0u16..).filter(|(it, _)| available.covers(it.needs));
+    let working =
+        activity.alternatives.iter().zip(0u16..).filter(|(it, _)| available.covers(it.needs));
     working.filter_map(|(it, id)| it.candidate(rest, id)).collect()
 }

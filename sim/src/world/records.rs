@@ -11,7 +11,8 @@ use cotama_models::faults::EventKind;
 use cotama_models::mission::Mission;
 
 impl PlanMade {
-    /// The plan in words and numbers: one row an activity. `mission` must be the mission that was run.
+    /// The plan in words and numbers: one row an activity. `mission` must be the mission that was
+    /// run.
     pub fn rows(&self, mission: &Mission) -> Vec<PlanRow> {
         let activities = mission.scenario().activities.iter().skip(self.first_activity);
         let rows = activities.zip(&self.choice).enumerate();
@@ -92,7 +93,11 @@ impl World<'_> {
 
     pub(super) fn event_record(&self, pending: &Pending, units: u8, lost_us: u64) -> Record {
         let name = |kind: usize| {
-            self.simulation.mission.hardware.get(kind).map_or_else(String::new, |it| it.name.clone())
+            self.simulation
+                .mission
+                .hardware
+                .get(kind)
+                .map_or_else(String::new, |it| it.name.clone())
         };
         let event = match pending.kind {
             EventKind::Obstacle { delay } => Happening::Obstacle { delay_ms: delay.0 },

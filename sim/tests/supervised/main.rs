@@ -25,5 +25,8 @@ fn golden(name: &str, found: &str) {
     }
     let expected = std::fs::read_to_string(&path).unwrap_or_default();
     let line = expected.lines().zip(found.lines()).position(|(a, b)| a != b);
-    assert!(expected == found, "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it");
+    assert!(
+        expected == found,
+        "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it"
+    );
 }

@@ -29,7 +29,8 @@ const PARTS: [Module; 9] = [
     Module::Cam,
 ];
 
-/// A run in which a row is injected half a second after a place is reached; an uncharted obstacle brings the operator in.
+/// A run in which a row is injected half a second after a place is reached; an uncharted obstacle
+/// brings the operator in.
 fn run(mission: &Mission, mode: FailureMode, part: Module, place: local::State) -> Run {
     let autonomous = matches!(place, local::State::Planning | local::State::Following);
     let obstacle = Injection::new(When::Place(Millimetres(6_000)), FailureMode::Loc2);
@@ -38,8 +39,8 @@ fn run(mission: &Mission, mode: FailureMode, part: Module, place: local::State) 
     Supervised::new(mission).unwrap().run(&Script { injections, answers: Vec::new() }).unwrap()
 }
 
-/// How long the robot may move while a module is broken that it requires: until it is detected, decided and answered, a round
-/// each, and until it stands.
+/// How long the robot may move while a module is broken that it requires: until it is detected,
+/// decided and answered, a round each, and until it stands.
 fn bound(mode: FailureMode) -> u64 {
     let stops = 1_000; // 0.3 m/s at 0.3 m/s2
     u64::from(mode.rule().latency_ms).max(2_000) + 2 * 100 + stops
@@ -69,8 +70,8 @@ fn line(run: &Run, mode: FailureMode, part: Module, place: local::State) -> Stri
     )
 }
 
-/// 37 rows in five places, and the three of any module for nine modules: each run ends, none moves when it is safe, and none
-/// moves for long without a module that it requires.
+/// 37 rows in five places, and the three of any module for nine modules: each run ends, none moves
+/// when it is safe, and none moves for long without a module that it requires.
 #[test]
 fn every_row_in_every_place() {
     let mission = delivery();
@@ -83,7 +84,8 @@ fn every_row_in_every_place() {
         for (&part, place) in parts.iter().flat_map(|part| PLACES.map(|place| (part, place))) {
             let run = run(&mission, mode, part, place);
             let line = line(&run, mode, part, place);
-            if run.outcome == Outcome::Failed || run.moved_when_safe || run.exposed.0 > bound(mode) {
+            if run.outcome == Outcome::Failed || run.moved_when_safe || run.exposed.0 > bound(mode)
+            {
                 too_long.push(line.clone());
             }
             writeln!(table, "{line}").unwrap();

@@ -76,8 +76,10 @@ fn the_objectives_are_done_in_their_order() {
 
 #[test]
 fn a_vital_loss_ends_it_from_anywhere() {
-    let run =
-        run(vec![Injection::new(When::Place(cotama_core::units::Millimetres(10_000)), FailureMode::Bat3)]);
+    let run = run(vec![Injection::new(
+        When::Place(cotama_core::units::Millimetres(10_000)),
+        FailureMode::Bat3,
+    )]);
     assert_eq!(run.outcome, Outcome::Safe);
     assert!(!run.moved_when_safe);
     println!("{:?}", global(&run));

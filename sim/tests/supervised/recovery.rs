@@ -2,8 +2,8 @@
 
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Configuration::{
-    self, FollowingDegraded, FollowingOdometric, FollowingOptimal, TeleoperationDegraded, TeleoperationFull,
-    Teleprogramming,
+    self, FollowingDegraded, FollowingOdometric, FollowingOptimal, TeleoperationDegraded,
+    TeleoperationFull, Teleprogramming,
 };
 use cotama_models::cotama::{FailureMode, Module};
 use cotama_models::faults::Faults;
@@ -13,7 +13,8 @@ use cotama_sim::options::Options;
 use cotama_sim::supervised::{Injection, PLANNER, Run, Script, Supervised, When};
 use cotama_sim::trace::{Outcome, Record, Trace, replay};
 
-/// The delivery with these events in place of its own, and with supervisors that use again what returns or do not.
+/// The delivery with these events in place of its own, and with supervisors that use again what
+/// returns or do not.
 fn text(recovery: bool, events: &str) -> String {
     let delivery = cotama_models::embedded::mission("delivery").unwrap().text;
     let (mission, _) = delivery.split_once("[run]").unwrap();
@@ -51,15 +52,20 @@ fn without_recovery_what_returns_is_not_used() {
     assert_eq!((run.outcome, run.plans.len(), ups(&run)), (Outcome::Completed, 2, 0));
 }
 
-/// 10 m of path in the degraded set, and what the sonars need to be sound for: 67 s and 10 s; then it is planned with them, and
-/// the supervisors are told of avoidance, localisation and sonars, one a round.
+/// 10 m of path in the degraded set, and what the sonars need to be sound for: 67 s and 10 s; then
+/// it is planned with them, and the supervisors are told of avoidance, localisation and sonars, one
+/// a round.
 #[test]
 fn with_recovery_it_is_used_when_it_was_sound_for_ten_seconds() {
     let run = run(true, vec![fails(FailureMode::Son2, 10_000, 20_000)]);
-    assert_eq!(first_drive(&run), [(2, FollowingOptimal), (37, FollowingDegraded), (111, FollowingOptimal)]);
+    assert_eq!(
+        first_drive(&run),
+        [(2, FollowingOptimal), (37, FollowingDegraded), (111, FollowingOptimal)]
+    );
     assert_eq!((run.outcome, run.plans.len(), ups(&run)), (Outcome::Completed, 3, 1));
     let since = run.fired.iter().filter(|it| it.at.0 > 100_000 && it.cause.0 == 1);
-    let since: Vec<_> = since.map(|it| format!("{} {}.{}", it.at.0, it.net, it.transition)).collect();
+    let since: Vec<_> =
+        since.map(|it| format!("{} {}.{}", it.at.0, it.net, it.transition)).collect();
     let expected = [
         "111500 gom.sonar_back",
         "111500 gom.avoidance_back",
@@ -75,7 +81,8 @@ fn localisation_alone_returns_as_well() {
     let crash = Injection { part: Module::Mcl, ..fails(FailureMode::Sw1, 10_000, 15_000) };
     let run = run(true, vec![crash]);
     let drive: Vec<_> = first_drive(&run).into_iter().map(|it| it.1).collect();
-    // A crash is hard: the operator leads past it, and the robot goes on by odometry until localisation has returned.
+    // A crash is hard: the operator leads past it, and the robot goes on by odometry until
+    // localisation has returned.
     let helped = [TeleoperationFull, Teleprogramming];
     assert_eq!(drive[..4], [&[FollowingOptimal, FollowingOdometric], &helped[..]].concat());
     assert_eq!(drive[4..], [FollowingOdometric, FollowingOptimal]);
@@ -99,10 +106,14 @@ fn what_has_returned_twice_is_lost_for_good_the_third_time() {
     assert_eq!(drive[..4], up_and_down);
     assert_eq!(drive[4..], [FollowingOptimal, FollowingDegraded]);
     assert_eq!((run.outcome, ups(&run)), (Outcome::Completed, 2));
-    assert_eq!(run.configurations.iter().filter_map(|it| it.1).next_back(), Some(FollowingDegraded));
+    assert_eq!(
+        run.configurations.iter().filter_map(|it| it.1).next_back(),
+        Some(FollowingDegraded)
+    );
 }
 
-/// The operator drives when the sonars return: his avoidance goes up, and the next path is followed with everything.
+/// The operator drives when the sonars return: his avoidance goes up, and the next path is followed
+/// with everything.
 #[test]
 fn who_does_not_run_does_not_go_up_and_starts_with_what_is_there() {
     let mut son2 = fails(FailureMode::Son2, 10_000, 0);
@@ -111,7 +122,10 @@ fn who_does_not_run_does_not_go_up_and_starts_with_what_is_there() {
     let run = run(true, vec![son2, bump]);
     assert_eq!((run.outcome, ups(&run)), (Outcome::Completed, 0));
     let after: Vec<_> = first_drive(&run).into_iter().map(|it| it.1).skip(2).collect();
-    assert_eq!(after, [TeleoperationDegraded, TeleoperationFull, Teleprogramming, FollowingOptimal]);
+    assert_eq!(
+        after,
+        [TeleoperationDegraded, TeleoperationFull, Teleprogramming, FollowingOptimal]
+    );
 }
 
 const EVENTS: &str = r#"
@@ -138,11 +152,15 @@ fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
     let options = Options { planner: PLANNER, ..Options::default() };
     let (trace, _) = Trace::record("delivery", &text, &options).unwrap();
     assert!(replay(&Trace::parse("trace", &trace.to_json_lines()).unwrap()).unwrap().identical);
-    let plans =
-        trace.records.iter().filter_map(|it| if let Record::Plan(it) = it { Some(&it.cause) } else { None });
+    let plans = trace
+        .records
+        .iter()
+        .filter_map(|it| if let Record::Plan(it) = it { Some(&it.cause) } else { None });
     assert_eq!(plans.collect::<Vec<_>>(), ["start", "one SIM lost", "SIM back"]);
-    let told =
-        trace.records.iter().filter_map(|it| if let Record::Told(it) = it { Some(&it.event) } else { None });
+    let told = trace
+        .records
+        .iter()
+        .filter_map(|it| if let Record::Told(it) = it { Some(&it.event) } else { None });
     let told: Vec<_> = told.filter(|it| it.starts_with("faults.regain")).collect();
     assert_eq!(told, ["faults.regain_mcl", "faults.regain_avoidance", "faults.regain_sonar"]);
     let up = trace.records.iter().find_map(|it| match it {

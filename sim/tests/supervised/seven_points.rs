@@ -1,4 +1,5 @@
-//! The seven points of the published run (Durand et al., TAROS 2010, Section VI), on the first drive of the embedded mission.
+//! The seven points of the published run (Durand et al., TAROS 2010, Section VI), on the first
+//! drive of the embedded mission.
 
 use super::delivery;
 use cotama_core::units::{Millimetres, Millis};
@@ -55,7 +56,9 @@ fn each_failure_is_diagnosed_and_answered_as_published() {
     let conduct: Vec<_> = run
         .conduct
         .iter()
-        .map(|it| (it.mode, it.detected.map(|it| it.1).unwrap(), it.decided.map(|it| it.1).unwrap()))
+        .map(|it| {
+            (it.mode, it.detected.map(|it| it.1).unwrap(), it.decided.map(|it| it.1).unwrap())
+        })
         .collect();
     use FailureMode::{Bmp2, Loc1, Loc2, Loc3, Odo2, Rt1, Son1};
     let not_unique = |modes: &[FailureMode]| Diagnosis::Ambiguous(FailureModes::of(modes));
@@ -86,5 +89,8 @@ fn the_object_is_delivered_after_two_requests() {
 fn without_failures_nobody_is_asked() {
     let mission = delivery();
     let run = Supervised::new(&mission).unwrap().run(&Script::default()).unwrap();
-    assert_eq!((run.outcome, run.operator_requests, run.exposed), (Outcome::Completed, 0, Millis(0)));
+    assert_eq!(
+        (run.outcome, run.operator_requests, run.exposed),
+        (Outcome::Completed, 0, Millis(0))
+    );
 }

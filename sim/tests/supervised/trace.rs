@@ -29,8 +29,15 @@ fn the_delivery_leaves_the_golden_trace_and_tells_the_golden_story() {
     golden("delivery.jsonl", sparse.split_once('\n').unwrap().1);
     let mut text = String::new();
     for point in story::points(&trace.records) {
-        writeln!(text, "{}  {} mm  {} ms  {}", point.number, point.x_mm, point.t_us / 1000, point.title())
-            .unwrap();
+        writeln!(
+            text,
+            "{}  {} mm  {} ms  {}",
+            point.number,
+            point.x_mm,
+            point.t_us / 1000,
+            point.title()
+        )
+        .unwrap();
         for line in [point.found(), point.decided(), point.done()].into_iter().flatten() {
             writeln!(text, "   {line}").unwrap();
         }
@@ -104,8 +111,8 @@ fn answers() -> impl Strategy<Value = Incident> {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(120))]
 
-    /// Whatever fails, the trace suffices: read back it is the same, and run again it comes out the same. Each failure is a
-    /// point, and what the records say is what the run says.
+    /// Whatever fails, the trace suffices: read back it is the same, and run again it comes out the
+    /// same. Each failure is a point, and what the records say is what the run says.
     #[test]
     fn a_trace_read_back_is_the_same_run(
         failures in prop::collection::vec(incident(), 0..=3),
@@ -151,7 +158,8 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(60))]
 
-    /// Whatever is changed in a good trace, reading it, replaying it and reporting it ends with an answer.
+    /// Whatever is changed in a good trace, reading it, replaying it and reporting it ends with an
+    /// answer.
     #[test]
     fn damaged_traces_are_survived(at in 0usize..200_000, byte in any::<u8>(), line in any::<bool>()) {
         let text = GOLDEN.clone();

@@ -5,7 +5,9 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::mission::Mission;
 use cotama_sim::streams::{Stream, Streams};
-use cotama_sim::supervised::{Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect};
+use cotama_sim::supervised::{
+    Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect,
+};
 use cotama_sim::trace::Outcome;
 use std::collections::BTreeMap;
 
@@ -33,21 +35,26 @@ fn injection(stream: &mut Stream) -> Injection {
 /// What must hold of every run, whatever fails; whether the robot also stopped in time.
 fn judge(run: &Run, script: &Script) -> bool {
     assert!(!run.moved_when_safe, "M1: {script:?}");
-    let runs_away = |it: &Injection| matches!(effect(it.mode), Effect { motion: Motion::Runaway, .. });
+    let runs_away =
+        |it: &Injection| matches!(effect(it.mode), Effect { motion: Motion::Runaway, .. });
     if !script.injections.iter().any(runs_away) {
         assert!(run.braked <= Millimetres(150), "M2: {} after {script:?}", run.braked);
     }
     // What is done too late or with too much energy is done all the same.
-    assert!(run.outcome != Outcome::Failed || run.x == Millimetres(80_000), "stuck after {script:?}");
+    assert!(
+        run.outcome != Outcome::Failed || run.x == Millimetres(80_000),
+        "stuck after {script:?}"
+    );
     // Each loss alone: detected, two rounds, and standing still; they may follow each other.
-    let each = script.injections.iter().map(|it| u64::from(it.mode.rule().latency_ms).max(2_000) + 1_200);
-    run.exposed.0 <= each.sum() || {
-        // But for what several failures at once hide: no diagnosis, or not of this one alone.
-        let found =
-            |it: &Conduct| matches!(it.detected, Some((_, Diagnosis::Unique(mode))) if mode == it.mode);
-        assert!(!run.conduct.iter().all(found), "AS2: {} after {script:?}", run.exposed);
-        false
-    }
+    let each =
+        script.injections.iter().map(|it| u64::from(it.mode.rule().latency_ms).max(2_000) + 1_200);
+    run.exposed.0 <= each.sum()
+        || {
+            // But for what several failures at once hide: no diagnosis, or not of this one alone.
+            let found = |it: &Conduct| matches!(it.detected, Some((_, Diagnosis::Unique(mode))) if mode == it.mode);
+            assert!(!run.conduct.iter().all(found), "AS2: {} after {script:?}", run.exposed);
+            false
+        }
 }
 
 fn campaign(mission: &Mission, runs: u64) -> BTreeMap<(Outcome, bool), u64> {
@@ -74,7 +81,8 @@ fn three_failures_never_leave_the_robot_moving() {
     assert_eq!(campaign(&delivery(), 1_000), expected);
 }
 
-/// A hundred thousand: `cargo test --release -p cotama-sim --test supervised -- --ignored --nocapture`.
+/// A hundred thousand: `cargo test --release -p cotama-sim --test supervised -- --ignored
+/// --nocapture`.
 #[test]
 #[ignore = "takes minutes"]
 fn a_hundred_thousand_triples() {

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Measures our checker beside stateright (reachable markings) and libpetri (state classes of time nets).
+# Measures our checker beside stateright (reachable markings) and libpetri (state classes of time
+# nets).
 #
 #   tests/compare/checkers/measure.sh [--repeat N] [--pairs N] [--small]
 #
-# Each run is a process of its own; figures are medians of N runs (3), taken in turns. Two threads are compared with one in
-# N pairs (25), each beside two processes at once that share nothing: what the machine gives two of anything. --small leaves out the nets that
-# take stateright more than a few seconds. Referendum is read from the folder COTAMA_MCC_DIR, further time nets from
+# Each run is a process of its own; figures are medians of N runs (3), taken in turns. Two threads
+# are compared with one in N pairs (25), each beside two processes at once that share nothing: what
+# the machine gives two of anything. --small leaves out the nets that take stateright more than a
+# few seconds. Referendum is read from the folder COTAMA_MCC_DIR, further time nets from
 # COTAMA_TPN_DIR. Prints Markdown. Exit status 1 when counts differ.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
@@ -33,7 +35,8 @@ failed=0
 
 differ() { echo "counts differ: $1" >&2; failed=1; }
 
-# Medians, in a line, of nodes, edges, markings, CPU seconds, clock seconds and bytes of the runs in a file.
+# Medians, in a line, of nodes, edges, markings, CPU seconds, clock seconds and bytes of the runs in
+# a file.
 medians() {
     for column in 1 2 3 4 5 6; do
         cut -d' ' -f"$column" "$1" | sort -g | awk '{ it[NR] = $1 } END { printf "%s ", it[int((NR + 1) / 2)] }'
@@ -41,7 +44,8 @@ medians() {
     echo # `read` fails on a line without an end
 }
 
-# runs WHAT NET PROGRAM...: every program in turn, N times, into the file of its name; in it one line for each run.
+# runs WHAT NET PROGRAM...: every program in turn, N times, into the file of its name; in it one
+# line for each run.
 runs() {
     local what=$1 net=$2 program
     shift 2

@@ -1,10 +1,12 @@
 #!/usr/bin/env bash
-# Measures one supervisor written four times: instructions for an event here, and size and instructions on a Cortex-M4F.
+# Measures one supervisor written four times: instructions for an event here, and size and
+# instructions on a Cortex-M4F.
 #
 #   tests/compare/supervisor/measure.sh
 #
-# Needs valgrind; for the second part Debian's compiler (see .ci/install-thumb), arm-none-eabi-ld, qemu-system-arm
-# and gcc. Instructions are not cycles. Exit status 1 when the four disagree or a promise is not kept.
+# Needs valgrind; for the second part Debian's compiler (see .ci/install-thumb), arm-none-eabi-ld,
+# qemu-system-arm and gcc. Instructions are not cycles. Exit status 1 when the four disagree or a
+# promise is not kept.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../../target}")/supervisor

@@ -1,8 +1,9 @@
-//! The roots of the rest of core: allocators, front, monitor, problems and hardware, for the patrol's two axes.
+//! The roots of the rest of core: allocators, front, monitor, problems and hardware, for the
+//! patrol's two axes.
 //!
-//! Every list is the caller's, of any length and with anything in it. What is `open` keeps its indices within bounds by
-//! invariants between lists that no type carries, adds amounts that only a checked problem keeps small, or sorts: the
-//! library's sort can say that an order is none.
+//! Every list is the caller's, of any length and with anything in it. What is `open` keeps its
+//! indices within bounds by invariants between lists that no type carries, adds amounts that only a
+//! checked problem keeps small, or sorts: the library's sort can say that an order is none.
 
 use cotama_core::allocation::{Allocator, Answer, MemoryError};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
@@ -63,8 +64,15 @@ fn open_exact_allocate(
 }
 
 #[unsafe(no_mangle)]
-fn open_front_find(nodes: &mut [Node<A>], problem: &Problem<'_, A>, at: usize, plan: &mut [u16]) -> bool {
-    Front::new(nodes).find(problem).is_ok_and(|plans| plans.totals(at).is_some() && plans.plan(at, plan))
+fn open_front_find(
+    nodes: &mut [Node<A>],
+    problem: &Problem<'_, A>,
+    at: usize,
+    plan: &mut [u16],
+) -> bool {
+    Front::new(nodes)
+        .find(problem)
+        .is_ok_and(|plans| plans.totals(at).is_some() && plans.plan(at, plan))
 }
 
 #[unsafe(no_mangle)]

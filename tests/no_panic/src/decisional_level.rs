@@ -1,14 +1,16 @@
-//! The roots of the decisional level: the supervisors with names, diagnosis, decision and what follows from losses.
+//! The roots of the decisional level: the supervisors with names, diagnosis, decision and what
+//! follows from losses.
 //!
-//! Flags, losses and situations come as their caller can make them at worst, also those that no run has.
+//! Flags, losses and situations come as their caller can make them at worst, also those that no run
+//! has.
 
 use cotama_core::net::PlaceId;
 use cotama_core::system::{Happening, Offered, Turned};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Configurations, Decision, DecisionalLevel, Diagnosis, FailureMode, FailureModes,
-    Flags, Health, Losses, Modules, Report, Resources, Severity, Situation, StatusVector, Told, available,
-    by_rules, decide, diagnose, judge, lost_after, undetectable,
+    Cause, Configuration, Configurations, Decision, DecisionalLevel, Diagnosis, FailureMode,
+    FailureModes, Flags, Health, Losses, Modules, Report, Resources, Severity, Situation,
+    StatusVector, Told, available, by_rules, decide, diagnose, judge, lost_after, undetectable,
 };
 
 #[unsafe(no_mangle)]
@@ -23,7 +25,11 @@ fn root_level_tell(
 }
 
 #[unsafe(no_mangle)]
-fn root_level_round(level: &mut DecisionalLevel, now: Millis, seen: &mut Option<Happening<Cause>>) -> Turned {
+fn root_level_round(
+    level: &mut DecisionalLevel,
+    now: Millis,
+    seen: &mut Option<Happening<Cause>>,
+) -> Turned {
     level.round(now, &mut |it: &Happening<Cause>| *seen = Some(*it))
 }
 
@@ -89,6 +95,9 @@ fn root_losses_of_health(health: Health) -> (Losses, Modules) {
 }
 
 #[unsafe(no_mangle)]
-fn root_configurations(left: Modules, situation: Situation) -> (Configurations, Option<Configuration>) {
+fn root_configurations(
+    left: Modules,
+    situation: Situation,
+) -> (Configurations, Option<Configuration>) {
     (Configuration::running_on(left), situation.configuration())
 }

@@ -1,4 +1,5 @@
-//! The roots of the executive level: scheduler, watchdogs, response times and mailboxes, for any tasks.
+//! The roots of the executive level: scheduler, watchdogs, response times and mailboxes, for any
+//! tasks.
 //!
 //! An executive comes as its caller can leave it at worst: at any time, with any jobs under way.
 
@@ -41,7 +42,11 @@ fn root_executive_simulate(
 }
 
 #[unsafe(no_mangle)]
-fn root_executive_acknowledge(executive: &mut Executive<N>, task: usize, now: Micros) -> Option<Happening> {
+fn root_executive_acknowledge(
+    executive: &mut Executive<N>,
+    task: usize,
+    now: Micros,
+) -> Option<Happening> {
     executive.acknowledge(task, now)
 }
 
@@ -51,18 +56,28 @@ fn root_executive_wake_at(executive: &Executive<N>) -> (Option<Micros>, Option<u
 }
 
 #[unsafe(no_mangle)]
-fn root_executive_mailbox(mailbox: &mut Mailbox<u32>, done: &Happening, now: Micros) -> Option<Micros> {
+fn root_executive_mailbox(
+    mailbox: &mut Mailbox<u32>,
+    done: &Happening,
+    now: Micros,
+) -> Option<Micros> {
     mailbox.publish(done.publication()?, 1);
     mailbox.read(now).map(|(_, age)| age)
 }
 
 #[unsafe(no_mangle)]
-fn root_executive_schedulable(tasks: &[Task], overruns: Overruns) -> Option<Result<(), Unschedulable>> {
+fn root_executive_schedulable(
+    tasks: &[Task],
+    overruns: Overruns,
+) -> Option<Result<(), Unschedulable>> {
     Some(TaskSet::new(tasks).ok()?.schedulable(overruns))
 }
 
 #[unsafe(no_mangle)]
-fn root_executive_most_cost(tasks: &[Task], task: usize) -> Option<Result<Option<Micros>, Unschedulable>> {
+fn root_executive_most_cost(
+    tasks: &[Task],
+    task: usize,
+) -> Option<Result<Option<Micros>, Unschedulable>> {
     Some(TaskSet::new(tasks).ok()?.most_cost(task, Overruns::One))
 }
 

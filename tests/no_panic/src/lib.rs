@@ -1,9 +1,11 @@
-//! Every operation of the executor, for every model that ships, linked against a panic that cannot be linked.
+//! Every operation of the executor, for every model that ships, linked against a panic that cannot
+//! be linked.
 //!
-//! The panic handler calls a function that exists nowhere. A root that links can therefore not panic, in the code that
-//! this compiler made of it, whatever its arguments: markings, clocks and stored bytes included. Overflow checks are on.
-//! There is no global allocator, so nothing here needs a heap. A canary must not link. Of an `open` function the compiler
-//! cannot see that it does not panic; it is listed so that none is forgotten.
+//! The panic handler calls a function that exists nowhere. A root that links can therefore not
+//! panic, in the code that this compiler made of it, whatever its arguments: markings, clocks and
+//! stored bytes included. Overflow checks are on. There is no global allocator, so nothing here
+//! needs a heap. A canary must not link. Of an `open` function the compiler cannot see that it does
+//! not panic; it is listed so that none is forgotten.
 #![no_std]
 #![deny(missing_docs)]
 

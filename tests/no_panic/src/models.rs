@@ -2,7 +2,9 @@
 //!
 //! A generic function can panic with one net and not with another, so each net has its own roots.
 
-use cotama_core::net::{Advanced, Firing, Observer, Outcome, RestoreError, Round, Snapshot, TransitionId};
+use cotama_core::net::{
+    Advanced, Firing, Observer, Outcome, RestoreError, Round, Snapshot, TransitionId,
+};
 use cotama_core::units::Millis;
 
 /// An observer that reads all it is shown.
@@ -19,8 +21,8 @@ impl<E, T, O> Observer<E, T, O> for Heard {
     }
 }
 
-/// The roots of nets: `machine` has one state at a time and a root for it, `net` does not. A player comes as its caller
-/// can leave it at worst: with any marking, any clocks and any time.
+/// The roots of nets: `machine` has one state at a time and a root for it, `net` does not. A player
+/// comes as its caller can leave it at worst: with any marking, any clocks and any time.
 macro_rules! roots {
     ($($kind:ident $name:ident: $module:path;)*) => {$(
         mod $name {

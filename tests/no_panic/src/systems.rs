@@ -1,4 +1,5 @@
-//! The roots of the systems: every operation of a player, for every system of nets that ships, and for one on time.
+//! The roots of the systems: every operation of a player, for every system of nets that ships, and
+//! for one on time.
 
 use cotama_core::net::{Advanced, EventId, PlaceId};
 use cotama_core::system::{Happening, Of, Offered, Turned, Witness};

@@ -1,8 +1,8 @@
 //! The core as firmware links it: allocators, front and monitor on the tables of the patrol.
 //!
-//! This crate has a panic handler, so it does not build when anything below it needs `std`, and no global
-//! allocator, so it does not build when anything below it needs the heap. `check.sh` builds it, builds the
-//! canaries that must fail, and prints the size of each entry point on the target.
+//! This crate has a panic handler, so it does not build when anything below it needs `std`, and no
+//! global allocator, so it does not build when anything below it needs the heap. `check.sh` builds
+//! it, builds the canaries that must fail, and prints the size of each entry point on the target.
 #![no_std]
 #![deny(missing_docs)]
 
@@ -31,8 +31,13 @@ const NODES: usize = 256;
 /// A plan of the patrol: the alternative of each activity.
 pub type Plan = [u16; STAGES];
 
-/// The patrol from one of its activities on, of which `left` is left; `None` when nothing can be planned.
-fn with_rest<R>(first: usize, left: u64, act: impl FnOnce(&Problem<'_, 2>) -> Option<R>) -> Option<R> {
+/// The patrol from one of its activities on, of which `left` is left; `None` when nothing can be
+/// planned.
+fn with_rest<R>(
+    first: usize,
+    left: u64,
+    act: impl FnOnce(&Problem<'_, 2>) -> Option<R>,
+) -> Option<R> {
     let mut candidates: [Candidate<2>; CANDIDATES] = [EMPTY; CANDIDATES];
     let mut lists = [&[][..]; STAGES];
     let rest = Rest::Travel(Millimetres(left));
@@ -42,15 +47,20 @@ fn with_rest<R>(first: usize, left: u64, act: impl FnOnce(&Problem<'_, 2>) -> Op
 }
 
 /// The quality of the plan that an allocator finds.
-fn quality(allocator: &mut impl Allocator<2>, problem: &Problem<'_, 2>, plan: &mut Plan) -> Option<u64> {
+fn quality(
+    allocator: &mut impl Allocator<2>,
+    problem: &Problem<'_, 2>,
+    plan: &mut Plan,
+) -> Option<u64> {
     match allocator.allocate(problem, plan) {
         Ok(Answer::Planned(planned)) => Some(planned.quality),
         Ok(Answer::Infeasible { .. } | Answer::Unknown { .. }) | Err(_) => None,
     }
 }
 
-// The entry points. `no_mangle` counts as unsafe because two equal names would meet at link time: these begin
-// with `cotama_`, as no symbol of `core` does. Without it a static library keeps no function at all.
+// The entry points. `no_mangle` counts as unsafe because two equal names would meet at link time:
+// these begin with `cotama_`, as no symbol of `core` does. Without it a static library keeps no
+// function at all.
 
 /// Plans with the paper's rule; the quality, or zero without a plan.
 #[unsafe(no_mangle)]
@@ -81,10 +91,15 @@ pub extern "C" fn cotama_front(first: usize, left: u64, plan: &mut Plan) -> usiz
     .unwrap_or(0)
 }
 
-/// Whether a plan still holds after this consumption with this hardware: 0 yes, 1 no, 2 there may be a better
-/// one, 3 an amount is out of range.
+/// Whether a plan still holds after this consumption with this hardware: 0 yes, 1 no, 2 there may
+/// be a better one, 3 an amount is out of range.
 #[unsafe(no_mangle)]
-pub extern "C" fn cotama_monitor(used: &[u64; 2], rest: &[u64; 2], needs: u64, available: u64) -> u32 {
+pub extern "C" fn cotama_monitor(
+    used: &[u64; 2],
+    rest: &[u64; 2],
+    needs: u64,
+    available: u64,
+) -> u32 {
     let assess = || {
         let mut monitor = Monitor::new(LIMITS, ORDER).ok()?;
         monitor.planned(&LIMITS).ok()?;

@@ -3,7 +3,8 @@
 use super::{Played, load, nets, with_size_of};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{
-    Advanced, CATCH_UP, EventId, Net, Outcome, Packed, PlaceId, Player, Round, SETTLE, TransitionId, Why,
+    Advanced, CATCH_UP, EventId, Net, Outcome, Packed, PlaceId, Player, Round, SETTLE,
+    TransitionId, Why,
 };
 use cotama_core::units::Millis;
 use cotama_tests::instances::Draw;
@@ -95,11 +96,20 @@ fn the_longest_interval_is_kept_to_the_millisecond() {
         assert_eq!(player.advance(Millis(3 * longest - 1)), Advanced { fired: 2, behind: false });
         assert_eq!(player.wake_at(), Some(Millis(3 * longest)));
     });
-    with_player(&wheel(OwnedTransition::new("turn").on(PUSH).within(0, Some(u32::MAX - 1))), |player| {
-        assert_eq!(player.offer(Millis(longest - 1), &PUSH), fired(0));
-        assert_eq!(player.offer(Millis(2 * longest - 1), &PUSH), ignored(Why::TooLate(TransitionId(0))));
-        assert_eq!(player.offer(Millis(u64::MAX), &PUSH), ignored(Why::TooLate(TransitionId(0))));
-    });
+    with_player(
+        &wheel(OwnedTransition::new("turn").on(PUSH).within(0, Some(u32::MAX - 1))),
+        |player| {
+            assert_eq!(player.offer(Millis(longest - 1), &PUSH), fired(0));
+            assert_eq!(
+                player.offer(Millis(2 * longest - 1), &PUSH),
+                ignored(Why::TooLate(TransitionId(0)))
+            );
+            assert_eq!(
+                player.offer(Millis(u64::MAX), &PUSH),
+                ignored(Why::TooLate(TransitionId(0)))
+            );
+        },
+    );
 }
 
 #[test]
@@ -120,8 +130,14 @@ fn a_round_tells_of_the_first_64_events() {
         assert_eq!(player.round(Millis(0), &[PUSH; 70]), Round { fired: 1, ..Round::default() });
     });
     with_player(&wheel(OwnedTransition::new("turn").on(PUSH).within(1, None)), |player| {
-        assert_eq!(player.round(Millis(0), &[PUSH; 70]), Round { ignored: u64::MAX, ..Round::default() });
-        assert_eq!(player.round(Millis(0), &[PUSH; 64]), Round { ignored: u64::MAX, ..Round::default() });
+        assert_eq!(
+            player.round(Millis(0), &[PUSH; 70]),
+            Round { ignored: u64::MAX, ..Round::default() }
+        );
+        assert_eq!(
+            player.round(Millis(0), &[PUSH; 64]),
+            Round { ignored: u64::MAX, ..Round::default() }
+        );
         assert_eq!(
             player.round(Millis(0), &[PUSH; 63]),
             Round { ignored: u64::MAX >> 1, ..Round::default() }
@@ -138,7 +154,8 @@ fn a_round_does_not_fit_when_its_gifts_together_do_not() {
     let both = net.place(OwnedPlace::new("both", 0).at_most(1)).unwrap();
     net.event("push", "").unwrap();
     net.transition(OwnedTransition::new("from left").on(PUSH).take(left, 1).give(both, 1)).unwrap();
-    net.transition(OwnedTransition::new("from right").on(PUSH).take(right, 1).give(both, 1)).unwrap();
+    net.transition(OwnedTransition::new("from right").on(PUSH).take(right, 1).give(both, 1))
+        .unwrap();
     with_player(&net, |player| {
         let round = player.round(Millis(0), &[PUSH]);
         assert_eq!(round, Round { fired: 0, ignored: 1, full: true });
@@ -148,8 +165,13 @@ fn a_round_does_not_fit_when_its_gifts_together_do_not() {
     });
 }
 
-/// Whatever the net does, no call lets more than so many transitions fire, and no place holds more than its bound.
-fn every_call_returns<const W: usize, const C: usize>(net: &Net<'_>, seed: u64, draw: &mut Draw) -> bool {
+/// Whatever the net does, no call lets more than so many transitions fire, and no place holds more
+/// than its bound.
+fn every_call_returns<const W: usize, const C: usize>(
+    net: &Net<'_>,
+    seed: u64,
+    draw: &mut Draw,
+) -> bool {
     let packed = Packed::<W>::of(net).unwrap();
     let program = load(&packed, net, draw);
     let mut player: Played<'_, W, C> = Player::start(program, Millis(0), &mut ());

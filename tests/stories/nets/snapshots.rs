@@ -3,8 +3,8 @@
 use super::{Played, delay, nets, with_size_of};
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{
-    EventId, Law, Loaded, Net, Packed, PlaceId, Player, Program, RestoreError, Role, Snapshot, Within,
-    clocks, words,
+    EventId, Law, Loaded, Net, Packed, PlaceId, Player, Program, RestoreError, Role, Snapshot,
+    Within, clocks, words,
 };
 use cotama_core::units::Millis;
 use cotama_tests::instances::Draw;
@@ -37,8 +37,8 @@ fn storing_changes_nothing<const W: usize, const C: usize>(
         let bytes = stored.write(&mut room).unwrap().to_vec();
         assert_eq!(bytes.len(), Snapshot::<W, C>::BYTES);
         assert_eq!(Snapshot::read(&bytes), Some(stored), "seed {seed}");
-        let restored =
-            Player::restore(program, now, &stored).unwrap_or_else(|why| panic!("seed {seed}: {why}"));
+        let restored = Player::restore(program, now, &stored)
+            .unwrap_or_else(|why| panic!("seed {seed}: {why}"));
         assert_same_player(&restored, &player, seed);
 
         let mut damaged = bytes;
@@ -72,7 +72,8 @@ fn assert_same_player<const W: usize, const C: usize>(
     assert_eq!(one.wake_at(), two.wake_at(), "seed {seed}");
 }
 
-/// Bounds, complements, invariants and clocks are as in a marking that the net can have, and the net is settled.
+/// Bounds, complements, invariants and clocks are as in a marking that the net can have, and the
+/// net is settled.
 fn assert_lawful<const W: usize, const C: usize>(player: &Played<'_, W, C>, seed: u64) {
     let Loaded { net, code } = player.program();
     let mut game = Game::start(net, 0);
@@ -150,7 +151,8 @@ fn lamp() -> OwnedNet {
     let off = net.place(OwnedPlace::new("off", 1).at_most(1)).unwrap();
     let on = net.place(OwnedPlace::new("on", 0).at_most(1)).unwrap();
     net.transition(OwnedTransition::new("light").on(press).take(off, 1).give(on, 1)).unwrap();
-    net.transition(OwnedTransition::new("time out").take(on, 1).give(off, 1).within(10, Some(20))).unwrap();
+    net.transition(OwnedTransition::new("time out").take(on, 1).give(off, 1).within(10, Some(20)))
+        .unwrap();
     net
 }
 

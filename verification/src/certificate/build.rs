@@ -1,7 +1,8 @@
 //! Certificates from what engines hold.
 
 use super::{
-    Certificate, Evidence, Fact, Formula, Growth, Lasso, Linear, Net, Question, SCHEMA, Trace, Transition,
+    Certificate, Evidence, Fact, Formula, Growth, Lasso, Linear, Net, Question, SCHEMA, Trace,
+    Transition,
 };
 use crate::property::{self, Atom, Property};
 use crate::pt::Pt;
@@ -63,7 +64,13 @@ impl Certificate {
     }
 
     /// A certificate for the verdict on a question.
-    pub fn of(pt: &Pt, property: &str, question: Question, verdict: bool, evidence: Evidence) -> Self {
+    pub fn of(
+        pt: &Pt,
+        property: &str,
+        question: Question,
+        verdict: bool,
+        evidence: Evidence,
+    ) -> Self {
         Self {
             schema: SCHEMA.to_owned(),
             net: Net::from(pt),
@@ -76,7 +83,8 @@ impl Certificate {
 
     /// The file: one line of JSON.
     pub fn text(&self) -> String {
-        // Strings, numbers, lists and maps with strings as keys: there is nothing that JSON cannot say.
+        // Strings, numbers, lists and maps with strings as keys: there is nothing that JSON cannot
+        // say.
         serde_json::to_string(self).map_or_else(|_| String::new(), |it| it + "\n")
     }
 }
@@ -86,7 +94,8 @@ impl From<&Pt> for Net {
         let name = |place: u32| pt.places[place as usize].clone();
         let transitions = pt.transitions.iter().zip(0..).map(|(transition, id)| {
             let needs = pt.needs.of(id);
-            let mut give: Vec<_> = needs.iter().map(|&(place, tokens)| (place, i64::from(tokens))).collect();
+            let mut give: Vec<_> =
+                needs.iter().map(|&(place, tokens)| (place, i64::from(tokens))).collect();
             for &(place, change) in pt.effects.of(id) {
                 match give.binary_search_by_key(&place, |it| it.0) {
                     Ok(at) => give[at].1 += change,
@@ -116,7 +125,11 @@ impl Question {
     /// # Errors
     ///
     /// As [`Certificate::new`].
-    pub fn new(pt: &Pt, question: &property::Question, answer: Answer) -> Result<Self, Uncertifiable> {
+    pub fn new(
+        pt: &Pt,
+        question: &property::Question,
+        answer: Answer,
+    ) -> Result<Self, Uncertifiable> {
         use property::Question as Asked;
         Ok(match (question, answer) {
             (Asked::Response { .. }, _) => return Err(Uncertifiable::Time),
@@ -125,9 +138,9 @@ impl Question {
                 places: places.iter().map(|it| pt.places[it.0 as usize].clone()).collect(),
                 most: i64::try_from(most).map_err(|_| Uncertifiable::Answer)?,
             },
-            (Asked::Bound(places), Answer::Unbounded) => {
-                Self::Unbounded { places: places.iter().map(|it| pt.places[it.0 as usize].clone()).collect() }
-            }
+            (Asked::Bound(places), Answer::Unbounded) => Self::Unbounded {
+                places: places.iter().map(|it| pt.places[it.0 as usize].clone()).collect(),
+            },
             (Asked::Bound(_), Answer::Holds(_)) | (_, Answer::Bound(_) | Answer::Unbounded) => {
                 return Err(Uncertifiable::Answer);
             }
@@ -147,9 +160,11 @@ fn speaks_of_runs(formula: &property::Formula) -> bool {
         Asked::Not(a) => speaks_of_runs(a),
         Asked::And(all) | Asked::Or(all) => all.iter().any(speaks_of_runs),
         Asked::Atom(_) | Asked::Exists(_) | Asked::All(_) => false,
-        Asked::Next(_) | Asked::Finally(_) | Asked::Globally(_) | Asked::Until(..) | Asked::Within(..) => {
-            true
-        }
+        Asked::Next(_)
+        | Asked::Finally(_)
+        | Asked::Globally(_)
+        | Asked::Until(..)
+        | Asked::Within(..) => true,
     }
 }
 
@@ -164,7 +179,8 @@ impl Formula {
         Self::Exists(Box::new(Self::Finally(Box::new(a))))
     }
 
-    /// That these places hold so many tokens together, or more; one that is named twice counts twice.
+    /// That these places hold so many tokens together, or more; one that is named twice counts
+    /// twice.
     pub fn at_least(tokens: i64, places: &[String]) -> Self {
         let mut weights = BTreeMap::new();
         for it in places {
@@ -192,9 +208,9 @@ impl Formula {
                 let weights = linear.weights.iter().map(|&(place, weight)| (place.0, weight));
                 Self::AtMost(Linear::new(pt, linear.constant, weights))
             }
-            Asked::Atom(Atom::Fireable(some)) => {
-                Self::Fireable(some.iter().map(|it| pt.transitions[it.0 as usize].clone()).collect())
-            }
+            Asked::Atom(Atom::Fireable(some)) => Self::Fireable(
+                some.iter().map(|it| pt.transitions[it.0 as usize].clone()).collect(),
+            ),
             Asked::Atom(Atom::Deadlock) => Self::Deadlock,
             Asked::Not(a) => Self::Not(boxed(a)?),
             Asked::And(all) => Self::And(list(all)?),
@@ -219,7 +235,8 @@ impl Formula {
 impl Linear {
     /// `constant + sum of weight * tokens <= 0`, by numbers of places.
     pub fn new(pt: &Pt, constant: i64, weights: impl IntoIterator<Item = (u32, i64)>) -> Self {
-        let named = weights.into_iter().map(|(place, weight)| (pt.places[place as usize].clone(), weight));
+        let named =
+            weights.into_iter().map(|(place, weight)| (pt.places[place as usize].clone(), weight));
         Self { constant, weights: named.collect() }
     }
 
@@ -230,8 +247,8 @@ impl Linear {
 }
 
 impl Fact {
-    /// That this weighted sum of tokens is never larger than at a marking; `None` when its value there needs more than 64
-    /// bits.
+    /// That this weighted sum of tokens is never larger than at a marking; `None` when its value
+    /// there needs more than 64 bits.
     pub fn sum(pt: &Pt, weights: &[(u32, i64)], from: &[u32]) -> Option<Self> {
         let value = weights.iter().try_fold(0_i64, |sum, &(place, weight)| {
             sum.checked_sub(weight.checked_mul(from[place as usize].into())?)
@@ -265,13 +282,15 @@ impl Evidence {
         Self::Lasso(Lasso { stem: names(pt, stem), cycle: names(pt, cycle) })
     }
 
-    /// What makes sums of tokens larger than any number; `None` when a sequence is too long to be written out.
+    /// What makes sums of tokens larger than any number; `None` when a sequence is too long to be
+    /// written out.
     pub fn growth(pt: &Pt, growth: &coverability::Growth) -> Option<Self> {
         let names = |it: &coverability::Sequence| Some(names(pt, &numbers(it.firings.as_ref()?)));
         Some(Self::Growth(Growth { stem: names(&growth.stem)?, pump: names(&growth.pump)? }))
     }
 
-    /// The run that a search for runs has found; `None` when it may go on in any way, see [`Run::closed`].
+    /// The run that a search for runs has found; `None` when it may go on in any way, see
+    /// [`Run::closed`].
     pub fn run(pt: &Pt, run: &Run) -> Option<Self> {
         let cycle = match &run.rest {
             Rest::Any => return None,
@@ -281,7 +300,8 @@ impl Evidence {
         Some(Self::lasso(pt, &numbers(&run.stem), &cycle))
     }
 
-    /// All reachable markings, from the initial one: an answer to any question of CTL about the whole net.
+    /// All reachable markings, from the initial one: an answer to any question of CTL about the
+    /// whole net.
     pub fn graph(graph: &explicit::Graph) -> Self {
         Self::Graph(graph.states())
     }

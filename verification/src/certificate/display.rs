@@ -9,7 +9,9 @@ struct Name<'a>(&'a str);
 impl fmt::Display for Name<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let plain = |it: char| it.is_ascii_alphanumeric() || it == '_';
-        if self.0.starts_with(|it: char| it.is_ascii_alphabetic() || it == '_') && self.0.chars().all(plain) {
+        if self.0.starts_with(|it: char| it.is_ascii_alphabetic() || it == '_')
+            && self.0.chars().all(plain)
+        {
             f.write_str(self.0)
         } else {
             write!(f, "{:?}", self.0)
@@ -24,7 +26,13 @@ fn count(number: usize, noun: &str) -> String {
 impl fmt::Display for Net {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let (places, transitions) = (self.places.len(), self.transitions.len());
-        write!(f, "{} ({}, {})", Name(&self.name), count(places, "place"), count(transitions, "transition"))
+        write!(
+            f,
+            "{} ({}, {})",
+            Name(&self.name),
+            count(places, "place"),
+            count(transitions, "transition")
+        )
     }
 }
 
@@ -90,7 +98,11 @@ impl fmt::Display for Linear {
                 })
                 .collect();
             if constant || terms.is_empty() {
-                terms.push(if constant { self.constant.unsigned_abs().to_string() } else { "0".into() });
+                terms.push(if constant {
+                    self.constant.unsigned_abs().to_string()
+                } else {
+                    "0".into()
+                });
             }
             terms.join(" + ")
         };
@@ -111,7 +123,11 @@ impl fmt::Display for Evidence {
             Self::One(one) => write!(f, "part {}: {}", one.part, one.by),
             Self::Trace(trace) => {
                 write!(f, "a trace of {}", count(trace.fire.len(), "firing"))?;
-                if *trace.then == Self::State { Ok(()) } else { write!(f, ", and there {}", trace.then) }
+                if *trace.then == Self::State {
+                    Ok(())
+                } else {
+                    write!(f, ", and there {}", trace.then)
+                }
             }
             Self::Lasso(lasso) => write!(
                 f,
@@ -127,10 +143,16 @@ impl fmt::Display for Evidence {
             ),
             Self::Refutation(it) => {
                 let traps = it.facts.iter().filter(|it| matches!(it, Fact::Trap(_))).count();
-                let leaves = it.cases.iter().filter(|it| matches!(it, Case::Contradiction(_))).count();
+                let leaves =
+                    it.cases.iter().filter(|it| matches!(it, Case::Contradiction(_))).count();
                 let facts = count(it.facts.len() - traps, "inequality");
                 let facts = facts.replace("inequalitys", "inequalities");
-                write!(f, "{facts} and {} that exclude {}", count(traps, "trap"), count(leaves, "case"))
+                write!(
+                    f,
+                    "{facts} and {} that exclude {}",
+                    count(traps, "trap"),
+                    count(leaves, "case")
+                )
             }
             Self::Graph(markings) => write!(f, "passing through {}", count(*markings, "marking")),
         }

@@ -1,8 +1,9 @@
-//! Evidence for a verdict, as a file that a sceptic can check again without the engine that found it.
+//! Evidence for a verdict, as a file that a sceptic can check again without the engine that found
+//! it.
 //!
-//! A certificate holds a net, a question, the verdict and the evidence. [`verify`](verify()) reads it and believes
-//! nothing: its checker is small, has a net and a firing rule of its own, and shares only the data types of this page, and
-//! what questions mean, with the rest of the crate.
+//! A certificate holds a net, a question, the verdict and the evidence. [`verify`](verify()) reads
+//! it and believes nothing: its checker is small, has a net and a firing rule of its own, and
+//! shares only the data types of this page, and what questions mean, with the rest of the crate.
 //!
 //! ```
 //! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -26,8 +27,9 @@
 //!
 //! # Meaning
 //!
-//! Runs are maximal; after a deadlock the last marking lasts for ever. `EX` and `AX` speak of the markings that follow, of which
-//! a deadlock has none: `EX` is false there, `AX` true. The global questions stand for formulas:
+//! Runs are maximal; after a deadlock the last marking lasts for ever. `EX` and `AX` speak of the
+//! markings that follow, of which a deadlock has none: `EX` is false there, `AX` true. The global
+//! questions stand for formulas:
 //!
 //! | question | formula |
 //! | --- | --- |
@@ -38,8 +40,9 @@
 //! | `one_safe` | `AG` of `p <= 1` for each place |
 //! | `unbounded` | `EF sum >= n` for each number `n` |
 //!
-//! Verdicts of LTL that are true have no certificate: no run is a counterexample, and to see that, the checker would have to search
-//! the product of the markings with an automaton, as the engine does. Those that are false have a [`Lasso`].
+//! Verdicts of LTL that are true have no certificate: no run is a counterexample, and to see that,
+//! the checker would have to search the product of the markings with an automaton, as the engine
+//! does. Those that are false have a [`Lasso`].
 //!
 //! Each kind of [`Evidence`] says what it shows, and why that is so.
 
@@ -69,7 +72,8 @@ pub struct Certificate {
     pub schema: String,
     /// The net that is spoken of.
     pub net: Net,
-    /// The name of the property. Nothing is shown about it: what is shown is the answer to the question.
+    /// The name of the property. Nothing is shown about it: what is shown is the answer to the
+    /// question.
     pub property: String,
     /// What is asked.
     pub question: Question,
@@ -91,7 +95,8 @@ pub struct Net {
     pub transitions: Vec<Transition>,
 }
 
-/// A transition: enabled when each place has the tokens that are taken; firing takes them and then gives.
+/// A transition: enabled when each place has the tokens that are taken; firing takes them and then
+/// gives.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Transition {
@@ -188,10 +193,11 @@ pub struct Linear {
     pub weights: Vec<(String, i64)>,
 }
 
-/// Why something holds, or does not hold, at a marking: the start of the net, or where a trace has led.
+/// Why something holds, or does not hold, at a marking: the start of the net, or where a trace has
+/// led.
 ///
-/// `!` turns around what is to be shown, and `A` is read as `!E!`: evidence that `AG` is false is evidence that `EF` of the
-/// opposite is true.
+/// `!` turns around what is to be shown, and `A` is read as `!E!`: evidence that `AG` is false is
+/// evidence that `EF` of the opposite is true.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Evidence {
@@ -211,8 +217,9 @@ pub enum Evidence {
     Growth(Growth),
     /// `EF` (or `EU`) is false: why the goal contradicts what holds of all reachable markings.
     Refutation(Refutation),
-    /// Any formula of CTL: so many markings are reachable from here. The checker passes through them with its own firing rule:
-    /// to see that a set of markings is left by no firing takes just as much, and a longer file.
+    /// Any formula of CTL: so many markings are reachable from here. The checker passes through
+    /// them with its own firing rule: to see that a set of markings is left by no firing takes just
+    /// as much, and a longer file.
     Graph(usize),
 }
 
@@ -230,8 +237,8 @@ pub struct One {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trace {
-    /// Transitions fired one after the other; for `EX` one. For `EU`, the first operand holds before each of them and speaks
-    /// of one marking.
+    /// Transitions fired one after the other; for `EX` one. For `EU`, the first operand holds
+    /// before each of them and speaks of one marking.
     pub fire: Vec<String>,
     /// Why the marking where they lead is the one looked for.
     pub then: Box<Evidence>,
@@ -243,13 +250,14 @@ pub struct Trace {
 pub struct Lasso {
     /// Transitions fired once.
     pub stem: Vec<String>,
-    /// Transitions that lead back to the end of the stem; none when that is a deadlock, which lasts.
+    /// Transitions that lead back to the end of the stem; none when that is a deadlock, which
+    /// lasts.
     #[serde(rename = "loop")]
     pub cycle: Vec<String>,
 }
 
-/// What can be repeated for ever, and each time adds tokens to the places asked for: after one round every place has as many
-/// tokens as before, or more, so that what could fire can fire again.
+/// What can be repeated for ever, and each time adds tokens to the places asked for: after one
+/// round every place has as many tokens as before, or more, so that what could fire can fire again.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Growth {
@@ -261,26 +269,32 @@ pub struct Growth {
 
 /// Why no reachable marking is a goal: facts about all reachable markings, and a tree of cases.
 ///
-/// The goal is read with negations moved inward. A transition that is enabled is an `and` of `weight - tokens <= 0` over the
-/// places that it takes from, in the order of the places; one that is not, an `or` of `tokens - weight + 1 <= 0`. A
-/// deadlock is the `and` of the latter over all transitions.
+/// The goal is read with negations moved inward. A transition that is enabled is an `and` of
+/// `weight - tokens <= 0` over the places that it takes from, in the order of the places; one that
+/// is not, an `or` of `tokens - weight + 1 <= 0`. A deadlock is the `and` of the latter over all
+/// transitions.
 ///
-/// What is known are two lists, numbered from 0: inequalities, which start with the facts, and `or`s. Assuming an `and` assumes
-/// each part in order. An inequality is put at the end of the first list; an `or` with one part is that part; any other
-/// one is put at the end of the second list. What a node assumes is known to its children as well. So for a deadlock, the
-/// facts are followed by the transitions that take from one place, and the `or`s start with all others, both in order.
+/// What is known are two lists, numbered from 0: inequalities, which start with the facts, and
+/// `or`s. Assuming an `and` assumes each part in order. An inequality is put at the end of the
+/// first list; an `or` with one part is that part; any other one is put at the end of the second
+/// list. What a node assumes is known to its children as well. So for a deadlock, the facts are
+/// followed by the transitions that take from one place, and the `or`s start with all others, both
+/// in order.
 ///
-/// Transitions that never fire break no fact. All of them are shown together, from the same facts: these hold until one of them
-/// fires, so the first one that fires would do so in a marking where they hold, and there it is not enabled.
+/// Transitions that never fire break no fact. All of them are shown together, from the same facts:
+/// these hold until one of them fires, so the first one that fires would do so in a marking where
+/// they hold, and there it is not enabled.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Refutation {
-    /// Transitions that never fire; for each of them a tree of cases that starts from the assumption that it is enabled.
+    /// Transitions that never fire; for each of them a tree of cases that starts from the
+    /// assumption that it is enabled.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub dead: Vec<(String, Vec<Case>)>,
     /// What holds of all markings that are reachable from here.
     pub facts: Vec<Fact>,
-    /// The tree, each node before its children, which follow in order. The first node stands for the goal.
+    /// The tree, each node before its children, which follow in order. The first node stands for
+    /// the goal.
     pub cases: Vec<Case>,
 }
 
@@ -290,8 +304,8 @@ pub struct Refutation {
 pub enum Fact {
     /// An inequality that holds here, and whose left side no transition raises.
     AtMost(Linear),
-    /// Places of which one is marked here; each transition that takes from one of them gives to one of them, so that one
-    /// is always marked. As an inequality: `1 - sum of tokens <= 0`.
+    /// Places of which one is marked here; each transition that takes from one of them gives to one
+    /// of them, so that one is always marked. As an inequality: `1 - sum of tokens <= 0`.
     Trap(Vec<String>),
 }
 
@@ -299,8 +313,9 @@ pub enum Fact {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Case {
-    /// A leaf: these multiples of inequalities, by their numbers, add up to `constant + sum of weight * tokens <= 0` with a
-    /// constant above 0 and no weight below 0. There are no such numbers of tokens.
+    /// A leaf: these multiples of inequalities, by their numbers, add up to `constant + sum of
+    /// weight * tokens <= 0` with a constant above 0 and no weight below 0. There are no such
+    /// numbers of tokens.
     Contradiction(Vec<(usize, u64)>),
     /// A child for each part of this open `or`, in order.
     Split(usize),

@@ -1,5 +1,5 @@
-//! Reading a certificate: from its text to data that is in order and of limited size, with numbers for names. Whether it is right
-//! is no matter here.
+//! Reading a certificate: from its text to data that is in order and of limited size, with numbers
+//! for names. Whether it is right is no matter here.
 
 use super::sum::{Marking, ONE, Sum};
 use super::{Certificate, Formula, Linear, Net, SCHEMA, VerifyError};
@@ -48,7 +48,10 @@ pub(super) fn each<T, U>(
     list: impl IntoIterator<Item = T>,
     mut check: impl FnMut(T) -> Checked<U>,
 ) -> Checked<Vec<U>> {
-    list.into_iter().enumerate().map(|(n, it)| check(it).map_err(at(format_args!("[{n}]")))).collect()
+    list.into_iter()
+        .enumerate()
+        .map(|(n, it)| check(it).map_err(at(format_args!("[{n}]"))))
+        .collect()
 }
 
 pub(super) fn certificate(text: &str) -> Checked<Certificate> {
@@ -78,14 +81,16 @@ fn number(of: &BTreeMap<&str, usize>, name: &str) -> Checked<usize> {
 
 impl<'a> Numbered<'a> {
     pub(super) fn new(net: &'a Net) -> Checked<Self> {
-        let places: BTreeMap<_, _> = net.places.iter().map(|it| it.0.as_str()).zip(ONE + 1..).collect();
+        let places: BTreeMap<_, _> =
+            net.places.iter().map(|it| it.0.as_str()).zip(ONE + 1..).collect();
         let transitions: BTreeMap<_, _> =
             net.transitions.iter().map(|it| it.name.as_str()).zip(0..).collect();
         let differ = places.len() == net.places.len() && transitions.len() == net.transitions.len();
         ensure(differ, "two places or two transitions have the same name")?;
         let initial = once(1).chain(net.places.iter().map(|it| it.1)).collect();
         let (work, memory) = (Cell::new(0), Cell::new(0));
-        let mut numbered = Self { net, initial, arcs: Vec::new(), places, transitions, work, memory };
+        let mut numbered =
+            Self { net, initial, arcs: Vec::new(), places, transitions, work, memory };
         let arcs = each(&net.transitions, |it| {
             let arcs = [numbered.weights(&it.take)?, numbered.weights(&it.give)?];
             ensure(arcs.iter().flat_map(BTreeMap::values).all(|it| *it > 0), "an arc has weight 0")
@@ -124,7 +129,9 @@ impl<'a> Numbered<'a> {
 
     /// The formula with what is enabled written out as inequalities; all that it names is there.
     pub(super) fn written_out(&self, formula: &Formula) -> Checked<Formula> {
-        let list = |all: &[Formula]| all.iter().map(|it| self.written_out(it)).collect::<Checked<Vec<_>>>();
+        let list = |all: &[Formula]| {
+            all.iter().map(|it| self.written_out(it)).collect::<Checked<Vec<_>>>()
+        };
         let boxed = |it: &Formula| self.written_out(it).map(Box::new);
         Ok(match formula {
             Formula::AtMost(linear) => self.linear(linear).map(|_| formula.clone())?,

@@ -6,7 +6,9 @@ use super::verify::Known;
 use super::{Case, Evidence, Fact, Formula, Linear, Refutation};
 use crate::property;
 use crate::pt::Pt;
-use crate::structural::certificate::{self as proof, Bound, DeadTransitions, DeadlockFree, disabled};
+use crate::structural::certificate::{
+    self as proof, Bound, DeadTransitions, DeadlockFree, disabled,
+};
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::{BTreeMap, BTreeSet};
 use std::iter::once;
@@ -31,8 +33,8 @@ struct Draught<'a> {
     cases: Vec<Draft>,
 }
 
-/// What is assumed at a node: how many inequalities, which of them the assumptions of the engine are, and where the `or`s of
-/// transitions are that are not enabled.
+/// What is assumed at a node: how many inequalities, which of them the assumptions of the engine
+/// are, and where the `or`s of transitions are that are not enabled.
 #[derive(Clone, Default)]
 struct Node {
     assumed: usize,
@@ -51,8 +53,9 @@ impl Node {
 }
 
 impl Evidence {
-    /// That no marking of a kind is reached, from the refutation of each `and` of inequalities that the goal, as an `or`, is made
-    /// of. The first [`DeadTransitions`] are those of [`Structure::dead`](crate::structural::Structure::dead).
+    /// That no marking of a kind is reached, from the refutation of each `and` of inequalities that
+    /// the goal, as an `or`, is made of. The first [`DeadTransitions`] are those of
+    /// [`Structure::dead`](crate::structural::Structure::dead).
     ///
     /// `None` when a part is missing, or a number has more than 64 bits.
     ///
@@ -91,15 +94,17 @@ impl Evidence {
             let weights = it.weights.iter().map(|it| (ONE + 1 + it.0.0 as usize, it.1.into()));
             Sum(once((ONE, it.constant.into())).chain(weights).collect())
         };
-        let parts: Vec<_> =
-            parts.iter().map(|(goal, by)| (goal.iter().map(linear).collect::<Vec<_>>(), by)).collect();
+        let parts: Vec<_> = parts
+            .iter()
+            .map(|(goal, by)| (goal.iter().map(linear).collect::<Vec<_>>(), by))
+            .collect();
         let mut draught = Draught::new(pt, dead);
         draught.goal(&net, (&goal, true), &mut Known::default(), 0, &parts)?;
         draught.finish()
     }
 
-    /// That a sum of tokens never passes a bound: as an answer to `AG sum <= bound`, or as the first of the two parts that
-    /// [`Evidence::most`] puts together.
+    /// That a sum of tokens never passes a bound: as an answer to `AG sum <= bound`, or as the
+    /// first of the two parts that [`Evidence::most`] puts together.
     pub fn bounded(pt: &Pt, dead: &DeadTransitions, bound: &Bound) -> Option<Self> {
         let mut draught = Draught::new(pt, dead);
         draught.refutation(&bound.refutation, &Node::default().and())?;
@@ -125,7 +130,8 @@ impl Evidence {
             draught.cases.push(Draft::Split(0));
         }
         for place in 0..pt.places.len() as u32 {
-            let bound = bounds.iter().find(|it| it.at_most <= 1 && it.weights == [(PlaceId(place), 1)])?;
+            let bound =
+                bounds.iter().find(|it| it.at_most <= 1 && it.weights == [(PlaceId(place), 1)])?;
             draught.refutation(&bound.refutation, &Node::default().and())?;
         }
         draught.finish()
@@ -149,7 +155,9 @@ impl<'a> Draught<'a> {
         let number = |drafts: Vec<Draft>| {
             let case = |it| match it {
                 Draft::Leaf { mut facts, assumed } => {
-                    facts.extend(assumed.into_iter().map(|(number, factor)| (count + number, factor)));
+                    facts.extend(
+                        assumed.into_iter().map(|(number, factor)| (count + number, factor)),
+                    );
                     Case::Contradiction(facts)
                 }
                 Draft::Split(or) => Case::Split(or),
@@ -164,14 +172,16 @@ impl<'a> Draught<'a> {
     /// The number of a fact.
     fn fact(&mut self, trap: bool, constant: i64, weights: Vec<(u32, i64)>) -> usize {
         let (pt, facts) = (self.pt, &mut self.facts);
-        *self.numbers.entry((trap, constant, weights)).or_insert_with_key(|(trap, constant, weights)| {
-            facts.push(if *trap {
-                Fact::trap(pt, &weights.iter().map(|it| it.0).collect::<Vec<_>>())
-            } else {
-                Fact::AtMost(Linear::new(pt, *constant, weights.iter().copied()))
-            });
-            facts.len() - 1
-        })
+        *self.numbers.entry((trap, constant, weights)).or_insert_with_key(
+            |(trap, constant, weights)| {
+                facts.push(if *trap {
+                    Fact::trap(pt, &weights.iter().map(|it| it.0).collect::<Vec<_>>())
+                } else {
+                    Fact::AtMost(Linear::new(pt, *constant, weights.iter().copied()))
+                });
+                facts.len() - 1
+            },
+        )
     }
 
     /// What shows that the engine's assumptions do not hold together.
@@ -198,11 +208,13 @@ impl<'a> Draught<'a> {
             facts.push((self.fact(true, 1, places), factor(*times)?));
         }
         if !sum.invariant.weights.is_empty() || sum.invariant.constant != 0 {
-            let weights = sum.invariant.weights.iter().map(|it| Some((it.0.0, i64::try_from(it.1).ok()?)));
+            let weights =
+                sum.invariant.weights.iter().map(|it| Some((it.0.0, i64::try_from(it.1).ok()?)));
             let constant = i64::try_from(sum.invariant.constant.checked_neg()?).ok()?;
             facts.push((self.fact(false, constant, weights.collect::<Option<_>>()?), 1));
         }
-        let assumed = sum.premises.iter().map(|it| Some((*node.premises.get(it.0)?, factor(it.1)?)));
+        let assumed =
+            sum.premises.iter().map(|it| Some((*node.premises.get(it.0)?, factor(it.1)?)));
         let assumed = assumed.collect::<Option<_>>()?;
         self.cases.push(Draft::Leaf { facts, assumed });
         Some(())
@@ -214,10 +226,11 @@ impl<'a> Draught<'a> {
             return self.refutation(by, &needs.iter().fold(Node::default(), |node, _| node.and()));
         }
         // It needs more tokens of a place than there ever are.
-        let fed = |&(transition, by): &(u32, i64)| by > 0 && self.dead.can_fire(TransitionId(transition));
+        let fed =
+            |&(transition, by): &(u32, i64)| by > 0 && self.dead.can_fire(TransitionId(transition));
         let (at, place) = needs.iter().enumerate().find_map(|(at, &(place, need))| {
-            let starves =
-                self.pt.initial[place as usize] < need && !self.pt.changers.of(place).iter().any(fed);
+            let starves = self.pt.initial[place as usize] < need
+                && !self.pt.changers.of(place).iter().any(fed);
             starves.then_some((at, place))
         })?;
         let fact = self.fact(false, -i64::from(self.pt.initial[place as usize]), vec![(place, 1)]);
@@ -225,7 +238,8 @@ impl<'a> Draught<'a> {
         Some(())
     }
 
-    /// Assumes a goal; refutes it by the part that is assumed then, or else by the cases of the first `or` that is still open.
+    /// Assumes a goal; refutes it by the part that is assumed then, or else by the cases of the
+    /// first `or` that is still open.
     fn goal<'c>(
         &mut self,
         net: &Numbered<'_>,
@@ -253,8 +267,9 @@ impl<'a> Draught<'a> {
         Some(())
     }
 
-    /// Cuts for the bounds, and for the inequalities that hold within them where a transition is not enabled, both as far as they
-    /// are used; in the last of the cases stands the refutation, and then follows why the others do not occur.
+    /// Cuts for the bounds, and for the inequalities that hold within them where a transition is
+    /// not enabled, both as far as they are used; in the last of the cases stands the refutation,
+    /// and then follows why the others do not occur.
     fn deadlock(&mut self, by: &DeadlockFree) -> Option<()> {
         let mut node = Node::default();
         let mut single = BTreeMap::new();
@@ -268,8 +283,13 @@ impl<'a> Draught<'a> {
         }
         let mut used = BTreeSet::new();
         premises(&by.refutation, &mut used);
-        let cut: Vec<_> =
-            by.disabled.iter().enumerate().filter(|it| used.contains(&it.0)).map(|it| *it.1).collect();
+        let cut: Vec<_> = by
+            .disabled
+            .iter()
+            .enumerate()
+            .filter(|it| used.contains(&it.0))
+            .map(|it| *it.1)
+            .collect();
         let cut: Vec<_> = cut.into_iter().filter(|it| !single.contains_key(it)).collect();
         let needed: BTreeSet<u32> =
             cut.iter().flat_map(|it| self.pt.needs.of(it.0).iter().map(|need| need.0)).collect();
@@ -281,7 +301,11 @@ impl<'a> Draught<'a> {
         let mut nodes = Vec::new();
         let mut bound_at = BTreeMap::new();
         for &(place, bound) in &bounds {
-            self.cases.push(Draft::Cut(Linear::new(self.pt, bound.at_most.checked_neg()?, [(place, 1)])));
+            self.cases.push(Draft::Cut(Linear::new(
+                self.pt,
+                bound.at_most.checked_neg()?,
+                [(place, 1)],
+            )));
             bound_at.insert(place, node.assumed);
             nodes.push(node.and());
             node.assumed += 1;
@@ -296,8 +320,9 @@ impl<'a> Draught<'a> {
             inequalities.push((transition, linear, node.assumed));
             node.assumed += 1;
         }
-        let premise =
-            |it: &TransitionId| single.get(it).or_else(|| cut_at.get(it)).copied().unwrap_or(usize::MAX);
+        let premise = |it: &TransitionId| {
+            single.get(it).or_else(|| cut_at.get(it)).copied().unwrap_or(usize::MAX)
+        };
         node.premises = by.disabled.iter().map(premise).collect();
         self.refutation(&by.refutation, &node)?;
         for (transition, linear, at) in inequalities.into_iter().rev() {

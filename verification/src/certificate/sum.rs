@@ -3,13 +3,15 @@
 use super::read::{Checked, error};
 use std::collections::BTreeMap;
 
-/// The tokens of each place. The first place is none of the net: it always holds one token, so that its weight is a constant.
+/// The tokens of each place. The first place is none of the net: it always holds one token, so that
+/// its weight is a constant.
 pub(super) type Marking = Vec<u32>;
 
 /// The first place.
 pub(super) const ONE: usize = 0;
 
-/// Weights of places. Those that are read have 64 bits: with 32 bits for tokens, none of their values passes 127.
+/// Weights of places. Those that are read have 64 bits: with 32 bits for tokens, none of their
+/// values passes 127.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Sum(pub(super) BTreeMap<usize, i128>);
 
@@ -20,7 +22,9 @@ impl Sum {
 
     /// The value for as many tokens as arcs take or give.
     pub(super) fn weigh(&self, arcs: &BTreeMap<usize, u32>) -> i128 {
-        arcs.iter().map(|(place, tokens)| self.0.get(place).unwrap_or(&0) * i128::from(*tokens)).sum()
+        arcs.iter()
+            .map(|(place, tokens)| self.0.get(place).unwrap_or(&0) * i128::from(*tokens))
+            .sum()
     }
 
     /// Adds a multiple of another sum.

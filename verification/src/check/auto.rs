@@ -17,7 +17,8 @@ use std::time::{Duration, Instant};
 /// Markings that are few enough to be met before anything cleverer is tried.
 const FEW: u64 = 200_000;
 
-/// Markings of a net whose graph is evidence: those that the small checker passes through in less than a minute.
+/// Markings of a net whose graph is evidence: those that the small checker passes through in less
+/// than a minute.
 const CERTIFIED: u64 = 500_000;
 
 /// The longest way of which it is tried to leave firings out.
@@ -31,8 +32,14 @@ const GLANCE: u64 = 1_000;
 
 pub(super) fn answer(net: &Known<'_>, question: &Question, options: &Options<'_>) -> Answer {
     let budget = Budget::from(options);
-    let mut asked =
-        Asked { net, engine: options.engine, budget, techniques: Vec::new(), tried: Vec::new(), states: 0 };
+    let mut asked = Asked {
+        net,
+        engine: options.engine,
+        budget,
+        techniques: Vec::new(),
+        tried: Vec::new(),
+        states: 0,
+    };
     let (verdict, run, mut evidence) = asked.question(question);
     if evidence == Evidence::None && budget.evidence && !matches!(verdict, Verdict::Unknown(_)) {
         evidence = asked.all_markings(question, &verdict);
@@ -81,7 +88,8 @@ impl Asked<'_, '_> {
         }
     }
 
-    /// That all markings were looked at, if they are few enough for the small checker, and if it knows such questions.
+    /// That all markings were looked at, if they are few enough for the small checker, and if it
+    /// knows such questions.
     fn all_markings(&self, question: &Question, verdict: &Verdict) -> Evidence {
         if let (Question::Bound(places), Verdict::Bound(Extent::Infinite)) = (question, verdict) {
             return growth(self.net.pt(), places, &self.budget).unwrap_or(Evidence::None);
@@ -109,7 +117,8 @@ impl Asked<'_, '_> {
             let evidence = Evidence::one_safe(pt, self.net.structure().dead(), &bounds);
             return (Verdict::Holds(true), None, evidence.unwrap_or(Evidence::None));
         }
-        let two = |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
+        let two =
+            |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
         let goal = Formula::Or((0..pt.places.len() as u32).map(|it| two(PlaceId(it))).collect());
         self.reachability(&Reachability { goal, expected: false })
     }
@@ -172,15 +181,19 @@ impl Asked<'_, '_> {
     fn shortened(&self, goal: &Formula, way: Vec<TransitionId>) -> Vec<TransitionId> {
         let pt = self.net.pt();
         let limits = Limits { states: self.budget.limits.states.min(SHOWN), ..self.budget.limits };
-        let found = Explicit.find(self.net, Task::Reach(goal), &Budget { limits, ..self.budget }).found;
+        let found =
+            Explicit.find(self.net, Task::Reach(goal), &Budget { limits, ..self.budget }).found;
         match (found, Condition::new(goal, pt)) {
             (Found::Way(shortest), _) => shortest,
-            (_, Some(condition)) if way.len() <= SHRUNK => shrink(pt, &way, |it| condition.holds(it)),
+            (_, Some(condition)) if way.len() <= SHRUNK => {
+                shrink(pt, &way, |it| condition.holds(it))
+            }
             _ => way,
         }
     }
 
-    /// Looks for a marking: by the structure, on a smaller net, among few markings, with few firings in each, among all.
+    /// Looks for a marking: by the structure, on a smaller net, among few markings, with few
+    /// firings in each, among all.
     pub(super) fn reach(&mut self, goal: &Formula) -> Finding {
         let task = Task::Reach(goal);
         if self.engine != Choice::Auto {
@@ -205,7 +218,8 @@ impl Asked<'_, '_> {
         let Some(smaller) = smaller else { return self.search(self.net, goal) };
         let known = Known::new(&smaller.reduced.net);
         self.used("reductions");
-        let mut found = self.ask(&Structural, &known, Task::Reach(&smaller.goal), self.budget.limits);
+        let mut found =
+            self.ask(&Structural, &known, Task::Reach(&smaller.goal), self.budget.limits);
         if !found.is_something() {
             found = self.search(&known, &smaller.goal);
         }
@@ -214,7 +228,8 @@ impl Asked<'_, '_> {
                 Ok(way) => Finding { found: Found::Way(way), ..found },
                 Err(_) => Finding::nothing(Reason::Limit(Limit::Bytes), found.states),
             },
-            // What was shown of the smaller net says nothing to who does not believe the reductions.
+            // What was shown of the smaller net says nothing to who does not believe the
+            // reductions.
             Found::Never(_) => Finding { found: Found::Never(Evidence::None), ..found },
             _ => found,
         }
@@ -270,10 +285,13 @@ impl Asked<'_, '_> {
             return first;
         }
         let pt = self.net.pt();
-        let Some(smaller) = Smaller::for_sum(pt, sum) else { return self.search_most(self.net, sum) };
+        let Some(smaller) = Smaller::for_sum(pt, sum) else {
+            return self.search_most(self.net, sum);
+        };
         let known = Known::new(&smaller.reduced.net);
         self.used("reductions");
-        let mut found = self.ask(&Structural, &known, Task::Bound(&smaller.sum), self.budget.limits);
+        let mut found =
+            self.ask(&Structural, &known, Task::Bound(&smaller.sum), self.budget.limits);
         if !found.is_something() {
             found = self.search_most(&known, &smaller.sum);
         }
@@ -296,7 +314,8 @@ impl Asked<'_, '_> {
 
     fn temporal(&mut self, formula: &Formula) -> Shown {
         let pt = self.net.pt();
-        let smaller = (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
+        let smaller =
+            (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
         let found = match &smaller {
             None => self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits),
             Some(smaller) => {
@@ -315,8 +334,12 @@ impl Asked<'_, '_> {
                 };
                 // One run is evidence for what is said of runs; it is one of the whole net.
                 let run = if is_of_runs(formula) { run.map(|it| it.closed(pt)) } else { run };
-                let shown = run.as_ref().filter(|_| is_of_runs(formula)).and_then(|it| Evidence::run(pt, it));
-                let evidence = shown.unwrap_or(if smaller.is_none() { evidence } else { Evidence::None });
+                let shown = run
+                    .as_ref()
+                    .filter(|_| is_of_runs(formula))
+                    .and_then(|it| Evidence::run(pt, it));
+                let evidence =
+                    shown.unwrap_or(if smaller.is_none() { evidence } else { Evidence::None });
                 (Verdict::Holds(holds), run, evidence)
             }
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
@@ -324,7 +347,8 @@ impl Asked<'_, '_> {
         }
     }
 
-    /// A run of the whole net for a verdict that was found on a smaller one, if that can have a run and the net is small.
+    /// A run of the whole net for a verdict that was found on a smaller one, if that can have a run
+    /// and the net is small.
     fn shown_in_full(&self, formula: &Formula, holds: bool) -> Option<Run> {
         if holds != matches!(formula, Formula::Exists(_)) {
             return None;

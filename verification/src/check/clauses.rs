@@ -7,7 +7,8 @@ use cotama_core::net::PlaceId;
 /// The most inequalities of all clauses together.
 const MOST: usize = 20_000;
 
-/// The inequalities of each clause; `None` when there are too many, or numbers too large. Without a clause it is false.
+/// The inequalities of each clause; `None` when there are too many, or numbers too large. Without a
+/// clause it is false.
 pub(super) fn clauses(formula: &Formula, pt: &Pt) -> Option<Vec<Vec<Linear>>> {
     walk(formula, pt, true)
 }
@@ -26,7 +27,8 @@ fn walk(formula: &Formula, pt: &Pt, positive: bool) -> Option<Vec<Vec<Linear>>> 
             if positive { sum(each) } else { product(each) }
         }
         Formula::Atom(Atom::Deadlock) => {
-            let each = (0..pt.transitions.len() as u32).map(|it| enabled(pt, it, !positive)).collect();
+            let each =
+                (0..pt.transitions.len() as u32).map(|it| enabled(pt, it, !positive)).collect();
             if positive { product(each) } else { sum(each) }
         }
         _ => None,
@@ -35,7 +37,8 @@ fn walk(formula: &Formula, pt: &Pt, positive: bool) -> Option<Vec<Vec<Linear>>> 
 
 fn enabled(pt: &Pt, transition: u32, positive: bool) -> Vec<Vec<Linear>> {
     let needs = pt.needs.of(transition).iter().map(|&(place, need)| {
-        let (constant, weight) = if positive { (i64::from(need), -1) } else { (1 - i64::from(need), 1) };
+        let (constant, weight) =
+            if positive { (i64::from(need), -1) } else { (1 - i64::from(need), 1) };
         Linear { constant, weights: vec![(PlaceId(place), weight)] }
     });
     if positive { vec![needs.collect()] } else { needs.map(|it| vec![it]).collect() }

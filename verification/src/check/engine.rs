@@ -129,9 +129,9 @@ impl Budget<'_> {
         match reached {
             Limit::States => self.limits.states > limits.states,
             Limit::Bytes => self.limits.bytes > limits.bytes,
-            Limit::Time => {
-                limits.deadline.is_some_and(|it| self.limits.deadline.is_none_or(|later| it < later))
-            }
+            Limit::Time => limits
+                .deadline
+                .is_some_and(|it| self.limits.deadline.is_none_or(|later| it < later)),
             Limit::Tokens | Limit::Words | Limit::Unbounded => false,
         }
     }
@@ -139,7 +139,12 @@ impl Budget<'_> {
     /// The same for coverability.
     pub(super) fn coverability<'s>(&self, stop: &'s dyn Fn() -> bool) -> coverability::Limits<'s> {
         let nodes = self.limits.states.min(10_000_000);
-        coverability::Limits { nodes, bytes: self.limits.bytes, stop, ..coverability::Limits::default() }
+        coverability::Limits {
+            nodes,
+            bytes: self.limits.bytes,
+            stop,
+            ..coverability::Limits::default()
+        }
     }
 }
 

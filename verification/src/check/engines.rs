@@ -27,7 +27,9 @@ impl Engine for Structural {
             Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net),
             Task::Reach(goal) => goal_by_clauses(net, goal),
             Task::Bound(sum) => bound(net, sum),
-            Task::Dead | Task::Live | Task::Temporal(_) | Task::Fair(..) => Found::Nothing(Reason::Unsuited),
+            Task::Dead | Task::Live | Task::Temporal(_) | Task::Fair(..) => {
+                Found::Nothing(Reason::Unsuited)
+            }
         };
         Finding { found, states: 0 }
     }
@@ -48,7 +50,8 @@ fn deadlock(net: &Known<'_>) -> Found {
 fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
     let Some(clauses) = clauses(goal, net.pt()) else { return Found::Nothing(Reason::Undecided) };
     let mut structure = net.structure();
-    let bounds: Vec<_> = structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
+    let bounds: Vec<_> =
+        structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     let mut undecided = false;
     let mut parts = Vec::new();
     for clause in &clauses {
@@ -69,17 +72,21 @@ fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
 
 /// Whether a marking within the bounds of single places can satisfy an inequality.
 fn possible(linear: &Linear, bounds: &[Option<i64>]) -> bool {
-    let least = linear.weights.iter().try_fold(i128::from(linear.constant), |sum, &(place, weight)| {
-        let tokens = if weight > 0 { 0 } else { bounds.get(place.0 as usize).copied().flatten()? };
-        Some(sum + i128::from(weight) * i128::from(tokens))
-    });
+    let least =
+        linear.weights.iter().try_fold(i128::from(linear.constant), |sum, &(place, weight)| {
+            let tokens =
+                if weight > 0 { 0 } else { bounds.get(place.0 as usize).copied().flatten()? };
+            Some(sum + i128::from(weight) * i128::from(tokens))
+        });
     least.is_none_or(|it| it <= 0)
 }
 
 fn bound(net: &Known<'_>, sum: &Linear) -> Found {
     let mut structure = net.structure();
     let bound = structure.upper_bound(&sum.weights);
-    let full = bound.as_ref().and_then(|bound| above(&Linear { constant: 0, ..sum.clone() }, bound.at_most));
+    let full = bound
+        .as_ref()
+        .and_then(|bound| above(&Linear { constant: 0, ..sum.clone() }, bound.at_most));
     match (bound, full.map(|it| structure.reach(&[it]))) {
         (Some(bound), Some(structural::Answer::Reachable(way))) => {
             let most = i128::from(bound.at_most) + i128::from(sum.constant);
@@ -122,7 +129,9 @@ impl Engine for Explicit {
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         match task {
             Task::Reach(goal) => match Goal::new(goal) {
-                Some(it) => reached(reach(net.pt(), it, &budget.limits, budget.jobs, budget.progress)),
+                Some(it) => {
+                    reached(reach(net.pt(), it, &budget.limits, budget.jobs, budget.progress))
+                }
                 None => Finding::nothing(Reason::Unsuited, 0),
             },
             Task::Bound(sum) => most(net, sum, budget),
@@ -156,7 +165,8 @@ fn reached(reached: Reached) -> Finding {
     Finding { found, states }
 }
 
-/// The most of a sum, by asking for more than the most that was seen until there is no such marking.
+/// The most of a sum, by asking for more than the most that was seen until there is no such
+/// marking.
 fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
     if let (&[(place, 1)], 0) = (&sum.weights[..], sum.constant) {
         let space = net.space(budget);
@@ -183,9 +193,14 @@ fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
                 (best, way) = (value(sum, &marking), transitions);
             }
             Reached::Never { .. } => {
-                return Finding { found: Found::Most(extent(best), Some(way), Evidence::None), states };
+                return Finding {
+                    found: Found::Most(extent(best), Some(way), Evidence::None),
+                    states,
+                };
             }
-            Reached::Unknown { limit, .. } => return Finding::nothing(Reason::Limit(limit), states),
+            Reached::Unknown { limit, .. } => {
+                return Finding::nothing(Reason::Limit(limit), states);
+            }
         }
     }
 }
@@ -244,7 +259,8 @@ impl Engine for Temporal {
     }
 }
 
-/// A formula as it is: what is the same on all runs need not be on fair ones, of which there may be none.
+/// A formula as it is: what is the same on all runs need not be on fair ones, of which there may be
+/// none.
 fn fair(net: &Known<'_>, formula: &Formula, assumed: &Assumptions, budget: &Budget<'_>) -> Finding {
     let Some((formula, fairness)) = Ctl::new(formula).zip(Fairness::of(assumed)) else {
         return Finding::nothing(Reason::Unsuited, 0);
@@ -274,8 +290,9 @@ impl Engine for Coverability {
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         let stop = || budget.limits.is_over();
         let limits = budget.coverability(&stop);
-        let unfinished =
-            |it: coverability::Unfinished| Finding::nothing(Reason::Limit(limit(it.limit)), it.nodes);
+        let unfinished = |it: coverability::Unfinished| {
+            Finding::nothing(Reason::Limit(limit(it.limit)), it.nodes)
+        };
         match task {
             Task::Reach(goal) => match coverability::reaches(net.pt(), goal, &limits) {
                 None => Finding::nothing(Reason::Unsuited, 0),
@@ -290,7 +307,9 @@ impl Engine for Coverability {
                 Ok(set) => Finding { found: covered(&set, task), states: set.met() },
                 Err(it) => unfinished(it),
             },
-            Task::Live | Task::Temporal(_) | Task::Fair(..) => Finding::nothing(Reason::Unsuited, 0),
+            Task::Live | Task::Temporal(_) | Task::Fair(..) => {
+                Finding::nothing(Reason::Unsuited, 0)
+            }
         }
     }
 }
@@ -298,8 +317,9 @@ impl Engine for Coverability {
 /// Tokens of a marking on the way to which something is looked for that can be repeated.
 const MANY: u64 = 50;
 
-/// What can be repeated for ever and each time adds tokens to places: what first makes the net unbounded, or else a part of the
-/// way to many tokens in one of them. There may be none: tokens that grow in a place can be moved to another one.
+/// What can be repeated for ever and each time adds tokens to places: what first makes the net
+/// unbounded, or else a part of the way to many tokens in one of them. There may be none: tokens
+/// that grow in a place can be moved to another one.
 pub(super) fn growth(pt: &Pt, places: &[PlaceId], budget: &Budget<'_>) -> Option<Evidence> {
     let stop = || budget.limits.is_over();
     let limits = budget.coverability(&stop);
@@ -319,7 +339,8 @@ pub(super) fn growth(pt: &Pt, places: &[PlaceId], budget: &Budget<'_>) -> Option
         let mut markings: Vec<Vec<u32>> = way.iter().map_while(|it| fired(&mut last, it)).collect();
         markings.push(last);
         let grows = |from: &[u32], to: &[u32]| {
-            from[place.0 as usize] < to[place.0 as usize] && from.iter().zip(to).all(|(from, to)| from <= to)
+            from[place.0 as usize] < to[place.0 as usize]
+                && from.iter().zip(to).all(|(from, to)| from <= to)
         };
         let mut pairs = (0..markings.len()).flat_map(|to| (0..to).map(move |from| (from, to)));
         let (from, to) = pairs.find(|&(from, to)| grows(&markings[from], &markings[to]))?;

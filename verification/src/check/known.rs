@@ -24,7 +24,12 @@ pub struct Known<'n> {
 impl<'n> Known<'n> {
     /// Nothing is known yet.
     pub fn new(pt: &'n Pt) -> Self {
-        Self { pt, structure: OnceCell::new(), graph: RefCell::new(None), space: RefCell::new(None) }
+        Self {
+            pt,
+            structure: OnceCell::new(),
+            graph: RefCell::new(None),
+            space: RefCell::new(None),
+        }
     }
 
     /// The net.

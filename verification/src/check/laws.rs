@@ -4,8 +4,9 @@ use crate::property::{Atom, Formula, Linear, Property, Question};
 use crate::pt::Pt;
 use cotama_core::net::{Law, Net, PlaceId};
 
-/// The laws of a net that are about reachable markings, as properties named by their text. Those about events and priorities
-/// (`handles(all)`, `settles`, `deterministic`) are not among them: they are checked while compiling, or by rounds.
+/// The laws of a net that are about reachable markings, as properties named by their text. Those
+/// about events and priorities (`handles(all)`, `settles`, `deterministic`) are not among them:
+/// they are checked while compiling, or by rounds.
 pub fn laws(net: &Net<'_>) -> Vec<Property> {
     let pt = Pt::from(net);
     let property = |law: &Law<'_>| {
@@ -20,7 +21,8 @@ pub fn laws(net: &Net<'_>) -> Vec<Property> {
 pub fn question(law: &Law<'_>) -> Option<Question> {
     let formula = match *law {
         Law::Invariant { sum, equals } => {
-            let mut weights: Vec<_> = sum.iter().map(|it| (it.place, i64::from(it.weight))).collect();
+            let mut weights: Vec<_> =
+                sum.iter().map(|it| (it.place, i64::from(it.weight))).collect();
             weights.retain(|it| it.1 != 0);
             weights.sort_unstable();
             weights.dedup_by(|later, kept| {
@@ -31,9 +33,13 @@ pub fn question(law: &Law<'_>) -> Option<Question> {
             let negative = weights.iter().map(|&(place, weight)| (place, -weight)).collect();
             let at_most = Linear { constant: -i64::from(equals), weights };
             let at_least = Linear { constant: i64::from(equals), weights: negative };
-            always(Formula::And([at_most, at_least].map(|it| Formula::Atom(Atom::AtMost(it))).into()))
+            always(Formula::And(
+                [at_most, at_least].map(|it| Formula::Atom(Atom::AtMost(it))).into(),
+            ))
         }
-        Law::NeverBoth(a, b) => always(Formula::Not(Formula::And(vec![marked(a), marked(b)]).into())),
+        Law::NeverBoth(a, b) => {
+            always(Formula::Not(Formula::And(vec![marked(a), marked(b)]).into()))
+        }
         Law::Reachable(place) => possible(marked(place)),
         Law::AlwaysCan(place) => always(possible(marked(place))),
         Law::DeadlockFree { end } => {

@@ -14,7 +14,8 @@ use crate::temporal::{Rest, Run};
 use cotama_core::net::TransitionId;
 
 impl Asked<'_, '_> {
-    /// A question about the transitions that never fire: they are those that are found by the structure, or all.
+    /// A question about the transitions that never fire: they are those that are found by the
+    /// structure, or all.
     pub(super) fn dead(&mut self, holds: impl Fn(&Known<'_>, &[TransitionId]) -> bool) -> Shown {
         let none = holds(self.net, &[]);
         if self.engine == Choice::Auto || self.engine == Choice::Structural {
@@ -28,7 +29,8 @@ impl Asked<'_, '_> {
                 return (Verdict::Holds(!none), None, Evidence::None);
             }
         }
-        let engine: &dyn Engine = if self.engine == Choice::Structural { &Structural } else { &Explicit };
+        let engine: &dyn Engine =
+            if self.engine == Choice::Structural { &Structural } else { &Explicit };
         let mut found = self.ask(engine, self.net, Task::Dead, self.budget.limits);
         if matches!(found.found, Found::Nothing(Reason::Limit(Limit::Unbounded))) {
             found = self.ask(&Coverability, self.net, Task::Dead, self.budget.limits);
@@ -85,7 +87,11 @@ impl Asked<'_, '_> {
             let deadlock = Formula::Atom(Atom::Deadlock);
             let found = self.ask(&Structural, self.net, Task::Reach(&deadlock), self.budget.limits);
             if let Found::Way(stem) = found.found {
-                return (Verdict::Holds(false), Some(Run { stem, rest: Rest::Stays }), Evidence::None);
+                return (
+                    Verdict::Holds(false),
+                    Some(Run { stem, rest: Rest::Stays }),
+                    Evidence::None,
+                );
             }
             let siphons = structural::minimal_siphons(pt, 10_000, 20_000_000);
             if let Some(live) = structural::commoner(pt, &siphons).live {
@@ -93,7 +99,8 @@ impl Asked<'_, '_> {
                 return (Verdict::Holds(live), None, Evidence::None);
             }
         }
-        let engine: &dyn Engine = if self.engine == Choice::Structural { &Structural } else { &Explicit };
+        let engine: &dyn Engine =
+            if self.engine == Choice::Structural { &Structural } else { &Explicit };
         match self.ask(engine, self.net, Task::Live, self.budget.limits).found {
             Found::Holds(holds, run, evidence) => (Verdict::Holds(holds), run, evidence),
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),

@@ -58,7 +58,8 @@ pub enum Verdict {
     Holds(bool),
     /// The most tokens.
     Bound(Extent),
-    /// The least and the most time; `None` when there is nothing to measure, as the transition never fires.
+    /// The least and the most time; `None` when there is nothing to measure, as the transition
+    /// never fires.
     Response(Option<(Time, Time)>),
     /// Nothing.
     Unknown(Reason),
@@ -73,7 +74,8 @@ pub struct Answer {
     pub run: Option<Run>,
     /// The run with dates, of time nets.
     pub schedule: Option<Schedule>,
-    /// Evidence that can be checked again; [`Evidence::None`] when the verdict is as good as the engine.
+    /// Evidence that can be checked again; [`Evidence::None`] when the verdict is as good as the
+    /// engine.
     pub evidence: Evidence,
     /// What led to the answer, in order: names of engines, and `reductions`.
     pub techniques: Vec<&'static str>,
@@ -87,8 +89,8 @@ impl Answer {
         self.techniques.last().copied().unwrap_or("none")
     }
 
-    /// The answer to a question as a file that [`verify`](crate::certificate::verify()) checks again. Formulas are
-    /// [simplified](crate::property::Formula::simplified) in it.
+    /// The answer to a question as a file that [`verify`](crate::certificate::verify()) checks
+    /// again. Formulas are [simplified](crate::property::Formula::simplified) in it.
     ///
     /// # Errors
     /// When there is nothing to certify, or no form for it.
@@ -135,7 +137,8 @@ impl fmt::Display for Uncertified {
 
 impl std::error::Error for Uncertified {}
 
-/// Which engine is asked. Formulas of CTL and LTL beyond reachability have one engine, which is asked by every choice.
+/// Which engine is asked. Formulas of CTL and LTL beyond reachability have one engine, which is
+/// asked by every choice.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Choice {
     /// Those that suit the question, the cheapest first.
@@ -158,7 +161,8 @@ pub struct Options<'o> {
     pub limits: Limits,
     /// On how many threads, where an engine can use several.
     pub jobs: usize,
-    /// Whether evidence is worth more work: without it, verdicts carry what evidence comes for free.
+    /// Whether evidence is worth more work: without it, verdicts carry what evidence comes for
+    /// free.
     pub evidence: bool,
     /// Called now and then.
     pub progress: &'o dyn Fn(Progress),
@@ -166,7 +170,13 @@ pub struct Options<'o> {
 
 impl Default for Options<'_> {
     fn default() -> Self {
-        Self { engine: Choice::Auto, limits: Limits::default(), jobs: 1, evidence: false, progress: &|_| () }
+        Self {
+            engine: Choice::Auto,
+            limits: Limits::default(),
+            jobs: 1,
+            evidence: false,
+            progress: &|_| (),
+        }
     }
 }
 
@@ -187,7 +197,9 @@ impl<'m> Checker<'m> {
     pub fn answer(&self, property: &Property, options: &Options<'_>) -> Answer {
         match self.model {
             Model::Plain(_) => auto::answer(&self.known, &property.question, options),
-            Model::Timed { net, .. } => timed::answer(&self.known, net, &property.question, options),
+            Model::Timed { net, .. } => {
+                timed::answer(&self.known, net, &property.question, options)
+            }
         }
     }
 }

@@ -27,8 +27,9 @@ impl Model {
         }
     }
 
-    /// A net of the core with its intervals. Events come at any time, and a transition of a higher priority does not keep
-    /// others from firing: what is never reached here is never reached by a player.
+    /// A net of the core with its intervals. Events come at any time, and a transition of a higher
+    /// priority does not keep others from firing: what is never reached here is never reached by a
+    /// player.
     ///
     /// # Errors
     ///

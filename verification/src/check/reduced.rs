@@ -31,7 +31,9 @@ impl Smaller {
         let steps = formula.any(&|it| matches!(it, Formula::Next(_)));
         let quantifiers = |it: &Formula| matches!(it, Formula::All(_) | Formula::Exists(_));
         match formula {
-            Formula::All(path) | Formula::Exists(path) if !steps && !deadlock && !path.any(&quantifiers) => {
+            Formula::All(path) | Formula::Exists(path)
+                if !steps && !deadlock && !path.any(&quantifiers) =>
+            {
                 Self::new(pt, formula, Goal::StutterInvariantLtl)
             }
             _ => Self::new(pt, formula, Goal::Ctl),
@@ -81,7 +83,10 @@ fn in_tokens(formula: &Formula, pt: &Pt) -> Option<Formula> {
         let needs = pt.needs.of(it);
         left = left.checked_sub(needs.len() + 1)?;
         let needs = needs.iter().map(|&(place, need)| {
-            Formula::Atom(Atom::AtMost(Linear { constant: need.into(), weights: vec![(PlaceId(place), -1)] }))
+            Formula::Atom(Atom::AtMost(Linear {
+                constant: need.into(),
+                weights: vec![(PlaceId(place), -1)],
+            }))
         });
         Some(Formula::And(needs.collect()))
     };

@@ -80,12 +80,16 @@ pub struct Report {
     rows: Vec<(Property, Answer)>,
 }
 
-/// Asks the questions of these texts, in the language of [`property`](mod@property). Without a text, the laws of the
-/// net are asked, which speak of the net without its intervals.
+/// Asks the questions of these texts, in the language of [`property`](mod@property). Without a
+/// text, the laws of the net are asked, which speak of the net without its intervals.
 ///
 /// # Errors
 /// When it has no model, or a text is none of the language.
-pub fn report(of: &impl Checkable, texts: &[&str], options: &Options<'_>) -> Result<Report, ReportError> {
+pub fn report(
+    of: &impl Checkable,
+    texts: &[&str],
+    options: &Options<'_>,
+) -> Result<Report, ReportError> {
     let (mut model, net) = of.subject().map_err(ReportError::Model)?;
     let properties = if texts.is_empty() {
         model = Model::Plain(model.pt().clone());
@@ -121,9 +125,9 @@ impl std::error::Error for ReportError {}
 impl Report {
     /// Whether every property holds. What is unknown does not.
     pub fn holds(&self) -> bool {
-        self.rows
-            .iter()
-            .all(|it| matches!(it.1.verdict, Verdict::Holds(true) | Verdict::Bound(_) | Verdict::Response(_)))
+        self.rows.iter().all(|it| {
+            matches!(it.1.verdict, Verdict::Holds(true) | Verdict::Bound(_) | Verdict::Response(_))
+        })
     }
 
     /// The properties and their answers.
@@ -135,8 +139,10 @@ impl Report {
     pub fn diagnosis(&self, property: &Property, answer: &Answer) -> Option<Diagnosis> {
         let run = answer.run.as_ref()?.clone().into();
         let holds = answer.verdict != Verdict::Holds(false);
-        let case =
-            Case { schedule: answer.schedule.as_ref(), ..Case::new(self.model.pt(), property, holds, &run) };
+        let case = Case {
+            schedule: answer.schedule.as_ref(),
+            ..Case::new(self.model.pt(), property, holds, &run)
+        };
         let view = self.net.as_ref().map(OwnedNet::view);
         let net = view.as_ref().map(|it| it.net());
         Diagnosis::new(&Case { net: net.as_ref(), ..case }).or_else(|_| Diagnosis::new(&case)).ok()
@@ -147,16 +153,24 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (property, answer) in &self.rows {
             match &answer.verdict {
-                Verdict::Holds(true) => writeln!(f, "{}: holds ({})", property.name, answer.engine())?,
+                Verdict::Holds(true) => {
+                    writeln!(f, "{}: holds ({})", property.name, answer.engine())?
+                }
                 Verdict::Holds(false) => match self.diagnosis(property, answer) {
                     Some(diagnosis) => writeln!(f, "{diagnosis}")?,
                     None => writeln!(f, "{}: does not hold ({})", property.name, answer.engine())?,
                 },
                 Verdict::Bound(most) => writeln!(f, "{}: {most}", property.name)?,
-                Verdict::Response(Some((min, max))) => writeln!(f, "{}: {min} to {max}", property.name)?,
+                Verdict::Response(Some((min, max))) => {
+                    writeln!(f, "{}: {min} to {max}", property.name)?
+                }
                 Verdict::Response(None) => writeln!(f, "{}: never begins", property.name)?,
                 Verdict::Unknown(reason) => {
-                    writeln!(f, "{}: unknown, {reason} after {} markings", property.name, answer.states)?;
+                    writeln!(
+                        f,
+                        "{}: unknown, {reason} after {} markings",
+                        property.name, answer.states
+                    )?;
                 }
             }
         }
@@ -164,7 +178,8 @@ impl fmt::Display for Report {
     }
 }
 
-/// Fails a test with the counterexample when a property does not hold; without properties, the laws of the net are meant.
+/// Fails a test with the counterexample when a property does not hold; without properties, the laws
+/// of the net are meant.
 ///
 /// ```
 /// use cotama_core::net;

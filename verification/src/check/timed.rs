@@ -11,7 +11,12 @@ use crate::temporal::{Rest, Run};
 use crate::tpn::{self, Classes, Limits, Reach, Response, Schedule, Stop, Time, TimeNet};
 use cotama_core::net::{PlaceId, TransitionId};
 
-pub(super) fn answer(net: &Known<'_>, time: &TimeNet, question: &Question, options: &Options<'_>) -> Answer {
+pub(super) fn answer(
+    net: &Known<'_>,
+    time: &TimeNet,
+    question: &Question,
+    options: &Options<'_>,
+) -> Answer {
     let stop = || options.limits.is_over();
     Asked { net, time, limits: limits(options, &stop), options }.question(question)
 }
@@ -39,8 +44,9 @@ impl Asked<'_, '_> {
                 response(tpn::measured(self.time, Some(*from), *to, &self.limits))
             }
             Question::OneSafe => {
-                let two =
-                    |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
+                let two = |place| {
+                    Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }))
+                };
                 let places = 0..self.net.pt().places.len() as u32;
                 let goal = Formula::Or(places.map(|it| two(PlaceId(it))).collect());
                 self.reachability(&Reachability { goal, expected: false })
@@ -49,7 +55,8 @@ impl Asked<'_, '_> {
             Question::QuasiLiveness => self.fired(|_, fires| fires.iter().all(|&it| it)),
             Question::StableMarking => self.fired(|net, fires| {
                 let changers = |place| net.pt().changers.of(place).iter();
-                (0..net.pt().places.len() as u32).any(|it| changers(it).all(|it| !fires[it.0 as usize]))
+                (0..net.pt().places.len() as u32)
+                    .any(|it| changers(it).all(|it| !fires[it.0 as usize]))
             }),
             Question::Fair(..) | Question::Liveness => known(Verdict::Unknown(Reason::Unsuited), 0),
         }
@@ -100,9 +107,9 @@ impl Asked<'_, '_> {
     /// What is never reached without intervals is never reached with them.
     fn reachability(&self, asked: &Reachability) -> Answer {
         if self.options.engine == Choice::Auto {
-            let never = Formula::All(Box::new(Formula::Globally(Box::new(Formula::Not(Box::new(
-                asked.goal.clone(),
-            ))))));
+            let never = Formula::All(Box::new(Formula::Globally(Box::new(Formula::Not(
+                Box::new(asked.goal.clone()),
+            )))));
             let few = Options { engine: Choice::Structural, ..*self.options };
             let answer = auto::answer(self.net, &Question::Formula(never), &few);
             if answer.verdict == Verdict::Holds(true) {
@@ -112,19 +119,27 @@ impl Asked<'_, '_> {
         let reach = match &asked.goal {
             Formula::Atom(Atom::Deadlock) => tpn::deadlock(self.time, &self.limits),
             goal => match Condition::new(goal, self.net.pt()) {
-                Some(condition) => tpn::reach(self.time, |marking| condition.holds(marking), &self.limits),
+                Some(condition) => {
+                    tpn::reach(self.time, |marking| condition.holds(marking), &self.limits)
+                }
                 None => return known(Verdict::Unknown(Reason::Unsuited), 0),
             },
         };
         match reach {
             Reach::Reached(schedule) => shown(asked.expected, schedule),
-            Reach::Unreachable { classes } => known(Verdict::Holds(!asked.expected), classes as u64),
-            Reach::Unknown { stop, classes } => known(Verdict::Unknown(reason(stop)), classes as u64),
+            Reach::Unreachable { classes } => {
+                known(Verdict::Holds(!asked.expected), classes as u64)
+            }
+            Reach::Unknown { stop, classes } => {
+                known(Verdict::Unknown(reason(stop)), classes as u64)
+            }
         }
     }
 
     fn bound(&self, places: &[PlaceId]) -> Answer {
-        let sum = |marking: &[u32]| places.iter().map(|it| u64::from(marking[it.0 as usize])).sum::<u64>();
+        let sum = |marking: &[u32]| {
+            places.iter().map(|it| u64::from(marking[it.0 as usize])).sum::<u64>()
+        };
         let classes = tpn::classes(self.time, &self.limits);
         let verdict = match classes.stopped() {
             None => {
@@ -147,13 +162,17 @@ impl Asked<'_, '_> {
         known(verdict, classes.classes() as u64)
     }
 
-    /// `AG (cause -> AF<=limit effect)`. The clock of the answer starts when the cause becomes marked, and when the effect
-    /// ends while the cause is marked.
+    /// `AG (cause -> AF<=limit effect)`. The clock of the answer starts when the cause becomes
+    /// marked, and when the effect ends while the cause is marked.
     fn responds(&self, cause: PlaceId, limit: u64, effect: PlaceId) -> Answer {
         let pt = self.net.pt();
         let starts = |it: u32| {
             let change = |place: PlaceId| {
-                pt.effects.of(it).iter().find(|(at, _)| *at == place.0).map_or(0, |(_, change)| *change)
+                pt.effects
+                    .of(it)
+                    .iter()
+                    .find(|(at, _)| *at == place.0)
+                    .map_or(0, |(_, change)| *change)
             };
             (change(cause) > 0, change(effect) < 0)
         };
@@ -212,7 +231,9 @@ fn answered_in_time(formula: &Formula) -> Option<(PlaceId, u64, PlaceId)> {
     let [a, b] = &parts[..] else { return None };
     let cause = |it: &Formula| match it {
         Formula::Not(inner) => marked(inner),
-        Formula::Atom(Atom::AtMost(linear)) => marked(&Formula::Atom(Atom::AtMost(linear.negated()?))),
+        Formula::Atom(Atom::AtMost(linear)) => {
+            marked(&Formula::Atom(Atom::AtMost(linear.negated()?)))
+        }
         _ => None,
     };
     let effect = |it: &Formula| {

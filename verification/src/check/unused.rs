@@ -9,8 +9,8 @@ use crate::explicit::Limit;
 use crate::tpn::{self, TimeNet};
 
 impl<'m> Checker<'m> {
-    /// The transitions that never fire and the places that are never marked: all, by a complete search; or, where a limit is
-    /// reached, those that the structure of the net shows.
+    /// The transitions that never fire and the places that are never marked: all, by a complete
+    /// search; or, where a limit is reached, those that the structure of the net shows.
     ///
     /// ```
     /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -42,11 +42,16 @@ impl<'m> Checker<'m> {
         let pt = self.known.pt();
         let space = self.known.space(budget);
         let (dead, marked): (_, Vec<bool>) = match space.limit {
-            None => (space.dead_transitions.clone(), space.bounds.iter().map(|it| *it > 0).collect()),
+            None => {
+                (space.dead_transitions.clone(), space.bounds.iter().map(|it| *it > 0).collect())
+            }
             Some(Limit::Unbounded) => {
                 let stop = || budget.limits.is_over();
                 let set = CoverabilitySet::new(pt, &budget.coverability(&stop)).ok()?;
-                (set.dead_transitions(), set.bounds().iter().map(|it| *it > Tokens::new(0)).collect())
+                (
+                    set.dead_transitions(),
+                    set.bounds().iter().map(|it| *it > Tokens::new(0)).collect(),
+                )
             }
             Some(_) => return None,
         };
@@ -66,7 +71,10 @@ impl<'m> Checker<'m> {
         let pt = self.known.pt();
         let mut marked = vec![false; pt.places.len()];
         for class in 0..classes.classes() as u32 {
-            marked.iter_mut().zip(classes.marking(class)).for_each(|(it, tokens)| *it |= *tokens > 0);
+            marked
+                .iter_mut()
+                .zip(classes.marking(class))
+                .for_each(|(it, tokens)| *it |= *tokens > 0);
         }
         Some(Unused::new(pt, &timed::fired(&classes, pt.transitions.len()), &marked).timed())
     }

@@ -10,7 +10,8 @@ pub(super) struct Antichain {
     places: usize,
     /// Markings with ω in the same places.
     groups: Vec<Group>,
-    /// By hash the last marking with it, of all that were ever added; and for each marking the one before it.
+    /// By hash the last marking with it, of all that were ever added; and for each marking the one
+    /// before it.
     last: HashMap<u64, u32>,
     before: Vec<u32>,
 }
@@ -50,8 +51,8 @@ impl Antichain {
         let (marked, omegas, sum) = (support(marking), omegas(marking), sum(marking));
         self.groups.iter().filter(|it| among(&omegas, &it.omegas)).any(|group| {
             let extra = group.omegas.iter().filter_map(|&it| marking[it as usize].finite());
-            let least =
-                sum - extra.map(u128::from).sum::<u128>() + u128::from(group.omegas.len() == omegas.len());
+            let least = sum - extra.map(u128::from).sum::<u128>()
+                + u128::from(group.omegas.len() == omegas.len());
             group
                 .levels
                 .range(least..)
@@ -60,10 +61,12 @@ impl Antichain {
         })
     }
 
-    /// Adds the marking of a number, which is not covered and the last one in `all`; those at most it go.
+    /// Adds the marking of a number, which is not covered and the last one in `all`; those at most
+    /// it go.
     pub(super) fn add(&mut self, id: u32, all: &[Tokens], mut gone: impl FnMut(u32)) {
         let marking = self.of(id, all);
-        let (marked, omegas, sum, places) = (support(marking), omegas(marking), sum(marking), self.places);
+        let (marked, omegas, sum, places) =
+            (support(marking), omegas(marking), sum(marking), self.places);
         for group in self.groups.iter_mut().filter(|it| among(&it.omegas, &omegas)) {
             let most = if group.omegas.len() == omegas.len() { sum } else { u128::MAX };
             for (_, level) in group.levels.range_mut(..most) {

@@ -21,7 +21,8 @@ pub enum Bounded {
     Unknown(Unfinished),
 }
 
-/// Why a net is unbounded: after `stem` fires from the initial marking, `pump` can fire again and again.
+/// Why a net is unbounded: after `stem` fires from the initial marking, `pump` can fire again and
+/// again.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Growth {
     /// How to get there.
@@ -32,8 +33,8 @@ pub struct Growth {
     pub grows: Vec<(PlaceId, u64)>,
 }
 
-/// Whether a net is bounded. Sums of tokens that never grow, see [`bounds`](crate::bounds::bounds), prove it for most
-/// bounded nets; otherwise markings are passed through.
+/// Whether a net is bounded. Sums of tokens that never grow, see [`bounds`](crate::bounds::bounds),
+/// prove it for most bounded nets; otherwise markings are passed through.
 pub fn bounded(pt: &Pt, limits: &Limits<'_>) -> Bounded {
     let few = Limits { nodes: limits.nodes.min(FIRST), ..*limits };
     for order in [Order::First, Order::Greatest] {

@@ -1,4 +1,5 @@
-//! Nets with infinitely many markings: boundedness, coverability, and everything else that is preserved by more tokens.
+//! Nets with infinitely many markings: boundedness, coverability, and everything else that is
+//! preserved by more tokens.
 //!
 //! | item | what it answers |
 //! | --- | --- |
@@ -6,16 +7,18 @@
 //! | [`coverable`], [`reaches`] | whether a marking with at least so many tokens is reachable, and a way to one |
 //! | [`CoverabilitySet`] | the maximal markings: exact bounds of places and of sums, dead transitions |
 //!
-//! Markings are passed through as in the tree of Karp and Miller (R. M. Karp, R. E. Miller, Parallel program schemata, J.
-//! Computer and System Sciences 3, 1969): when a marking is greater than one that leads to it, the sequence between them
-//! can be repeated, and ω stands in the places that grow. Only the maximal ω-markings met so far are worked on (A. Valmari,
-//! H. Hansen, Old and new algorithms for minimal coverability sets, Fundamenta Informaticae 131, 2014), and a sequence
-//! that was once repeated is tried again on every later marking (A. Finkel, S. Haddad, I. Khmelnitsky, Minimal coverability
-//! tree construction made complete and efficient, Foundations of Software Science and Computation
-//! Structures, 2020). Nodes are never taken back: a marking is left out only
-//! when a greater one is there. So what the maximal markings cover never shrinks, and the flaw of the minimal coverability
-//! tree of 1993 (A. Finkel, G. Geeraerts, J.-F. Raskin, L. Van Begin, A counter-example to the minimal coverability tree
-//! algorithm, Université libre de Bruxelles, TR 535, 2005) cannot occur.
+//! Markings are passed through as in the tree of Karp and Miller (R. M. Karp, R. E. Miller,
+//! Parallel program schemata, J. Computer and System Sciences 3, 1969): when a marking is greater
+//! than one that leads to it, the sequence between them can be repeated, and ω stands in the places
+//! that grow. Only the maximal ω-markings met so far are worked on (A. Valmari, H. Hansen, Old and
+//! new algorithms for minimal coverability sets, Fundamenta Informaticae 131, 2014), and a sequence
+//! that was once repeated is tried again on every later marking (A. Finkel, S. Haddad, I.
+//! Khmelnitsky, Minimal coverability tree construction made complete and efficient, Foundations of
+//! Software Science and Computation Structures, 2020). Nodes are never taken back: a marking is
+//! left out only when a greater one is there. So what the maximal markings cover never shrinks, and
+//! the flaw of the minimal coverability tree of 1993 (A. Finkel, G. Geeraerts, J.-F. Raskin, L. Van
+//! Begin, A counter-example to the minimal coverability tree algorithm, Université libre de
+//! Bruxelles, TR 535, 2005) cannot occur.
 //!
 //! ```
 //! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};

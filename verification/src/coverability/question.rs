@@ -19,8 +19,8 @@ pub enum Coverable {
     Unknown(Unfinished),
 }
 
-/// Whether a marking with at least so many tokens is reachable. Places that are not named may hold any number, those that
-/// the net does not have hold none.
+/// Whether a marking with at least so many tokens is reachable. Places that are not named may hold
+/// any number, those that the net does not have hold none.
 pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Coverable {
     let known = |it: &&(PlaceId, u64)| (it.0.0 as usize) < pt.places.len();
     if target.iter().any(|it| !known(&it) && it.1 > 0) {
@@ -35,7 +35,8 @@ pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Cov
 }
 
 /// Whether a marking is reachable that meets a goal, a formula about one marking as in
-/// [`Reachability`](crate::property::Reachability); `None` unless it [is upward closed](is_upward_closed).
+/// [`Reachability`](crate::property::Reachability); `None` unless it [is upward
+/// closed](is_upward_closed).
 ///
 /// ```
 /// # use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -57,7 +58,9 @@ pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Cov
 /// ```
 pub fn reaches(pt: &Pt, goal: &Formula, limits: &Limits<'_>) -> Option<Coverable> {
     let condition = Condition::new(goal, pt).filter(|_| is_upward_closed(goal))?;
-    Some(find(pt, limits, &|marking| condition.holds(marking).then(|| smallest(&condition, marking))))
+    Some(find(pt, limits, &|marking| {
+        condition.holds(marking).then(|| smallest(&condition, marking))
+    }))
 }
 
 /// Whether a formula about one marking stays true when tokens are added, as its form shows.
@@ -79,10 +82,13 @@ fn is_monotone(formula: &Formula, up: bool) -> bool {
 /// Tokens that meet a condition, few of them, at most those of an ω-marking that meets it.
 fn smallest(condition: &Condition<'_>, marking: &[Tokens]) -> Vec<u64> {
     // ω reads as 2^64 - 1: try smaller numbers in its place, then fewer tokens everywhere.
-    let with = |omega: u64| marking.iter().map(|it| it.finite().unwrap_or(omega)).collect::<Vec<u64>>();
+    let with =
+        |omega: u64| marking.iter().map(|it| it.finite().unwrap_or(omega)).collect::<Vec<u64>>();
     let powers = (0..63).map(|power| with(1 << power));
-    let mut tokens =
-        powers.into_iter().find(|it| condition.holds(it.as_slice())).unwrap_or_else(|| with(u64::MAX));
+    let mut tokens = powers
+        .into_iter()
+        .find(|it| condition.holds(it.as_slice()))
+        .unwrap_or_else(|| with(u64::MAX));
     for place in 0..tokens.len() {
         let (mut less, mut enough) = (0, tokens[place]);
         while less < enough {

@@ -98,8 +98,10 @@ impl<'n> Search<'n> {
                 if self.maximal.covers(&marking, &self.markings) {
                     continue;
                 }
-                let candidate = Candidate { marking, parent: Some((id, transition)), raised: Vec::new() };
-                if let Some(id) = self.add(candidate, limits)?.filter(|&it| found(self.marking(it))) {
+                let candidate =
+                    Candidate { marking, parent: Some((id, transition)), raised: Vec::new() };
+                if let Some(id) = self.add(candidate, limits)?.filter(|&it| found(self.marking(it)))
+                {
                     return Ok(Some(id));
                 }
             }
@@ -159,10 +161,12 @@ impl<'n> Search<'n> {
         Ok(Some(id))
     }
 
-    /// Repeats all pumps for ever that a marking allows: known ones, and those that lead to it from a smaller marking.
+    /// Repeats all pumps for ever that a marking allows: known ones, and those that lead to it from
+    /// a smaller marking.
     fn raise(&mut self, candidate: &mut Candidate) -> Result<(), Limit> {
         loop {
-            let known = (0..self.pumps.all.len()).find(|&it| self.pumps.all[it].raises(&candidate.marking));
+            let known =
+                (0..self.pumps.all.len()).find(|&it| self.pumps.all[it].raises(&candidate.marking));
             let pump = match known {
                 Some(known) => known,
                 None => match self.smaller(candidate) {
@@ -192,7 +196,10 @@ impl<'n> Search<'n> {
             let marking = self.marking(id);
             if node.support & !support == 0
                 && at_most(marking, &candidate.marking)
-                && marking.iter().zip(&candidate.marking).any(|(it, other)| it < other && !other.is_omega())
+                && marking
+                    .iter()
+                    .zip(&candidate.marking)
+                    .any(|(it, other)| it < other && !other.is_omega())
             {
                 return Some(id);
             }
@@ -201,8 +208,8 @@ impl<'n> Search<'n> {
         None
     }
 
-    /// A sequence that leads from an ancestor to a candidate, to as many tokens as both have numbers of, and to more than
-    /// before where only the candidate has ω.
+    /// A sequence that leads from an ancestor to a candidate, to as many tokens as both have
+    /// numbers of, and to more than before where only the candidate has ω.
     fn way(&self, ancestor: u32, candidate: &Candidate) -> Option<Word> {
         let ends = self.marking(ancestor).iter().zip(&candidate.marking);
         let mut demand = ends
@@ -223,8 +230,8 @@ impl<'n> Search<'n> {
         Some(word)
     }
 
-    /// Goes back over one edge of the tree: what is needed before so that `demand` is there after. Adds to the word from
-    /// its end.
+    /// Goes back over one edge of the tree: what is needed before so that `demand` is there after.
+    /// Adds to the word from its end.
     fn back(
         &self,
         parent: Option<(u32, u32)>,
@@ -262,8 +269,8 @@ impl<'n> Search<'n> {
         Some(())
     }
 
-    /// A sequence from the initial marking to at least so many tokens, by place, as a node has or has ω of. `None` when
-    /// a number passes 63 bits.
+    /// A sequence from the initial marking to at least so many tokens, by place, as a node has or
+    /// has ω of. `None` when a number passes 63 bits.
     pub(super) fn sequence(&self, id: u32, mut demand: Vec<u64>, firings: u64) -> Option<Sequence> {
         let mut word = Word::new();
         let mut at = Some(id);
@@ -296,8 +303,13 @@ impl<'n> Search<'n> {
         }
         word.reverse();
         let stem = self.pumps.sequence(&word, firings);
-        let grows = pump.effects.iter().map(|&(place, by)| (PlaceId(place), by.unsigned_abs())).collect();
-        Some(Growth { stem, pump: self.pumps.sequence(&vec![(Part::Pump(number), 1)], firings), grows })
+        let grows =
+            pump.effects.iter().map(|&(place, by)| (PlaceId(place), by.unsigned_abs())).collect();
+        Some(Growth {
+            stem,
+            pump: self.pumps.sequence(&vec![(Part::Pump(number), 1)], firings),
+            grows,
+        })
     }
 
     pub(super) fn marking(&self, id: u32) -> &[Tokens] {

@@ -5,9 +5,9 @@ use super::{Limits, Sequence, Tokens, Unfinished};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 
-/// The maximal ω-markings of a net, its minimal coverability set: for every reachable marking one with at least as many
-/// tokens in each place, and for each of them and every number there is a reachable marking with at least its tokens, and at
-/// least that number of them where it has ω.
+/// The maximal ω-markings of a net, its minimal coverability set: for every reachable marking one
+/// with at least as many tokens in each place, and for each of them and every number there is a
+/// reachable marking with at least its tokens, and at least that number of them where it has ω.
 #[derive(Debug)]
 pub struct CoverabilitySet<'n> {
     search: Search<'n>,
@@ -37,11 +37,13 @@ impl<'n> CoverabilitySet<'n> {
         self.search.nodes()
     }
 
-    /// The most tokens that places, each named once, ever hold together; `None` when there is no most.
+    /// The most tokens that places, each named once, ever hold together; `None` when there is no
+    /// most.
     pub fn bound(&self, places: &[PlaceId]) -> Option<u128> {
         let sum = |marking: &[Tokens]| {
-            let tokens =
-                places.iter().map(|it| marking.get(it.0 as usize).copied().unwrap_or(Tokens::new(0)));
+            let tokens = places
+                .iter()
+                .map(|it| marking.get(it.0 as usize).copied().unwrap_or(Tokens::new(0)));
             tokens.map(|it| it.finite().map(u128::from)).sum::<Option<u128>>()
         };
         self.markings().map(sum).try_fold(0, |most, it| Some(it?.max(most)))
@@ -50,14 +52,20 @@ impl<'n> CoverabilitySet<'n> {
     /// For each place the most tokens that it ever holds; ω when there is no most.
     pub fn bounds(&self) -> Vec<Tokens> {
         let places = 0..self.search.pt.places.len();
-        places.map(|place| self.markings().map(|it| it[place]).max().unwrap_or(Tokens::new(0))).collect()
+        places
+            .map(|place| self.markings().map(|it| it[place]).max().unwrap_or(Tokens::new(0)))
+            .collect()
     }
 
     /// A way to a marking with at least so many tokens; `None` when there is no such marking.
     pub fn covers(&self, target: &[(PlaceId, u64)]) -> Option<Sequence> {
         let demand = demand(self.search.pt, target)?;
         let is_covered = |it: &&u32| {
-            self.search.marking(**it).iter().zip(&demand).all(|(has, &needs)| *has >= Tokens::new(needs))
+            self.search
+                .marking(**it)
+                .iter()
+                .zip(&demand)
+                .all(|(has, &needs)| *has >= Tokens::new(needs))
         };
         let id = *self.maximal.iter().find(is_covered)?;
         Some(
@@ -70,21 +78,29 @@ impl<'n> CoverabilitySet<'n> {
     /// A way to a marking that enables a transition; `None` when it can never fire.
     pub fn enables(&self, transition: TransitionId) -> Option<Sequence> {
         let needs = self.search.pt.needs.of(transition.0).iter();
-        self.covers(&needs.map(|&(place, tokens)| (PlaceId(place), u64::from(tokens))).collect::<Vec<_>>())
+        self.covers(
+            &needs.map(|&(place, tokens)| (PlaceId(place), u64::from(tokens))).collect::<Vec<_>>(),
+        )
     }
 
     /// Transitions that can never fire. A net without them is quasi-live.
     pub fn dead_transitions(&self) -> Vec<TransitionId> {
         let pt = self.search.pt;
         let is_enabled = |marking: &[Tokens], it: u32| {
-            pt.needs.of(it).iter().all(|&(place, tokens)| marking[place as usize] >= Tokens::from(tokens))
+            pt.needs
+                .of(it)
+                .iter()
+                .all(|&(place, tokens)| marking[place as usize] >= Tokens::from(tokens))
         };
         let all = 0..pt.transitions.len() as u32;
-        all.filter(|&it| !self.markings().any(|marking| is_enabled(marking, it))).map(TransitionId).collect()
+        all.filter(|&it| !self.markings().any(|marking| is_enabled(marking, it)))
+            .map(TransitionId)
+            .collect()
     }
 }
 
-/// Tokens by place; `None` when a place is not of the net, or more tokens are asked for than can be counted.
+/// Tokens by place; `None` when a place is not of the net, or more tokens are asked for than can be
+/// counted.
 pub(super) fn demand(pt: &Pt, target: &[(PlaceId, u64)]) -> Option<Vec<u64>> {
     let mut demand = vec![0; pt.places.len()];
     for &(place, tokens) in target {

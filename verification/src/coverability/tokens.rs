@@ -4,7 +4,8 @@ use crate::property::Marking;
 use cotama_core::net::PlaceId;
 use std::fmt;
 
-/// How many tokens: a number below 2^64 - 1, or ω, which says that there can be more than any number. ω is the greatest.
+/// How many tokens: a number below 2^64 - 1, or ω, which says that there can be more than any
+/// number. ω is the greatest.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Tokens(u64);
 
@@ -70,7 +71,8 @@ pub(super) fn at_most(one: &[Tokens], other: &[Tokens]) -> bool {
     one.iter().zip(other).all(|(one, other)| one <= other)
 }
 
-/// A bit for each marked place modulo 64: a marking is at most another one only if its bits are among those of the other.
+/// A bit for each marked place modulo 64: a marking is at most another one only if its bits are
+/// among those of the other.
 pub(super) fn support(marking: &[Tokens]) -> u64 {
     let marked = marking.iter().enumerate().filter(|(_, it)| it.0 > 0);
     marked.fold(0, |bits, (place, _)| bits | 1 << (place % 64))

@@ -9,7 +9,8 @@ use cotama_core::net::TransitionId;
 pub struct Sequence {
     /// How many firings; 2^128 - 1 stands for that and more.
     pub length: u128,
-    /// The transitions; `None` when there are more than [`Limits::firings`](super::Limits::firings).
+    /// The transitions; `None` when there are more than
+    /// [`Limits::firings`](super::Limits::firings).
     pub firings: Option<Vec<TransitionId>>,
 }
 
@@ -24,8 +25,8 @@ pub(super) enum Part {
 /// Parts, and how often each is repeated.
 pub(super) type Word = Vec<(Part, u64)>;
 
-/// A sequence that can be repeated for ever from every marking that has what it needs, and does not lose tokens but where
-/// there are ω of them.
+/// A sequence that can be repeated for ever from every marking that has what it needs, and does not
+/// lose tokens but where there are ω of them.
 #[derive(Debug)]
 pub(super) struct Pump {
     pub(super) word: Word,
@@ -56,12 +57,14 @@ impl Pump {
         }
     }
 
-    /// How often it must be repeated from a marking, and what is needed before so that `demand` is there after.
+    /// How often it must be repeated from a marking, and what is needed before so that `demand` is
+    /// there after.
     pub(super) fn before(&self, marking: &[Tokens], demand: &mut [u64]) -> Option<u64> {
         let mut times = 0;
         for &(place, change) in self.effects.iter().filter(|it| it.1 > 0) {
-            let missing =
-                marking[place as usize].finite().map_or(0, |it| demand[place as usize].saturating_sub(it));
+            let missing = marking[place as usize]
+                .finite()
+                .map_or(0, |it| demand[place as usize].saturating_sub(it));
             times = times.max(missing.div_ceil(change.unsigned_abs()));
         }
         if times > 0 {
@@ -128,14 +131,20 @@ impl Pumps {
             let owned: Vec<(u32, u64)>;
             let (part_needs, part_effects) = match part {
                 Part::Transition(it) => {
-                    owned =
-                        pt.needs.of(it).iter().map(|&(place, tokens)| (place, u64::from(tokens))).collect();
+                    owned = pt
+                        .needs
+                        .of(it)
+                        .iter()
+                        .map(|&(place, tokens)| (place, u64::from(tokens)))
+                        .collect();
                     (owned.as_slice(), pt.effects.of(it))
                 }
                 Part::Pump(it) => (&*self.all[it as usize].needs, &*self.all[it as usize].effects),
             };
             let effect_on = |place| {
-                part_effects.binary_search_by_key(&place, |it| it.0).map_or(0, |at| part_effects[at].1)
+                part_effects
+                    .binary_search_by_key(&place, |it| it.0)
+                    .map_or(0, |at| part_effects[at].1)
             };
             for &(place, tokens) in part_needs {
                 // The last of the repetitions finds the fewest tokens.

@@ -20,7 +20,12 @@ impl Teller<'_> {
                 let last = self.run().len();
                 let fired = self.fired(last).map_or_else(
                     || "nothing can fire at the start".to_owned(),
-                    |it| format!("after {} at step {last} nothing can fire any more", self.transition(it)),
+                    |it| {
+                        format!(
+                            "after {} at step {last} nothing can fire any more",
+                            self.transition(it)
+                        )
+                    },
                 );
                 (format!("{fired}, and {}.", words::always(self.pt(), forever)), Vec::new())
             }
@@ -33,7 +38,9 @@ impl Teller<'_> {
 
     /// By which firing something came to be.
     fn moment(&self, at: usize, literals: &[Formula]) -> (String, Vec<String>) {
-        let Some(fired) = self.fired(at) else { return ("it is so from the start.".to_owned(), Vec::new()) };
+        let Some(fired) = self.fired(at) else {
+            return ("it is so from the start.".to_owned(), Vec::new());
+        };
         let (before, after) = (self.marking(at - 1), self.marking(at));
         let (old, new): (Vec<_>, Vec<_>) =
             literals.iter().cloned().partition(|it| words::holds(self.pt(), it, &before));
@@ -42,8 +49,9 @@ impl Teller<'_> {
             Says::Sum { places, .. } => Some(places),
             _ => None,
         };
-        let is_said =
-            |it: &Formula| sums(it).is_some_and(|it| new.iter().any(|new| sums(new).as_ref() == Some(&it)));
+        let is_said = |it: &Formula| {
+            sums(it).is_some_and(|it| new.iter().any(|new| sums(new).as_ref() == Some(&it)))
+        };
         let old: Vec<Formula> = old.into_iter().filter(|it| !is_said(it)).collect();
         let transition = self.transition(fired);
         if new.is_empty() {
@@ -64,8 +72,9 @@ impl Teller<'_> {
         let apart: Vec<_> =
             words::places(&old).difference(&near).map(|it| name(&self.pt().places, *it)).collect();
         let name = name(&self.pt().transitions, fired.0);
-        let blind = (!apart.is_empty())
-            .then(|| format!("{name} does not depend on {}: no arc joins them.", short_list(&apart, 4)));
+        let blind = (!apart.is_empty()).then(|| {
+            format!("{name} does not depend on {}: no arc joins them.", short_list(&apart, 4))
+        });
         let kept: Vec<_> = words::places(&old)
             .into_iter()
             .filter(|it| near.contains(it) && before[*it as usize] == after[*it as usize])
@@ -73,18 +82,25 @@ impl Teller<'_> {
             .collect();
         let kept = (!kept.is_empty())
             .then(|| format!("{name} needs {} and leaves it as it is.", short_list(&kept, 4)));
-        (format!("{transition} fired while {already}: {effect}."), blind.into_iter().chain(kept).collect())
+        (
+            format!("{transition} fired while {already}: {effect}."),
+            blind.into_iter().chain(kept).collect(),
+        )
     }
 
-    /// Which clocks were started anew although their transitions stayed enabled: timeouts that were put off.
+    /// Which clocks were started anew although their transitions stayed enabled: timeouts that were
+    /// put off.
     pub(super) fn clocks(&self, to: usize) -> Vec<String> {
-        let (Some(net), false) = (self.case.net, self.along.dates.is_empty()) else { return Vec::new() };
+        let (Some(net), false) = (self.case.net, self.along.dates.is_empty()) else {
+            return Vec::new();
+        };
         let fired: Vec<u32> = self.run().firings().map(|it| it.0).collect();
         let mut anew = vec![None; net.transitions.len()];
         let mut before: Vec<u32> = Vec::new();
         // What is no run was refused before.
         let _ = self.run().walk(self.pt(), |at, marking| {
-            if let Some(&last) = at.checked_sub(1).filter(|_| at <= to).and_then(|it| fired.get(it)) {
+            if let Some(&last) = at.checked_sub(1).filter(|_| at <= to).and_then(|it| fired.get(it))
+            {
                 let mut left = before.clone();
                 for arc in net.transitions[last as usize].take {
                     if let Some(tokens) = left.get_mut(arc.place.0 as usize) {
@@ -105,7 +121,8 @@ impl Teller<'_> {
         let mut notes = Vec::new();
         for (transition, it) in net.transitions.iter().enumerate() {
             let (Some(at), Some(within)) = (anew[transition], it.within) else { continue };
-            let by = self.fired(at).map_or_else(String::new, |it| name(&self.pt().transitions, it.0));
+            let by =
+                self.fired(at).map_or_else(String::new, |it| name(&self.pt().transitions, it.0));
             notes.push(format!(
                 "{} comes after {} ms, and its clock was started anew at {} ms by {by}, at step {at}.",
                 name(&self.pt().transitions, transition as u32),
@@ -147,7 +164,8 @@ impl Teller<'_> {
         let all = || (0..self.pt().transitions.len() as u32).filter(waits);
         let some: Vec<u32> =
             if all().any(|it| ends(&it)) { all().filter(ends).collect() } else { all().collect() };
-        let is_of_ctl = self.case.property.question.formula().is_some_and(|it| Ctl::new(it).is_some());
+        let is_of_ctl =
+            self.case.property.question.formula().is_some_and(|it| Ctl::new(it).is_some());
         let note = |it: &u32| {
             let fair = || vec![TransitionId(*it)];
             let (times, assumed) = match often[*it as usize] {
@@ -171,7 +189,8 @@ impl Teller<'_> {
         (cause, some.iter().take(MOST).map(note).collect())
     }
 
-    /// Whether a firing works towards the end of what lasts: marks a place that is to be empty, or empties one.
+    /// Whether a firing works towards the end of what lasts: marks a place that is to be empty, or
+    /// empties one.
     fn ends(&self, transition: u32, forever: &Formula) -> bool {
         let parts = match forever {
             Formula::And(parts) => parts.as_slice(),
@@ -202,7 +221,9 @@ impl Teller<'_> {
         let _ = self.run().walk(self.pt(), |at, marking| {
             let now = words::sum(places, marking);
             if before.is_some_and(|before| before < now) && at <= to {
-                let fired = self.fired(at).map_or_else(String::new, |it| name(&self.pt().transitions, it.0));
+                let fired = self
+                    .fired(at)
+                    .map_or_else(String::new, |it| name(&self.pt().transitions, it.0));
                 steps.push(format!("{now} at step {at} ({fired})"));
             }
             before = Some(now);
@@ -210,8 +231,9 @@ impl Teller<'_> {
         let left_out = steps.len().saturating_sub(MOST);
         let from = if left_out > 0 { "at last " } else { "" };
         let shown = &steps[left_out..];
-        (shown.len() > 1)
-            .then(|| format!("{} grew to {from}{}.", words::sum_name(self.pt(), places), list(shown)))
+        (shown.len() > 1).then(|| {
+            format!("{} grew to {from}{}.", words::sum_name(self.pt(), places), list(shown))
+        })
     }
 
     /// Which tokens the transitions nearest to being enabled wait for, and what would give them.
@@ -226,7 +248,8 @@ impl Teller<'_> {
         let least = all().map(|it| missing(it).len()).min().unwrap_or(0);
         let met = |it: &u32| pt.needs.of(*it).len() > missing(*it).len();
         // Those that have some of their tokens are nearer than those that have none.
-        let mut nearest: Vec<u32> = all().filter(|it| missing(*it).len() == least && met(it)).collect();
+        let mut nearest: Vec<u32> =
+            all().filter(|it| missing(*it).len() == least && met(it)).collect();
         if nearest.is_empty() {
             nearest = all().filter(|it| missing(*it).len() == least).collect();
         }
@@ -237,14 +260,18 @@ impl Teller<'_> {
             self.culprits.extend(missing.iter().map(|it| mirrored[it.0 as usize].unwrap_or(it.0)));
             let places: Vec<_> = missing
                 .iter()
-                .map(|&(place, weight)| match (mirrored[place as usize], weight - marking[place as usize]) {
-                    (Some(of), _) => format!("room in {}", name(&pt.places, of)),
-                    (None, 1) => format!("a token in {}", name(&pt.places, place)),
-                    (None, more) => format!("{more} tokens in {}", name(&pt.places, place)),
+                .map(|&(place, weight)| {
+                    match (mirrored[place as usize], weight - marking[place as usize]) {
+                        (Some(of), _) => format!("room in {}", name(&pt.places, of)),
+                        (None, 1) => format!("a token in {}", name(&pt.places, place)),
+                        (None, more) => format!("{more} tokens in {}", name(&pt.places, place)),
+                    }
                 })
                 .collect();
             let givers: Vec<_> = match missing.as_slice() {
-                [(place, _)] => pt.changers.of(*place).iter().filter(|it| it.1 > 0).map(|it| it.0).collect(),
+                [(place, _)] => {
+                    pt.changers.of(*place).iter().filter(|it| it.1 > 0).map(|it| it.0).collect()
+                }
                 _ => Vec::new(),
             };
             let givers: Vec<_> = givers.iter().map(|it| name(&pt.transitions, *it)).collect();
@@ -254,10 +281,17 @@ impl Teller<'_> {
                 (1, some) => format!(", which {} give", short_list(some, 3)),
                 _ => String::new(),
             };
-            notes.push(format!("{} lacks {}{given}.", name(&pt.transitions, transition), list(&places)));
+            notes.push(format!(
+                "{} lacks {}{given}.",
+                name(&pt.transitions, transition),
+                list(&places)
+            ));
         }
         if nearest.len() > MOST {
-            notes.push(format!("{} more lack as much.", counted(nearest.len() - MOST, "transition")));
+            notes.push(format!(
+                "{} more lack as much.",
+                counted(nearest.len() - MOST, "transition")
+            ));
         }
         notes
     }

@@ -6,8 +6,8 @@ use crate::pt::Pt;
 use crate::tpn::Date;
 use std::collections::HashSet;
 
-/// What a run shows when a formula has this verdict, with negations moved inwards and without `E`: `F` of what is
-/// forbidden for `AG` that does not hold. `A` that is left is not shown by one run.
+/// What a run shows when a formula has this verdict, with negations moved inwards and without `E`:
+/// `F` of what is forbidden for `AG` that does not hold. `A` that is left is not shown by one run.
 pub(super) fn claim(formula: &Formula, holds: bool) -> Formula {
     let of = |it: &Formula| Box::new(claim(it, holds));
     let all = |all: &[Formula]| all.iter().map(|it| claim(it, holds)).collect();
@@ -24,11 +24,14 @@ pub(super) fn claim(formula: &Formula, holds: bool) -> Formula {
         (Formula::Globally(a), true) | (Formula::Finally(a), false) => Formula::Globally(of(a)),
         (Formula::Until(a, b), true) => Formula::Until(of(a), of(b)),
         (Formula::Within(limit, a), true) => Formula::Within(*limit, of(a)),
-        (Formula::Until(..) | Formula::Within(..), false) => Formula::Not(Box::new(claim(formula, true))),
+        (Formula::Until(..) | Formula::Within(..), false) => {
+            Formula::Not(Box::new(claim(formula, true)))
+        }
     }
 }
 
-/// A formula without `E` along a run: at each marking, from the first to the one after the last firing.
+/// A formula without `E` along a run: at each marking, from the first to the one after the last
+/// firing.
 pub(super) struct Along<'a> {
     pub(super) pt: &'a Pt,
     pub(super) run: &'a Run,
@@ -37,7 +40,8 @@ pub(super) struct Along<'a> {
 }
 
 impl Along<'_> {
-    /// The position that follows. After the last comes the second of the cycle, or the marking that lasts.
+    /// The position that follows. After the last comes the second of the cycle, or the marking that
+    /// lasts.
     fn next(&self, at: usize) -> usize {
         let last = self.run.len();
         if at < last { at + 1 } else { self.run.cycle_start().map_or(last, |start| start + 1) }
@@ -56,7 +60,10 @@ impl Along<'_> {
             let mut truth = vec![start; count];
             for part in parts {
                 let of = self.truth(part);
-                truth.iter_mut().zip(of).for_each(|(it, of)| *it = if start { *it && of } else { *it || of });
+                truth
+                    .iter_mut()
+                    .zip(of)
+                    .for_each(|(it, of)| *it = if start { *it && of } else { *it || of });
             }
             truth
         };
@@ -97,16 +104,22 @@ impl Along<'_> {
             return self.until(&vec![true; b.len()], b);
         }
         let soon = |from: usize, to: usize| {
-            self.elapsed(from, to).is_none_or(|(parts, per_unit)| parts <= u128::from(limit) * per_unit)
+            self.elapsed(from, to)
+                .is_none_or(|(parts, per_unit)| parts <= u128::from(limit) * per_unit)
         };
-        (0..b.len()).map(|from| (from..b.len()).take_while(|to| soon(from, *to)).any(|to| b[to])).collect()
+        (0..b.len())
+            .map(|from| (from..b.len()).take_while(|to| soon(from, *to)).any(|to| b[to]))
+            .collect()
     }
 
-    /// The time between two markings, in parts and parts per millisecond. A marking begins when the firing before it happens.
+    /// The time between two markings, in parts and parts per millisecond. A marking begins when the
+    /// firing before it happens.
     fn elapsed(&self, from: usize, to: usize) -> Option<(u128, u128)> {
         let date = |at: usize| match at.checked_sub(1) {
             None => Some((0, 1)),
-            Some(firing) => self.dates.get(firing).map(|it| (u128::from(it.parts), u128::from(it.per_unit))),
+            Some(firing) => {
+                self.dates.get(firing).map(|it| (u128::from(it.parts), u128::from(it.per_unit)))
+            }
         };
         let ((early, early_unit), (late, late_unit)) = (date(from)?, date(to)?);
         let unit = early_unit.max(late_unit);

@@ -54,9 +54,9 @@ border-radius:4px;padding:1px 4px;overflow-wrap:anywhere}
 ";
 
 impl Diagnosis {
-    /// A page of its own: what [`Display`](std::fmt::Display) says, bars of the places that the property speaks of, and the
-    /// net as the run leaves it, if it is small. It needs no script and no other file; colours follow the reader's light or
-    /// dark mode.
+    /// A page of its own: what [`Display`](std::fmt::Display) says, bars of the places that the
+    /// property speaks of, and the net as the run leaves it, if it is small. It needs no script and
+    /// no other file; colours follow the reader's light or dark mode.
     pub fn html(&self) -> String {
         page(&format!("{}: {}", printable(&self.net), printable(&self.name)), &self.html_section())
     }
@@ -80,15 +80,18 @@ impl Diagnosis {
         );
         if !self.cause.is_empty() || !self.notes.is_empty() {
             out.push_str("<div class=\"cause\">\n");
-            for line in std::iter::once(&self.cause).chain(&self.notes).filter(|it| !it.is_empty()) {
+            for line in std::iter::once(&self.cause).chain(&self.notes).filter(|it| !it.is_empty())
+            {
                 let _ = writeln!(out, "<p>{}</p>", sentence(line));
             }
             out.push_str("</div>\n");
         }
         out.push_str("</div>\n");
         if let Some(timeline) = timeline(self) {
-            let _ =
-                write!(out, "<h2>Tokens after each step</h2>\n<div class=\"scroll\">\n{timeline}</div>\n");
+            let _ = write!(
+                out,
+                "<h2>Tokens after each step</h2>\n<div class=\"scroll\">\n{timeline}</div>\n"
+            );
         }
         self.steps(&mut out);
         if !self.legend.is_empty() {
@@ -129,11 +132,16 @@ impl Diagnosis {
         out.push_str("</tr></thead>\n<tbody>\n");
         let span = columns.len() - 1;
         let edge = |out: &mut String, name: &str, text: &str| {
-            let _ =
-                writeln!(out, "<tr><td class=\"number\">{name}</td><td colspan=\"{span}\">{text}</td></tr>");
+            let _ = writeln!(
+                out,
+                "<tr><td class=\"number\">{name}</td><td colspan=\"{span}\">{text}</td></tr>"
+            );
         };
         let note = |out: &mut String, text: &str| {
-            let _ = writeln!(out, "<tr class=\"note\"><td></td><td colspan=\"{span}\">{text}</td></tr>");
+            let _ = writeln!(
+                out,
+                "<tr class=\"note\"><td></td><td colspan=\"{span}\">{text}</td></tr>"
+            );
         };
         edge(out, "start", &self.marking_as_code(&self.initial));
         let count = self.trace.len();
@@ -147,8 +155,11 @@ impl Diagnosis {
                 }
                 continue;
             }
-            let class =
-                if at + 1 == count && self.cycle_starts_at.is_none() { " class=\"last\"" } else { "" };
+            let class = if at + 1 == count && self.cycle_starts_at.is_none() {
+                " class=\"last\""
+            } else {
+                ""
+            };
             let _ = write!(out, "<tr{class}><td class=\"number\">{}</td>", at + 1);
             if has_date {
                 let date = step.at.map_or_else(String::new, |it| it.to_string());
@@ -156,7 +167,11 @@ impl Diagnosis {
             }
             let _ = write!(out, "<td>{}</td>", code(&step.transition));
             if has_event {
-                let _ = write!(out, "<td>{}</td>", step.event.as_deref().map_or_else(String::new, code));
+                let _ = write!(
+                    out,
+                    "<td>{}</td>",
+                    step.event.as_deref().map_or_else(String::new, code)
+                );
             }
             if has_output {
                 let outputs: Vec<String> = step.outputs.iter().map(|it| code(it)).collect();
@@ -227,7 +242,8 @@ pub(super) fn sentence(text: &str) -> String {
     out
 }
 
-/// Text for HTML and XML, in elements and in attributes. What XML has no way to write becomes U+FFFD.
+/// Text for HTML and XML, in elements and in attributes. What XML has no way to write becomes
+/// U+FFFD.
 pub(super) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

@@ -71,7 +71,8 @@ pub struct Case<'a> {
     pub holds: bool,
     /// The run that shows it: a counterexample, or a witness.
     pub run: &'a Run,
-    /// The net with its events, outputs and documentation, if that is known: with the same places and transitions.
+    /// The net with its events, outputs and documentation, if that is known: with the same places
+    /// and transitions.
     pub net: Option<&'a Net<'a>>,
     /// When each firing happens, in milliseconds, if that is known.
     pub schedule: Option<&'a Schedule>,
@@ -98,8 +99,9 @@ impl<'a> Case<'a> {
 
 /// Why a property holds or does not, shown by a run.
 ///
-/// It is written as text by `Display`, in lines of at most 100 characters, with the middle of a long run left out; by
-/// [`json`](Self::json) whole; by [`html`](Self::html) as a page with pictures; by [`svg`](Self::svg) as one drawing. Names in sentences stand in backticks.
+/// It is written as text by `Display`, in lines of at most 100 characters, with the middle of a
+/// long run left out; by [`json`](Self::json) whole; by [`html`](Self::html) as a page with
+/// pictures; by [`svg`](Self::svg) as one drawing. Names in sentences stand in backticks.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnosis {
     /// The name of the net.
@@ -164,7 +166,11 @@ pub struct Step {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outputs: Vec<String>,
     /// When it fires.
-    #[serde(rename = "at_ms", serialize_with = "milliseconds", skip_serializing_if = "Option::is_none")]
+    #[serde(
+        rename = "at_ms",
+        serialize_with = "milliseconds",
+        skip_serializing_if = "Option::is_none"
+    )]
     pub at: Option<Date>,
     /// What it changes.
     pub changes: Vec<Change>,
@@ -243,12 +249,17 @@ impl Diagnosis {
         let Case { pt, property, holds, run, net, schedule } = *case;
         let names = |net: &Net<'_>| {
             net.places.iter().map(|it| it.name).eq(pt.places.iter().map(String::as_str))
-                && net.transitions.iter().map(|it| it.name).eq(pt.transitions.iter().map(String::as_str))
+                && net
+                    .transitions
+                    .iter()
+                    .map(|it| it.name)
+                    .eq(pt.transitions.iter().map(String::as_str))
         };
         if net.is_some_and(|net| !names(net)) {
             return Err(NotARun::Net);
         }
-        if schedule.is_some_and(|it| !it.steps.iter().map(|step| step.transition).eq(run.firings())) {
+        if schedule.is_some_and(|it| !it.steps.iter().map(|step| step.transition).eq(run.firings()))
+        {
             return Err(NotARun::Dates);
         }
         let mut last = pt.initial.clone();
@@ -260,12 +271,17 @@ impl Diagnosis {
                 last.copy_from_slice(marking);
             }
         })?;
-        let dates: Vec<Date> = schedule.into_iter().flat_map(|it| &it.steps).map(|it| it.date).collect();
+        let dates: Vec<Date> =
+            schedule.into_iter().flat_map(|it| &it.steps).map(|it| it.date).collect();
         let story = story::told(case, Along { pt, run, dates: &dates });
         // As it was typed, if it was: the parser keeps no arrows.
-        let typed = property::parse(&property.name, pt).is_ok_and(|it| it.question == property.question);
-        let text =
-            if typed { property.name.trim().to_owned() } else { property.question.display(pt).to_string() };
+        let typed =
+            property::parse(&property.name, pt).is_ok_and(|it| it.question == property.question);
+        let text = if typed {
+            property.name.trim().to_owned()
+        } else {
+            property.question.display(pt).to_string()
+        };
         let summary = summary(property, holds, &text, &story.what);
         let atoms = atoms(case, &mut trace)?;
         let mirrored = mirror::mirrored(case);
@@ -278,7 +294,10 @@ impl Diagnosis {
             })
             .collect();
         run.walk(pt, |_, marking| {
-            watched.iter().zip(&mut tracks).for_each(|(it, track)| track.tokens.push(marking[*it as usize]));
+            watched
+                .iter()
+                .zip(&mut tracks)
+                .for_each(|(it, track)| track.tokens.push(marking[*it as usize]));
         })?;
         Ok(Self {
             net: pt.name.clone(),
@@ -312,7 +331,8 @@ impl Diagnosis {
 
     /// The atoms that a step turns and that are more than marked places.
     fn turns<'s>(&'s self, step: &'s Step) -> impl Iterator<Item = &'s Turn> {
-        let is_more = |turn: &&Turn| self.atoms.iter().any(|it| it.atom == turn.atom && !it.is_mark);
+        let is_more =
+            |turn: &&Turn| self.atoms.iter().any(|it| it.atom == turn.atom && !it.is_mark);
         step.turns.iter().filter(is_more)
     }
 
@@ -344,7 +364,8 @@ fn step(case: &Case<'_>, firing: usize, transition: u32, before: &[u32], after: 
     let changed = case.pt.effects.of(transition).iter().map(|it| it.0 as usize);
     Step {
         transition: case.pt.transitions[transition as usize].clone(),
-        event: of_net.and_then(|(net, it)| Some(net.events.get(it.on?.0 as usize)?.name.to_owned())),
+        event: of_net
+            .and_then(|(net, it)| Some(net.events.get(it.on?.0 as usize)?.name.to_owned())),
         outputs: of_net.map_or_else(Vec::new, |(net, it)| {
             it.emits
                 .iter()
@@ -354,7 +375,11 @@ fn step(case: &Case<'_>, firing: usize, transition: u32, before: &[u32], after: 
         }),
         at: case.schedule.map(|it| it.steps[firing].date),
         changes: changed
-            .map(|at| Change { place: case.pt.places[at].clone(), before: before[at], after: after[at] })
+            .map(|at| Change {
+                place: case.pt.places[at].clone(),
+                before: before[at],
+                after: after[at],
+            })
             .collect(),
         turns: Vec::new(),
     }
@@ -385,8 +410,14 @@ fn atoms(case: &Case<'_>, trace: &mut [Step]) -> Result<Vec<AtomTrack>, NotARun>
     Ok(tracks)
 }
 
-/// The places that the property speaks of, and then those that the cause points at; places instead of their mirrors.
-fn watched(property: &Property, story: &story::Story, pt: &Pt, mirrored: &[Option<u32>]) -> Vec<u32> {
+/// The places that the property speaks of, and then those that the cause points at; places instead
+/// of their mirrors.
+fn watched(
+    property: &Property,
+    story: &story::Story,
+    pt: &Pt,
+    mirrored: &[Option<u32>],
+) -> Vec<u32> {
     let needs = |it: TransitionId| pt.needs.of(it.0).iter().map(|it| it.0).collect();
     let asked = mirror::asked(&property.question, needs);
     let mut watched = Vec::new();
@@ -415,7 +446,8 @@ fn legend(net: &Net<'_>, pt: &Pt, run: &Run, watched: &[u32], trace: &[Step]) ->
     }
     let is_told = |event: &str| trace.iter().any(|it| it.event.as_deref() == Some(event));
     let places = net.places.iter().zip(shown).filter(|it| it.1).map(|it| (it.0.name, it.0.doc));
-    let transitions = net.transitions.iter().zip(fired).filter(|it| it.1).map(|it| (it.0.name, it.0.doc));
+    let transitions =
+        net.transitions.iter().zip(fired).filter(|it| it.1).map(|it| (it.0.name, it.0.doc));
     let events = net.events.iter().filter(|it| is_told(it.name)).map(|it| (it.name, it.doc));
     let all = places.chain(transitions).chain(events).filter(|it| !it.1.is_empty());
     all.map(|(name, doc)| Meaning { name: name.to_owned(), doc: doc.trim().to_owned() }).collect()

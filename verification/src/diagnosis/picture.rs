@@ -53,7 +53,8 @@ impl Picture {
         Frame { caption, part, is_last: true }
     }
 
-    /// The drawings of a run: of the start and after each step, or after the last one if they are too many.
+    /// The drawings of a run: of the start and after each step, or after the last one if they are
+    /// too many.
     pub(super) fn frames(&self, trace: &[Step], most: usize) -> Vec<Frame> {
         let view = self.net.view();
         let net = view.net();
@@ -64,7 +65,8 @@ impl Picture {
             frames.push(Frame { is_last: false, ..now.frame("start".to_owned(), "at-0-") });
             for (at, step) in trace.iter().enumerate().take(trace.len().saturating_sub(1)) {
                 for it in &step.changes {
-                    if let Some(place) = net.places.iter().position(|place| place.name == it.place) {
+                    if let Some(place) = net.places.iter().position(|place| place.name == it.place)
+                    {
                         now.marking[place] = it.after;
                     }
                 }
@@ -130,7 +132,8 @@ fn drawn(pt: &Pt) -> Option<OwnedNet> {
                 given => transition.take(PlaceId(place), weight).give(PlaceId(place), given),
             };
         }
-        for &(place, weight) in effects.iter().filter(|it| needs.iter().all(|need| need.0 != it.0)) {
+        for &(place, weight) in effects.iter().filter(|it| needs.iter().all(|need| need.0 != it.0))
+        {
             transition = transition.give(PlaceId(place), u32::try_from(weight).ok()?);
         }
         net.transition(transition).ok()?;

@@ -61,11 +61,16 @@ impl Teller<'_> {
     pub(super) fn one_safe(mut self) -> Story {
         let last = self.run().len();
         let (marking, before) = (self.marking(last), self.marking(last.saturating_sub(1)));
-        let crowded: Vec<u32> = (0..marking.len() as u32).filter(|it| marking[*it as usize] > 1).collect();
+        let crowded: Vec<u32> =
+            (0..marking.len() as u32).filter(|it| marking[*it as usize] > 1).collect();
         let names: Vec<_> = crowded
             .iter()
             .map(|it| {
-                format!("{} holds {}", name(&self.pt().places, *it), counted(marking[*it as usize], "token"))
+                format!(
+                    "{} holds {}",
+                    name(&self.pt().places, *it),
+                    counted(marking[*it as usize], "token")
+                )
             })
             .collect();
         if names.is_empty() {
@@ -82,7 +87,11 @@ impl Teller<'_> {
             (Some(it), []) => format!("{} fired.", self.transition(it)),
             (Some(it), full) => {
                 let verb = if full.len() == 1 { "was" } else { "were" };
-                format!("{} fired while {} {verb} marked already.", self.transition(it), short_list(full, 4))
+                format!(
+                    "{} fired while {} {verb} marked already.",
+                    self.transition(it),
+                    short_list(full, 4)
+                )
             }
         };
         let what = format!("{} {}", self.when(last), short_list(&names, 4));
@@ -94,8 +103,9 @@ impl Teller<'_> {
         let last = self.run().len();
         let when = self.when(last);
         if enabled(self.pt(), &self.marking(last)).next().is_some() {
-            let what =
-                format!("the run below is in its last marking {when}").trim_end_matches(',').to_owned();
+            let what = format!("the run below is in its last marking {when}")
+                .trim_end_matches(',')
+                .to_owned();
             return Story { what, culprits: self.culprits, ..Story::default() };
         }
         let cause = self.fired(last).map_or_else(String::new, |it| {

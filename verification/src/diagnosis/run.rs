@@ -10,8 +10,8 @@ use std::fmt;
 pub struct Run {
     /// Transitions fired one after the other.
     pub stem: Vec<TransitionId>,
-    /// `None` when it makes no difference how the run goes on; else the transitions that repeat for ever, none when the stem
-    /// leads to a deadlock, whose marking lasts.
+    /// `None` when it makes no difference how the run goes on; else the transitions that repeat for
+    /// ever, none when the stem leads to a deadlock, whose marking lasts.
     pub cycle: Option<Vec<TransitionId>>,
 }
 
@@ -57,15 +57,21 @@ impl fmt::Display for NotARun {
             Self::Disabled { firing, transition } => {
                 write!(f, "firing {firing}: `{transition}` is not enabled there")
             }
-            Self::Overflow { firing } => write!(f, "firing {firing}: a place would hold too many tokens"),
-            Self::Open => f.write_str("the cycle does not lead back to the marking in which it begins"),
+            Self::Overflow { firing } => {
+                write!(f, "firing {firing}: a place would hold too many tokens")
+            }
+            Self::Open => {
+                f.write_str("the cycle does not lead back to the marking in which it begins")
+            }
             Self::GoesOn { transition } => {
                 write!(f, "the run does not end in a deadlock: `{transition}` can fire there")
             }
-            Self::Dates => {
-                f.write_str("the dates are not those of the firings: give one for each, in their order")
+            Self::Dates => f.write_str(
+                "the dates are not those of the firings: give one for each, in their order",
+            ),
+            Self::Net => {
+                f.write_str("the net has other places or transitions than the one that was checked")
             }
-            Self::Net => f.write_str("the net has other places or transitions than the one that was checked"),
         }
     }
 }
@@ -98,7 +104,8 @@ impl Run {
         self.cycle.as_ref().filter(|it| !it.is_empty()).map(|_| self.stem.len())
     }
 
-    /// Shows each marking, with how many firings are before it; where the cycle ends, its first one again.
+    /// Shows each marking, with how many firings are before it; where the cycle ends, its first one
+    /// again.
     ///
     /// # Errors
     /// When it is no run of the net.
@@ -111,7 +118,8 @@ impl Run {
             }
             visit(at, &marking);
             let firing = at + 1;
-            let name = pt.transitions.get(transition as usize).ok_or(NotARun::NoTransition { firing })?;
+            let name =
+                pt.transitions.get(transition as usize).ok_or(NotARun::NoTransition { firing })?;
             if !pt.enabled(&marking, transition) {
                 return Err(NotARun::Disabled { firing, transition: name.clone() });
             }
@@ -127,7 +135,9 @@ impl Run {
         if self.cycle.as_ref().is_some_and(Vec::is_empty)
             && let Some(transition) = enabled(pt, &marking).next()
         {
-            return Err(NotARun::GoesOn { transition: pt.transitions[transition as usize].clone() });
+            return Err(NotARun::GoesOn {
+                transition: pt.transitions[transition as usize].clone(),
+            });
         }
         visit(self.len(), &marking);
         Ok(())

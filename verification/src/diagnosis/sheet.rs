@@ -6,7 +6,8 @@ use crate::export::svg::{Part, STYLE, bold_width, escape, short, width};
 use cotama_core::net::Net;
 use std::fmt::Write as _;
 
-/// Pixels: around everything, between frames, the least width and the most with frames beside each other, the size of monospaced text and the width of its characters.
+/// Pixels: around everything, between frames, the least width and the most with frames beside each
+/// other, the size of monospaced text and the width of its characters.
 const MARGIN: i64 = 24;
 const GAP: i64 = 16;
 const WIDTH: i64 = 960;
@@ -43,11 +44,12 @@ struct Sheet {
 }
 
 impl Diagnosis {
-    /// A drawing of its own, in SVG: the verdict and its cause, and the net at the start and after each step, if net and run are
-    /// short; else the net after the last step, and the steps as lines. It needs no other file; colours follow the reader's light
-    /// or dark mode.
+    /// A drawing of its own, in SVG: the verdict and its cause, and the net at the start and after
+    /// each step, if net and run are short; else the net after the last step, and the steps as
+    /// lines. It needs no other file; colours follow the reader's light or dark mode.
     pub fn svg(&self) -> String {
-        let frames = self.picture.as_ref().map_or_else(Vec::new, |it| it.frames(&self.trace, FRAMES));
+        let frames =
+            self.picture.as_ref().map_or_else(Vec::new, |it| it.frames(&self.trace, FRAMES));
         let shows_all = frames.len() == self.trace.len() + 1;
         let mut sheet = Sheet::around(&frames);
         sheet.said("quiet", 12, &printable(&self.net));
@@ -64,7 +66,11 @@ impl Diagnosis {
                 sheet.said("said", 13, &format!("Step {start} repeats for ever."));
             }
             Some(start) => {
-                sheet.said("said", 13, &format!("Steps {start} to {} repeat for ever.", self.trace.len()));
+                sheet.said(
+                    "said",
+                    13,
+                    &format!("Steps {start} to {} repeat for ever.", self.trace.len()),
+                );
             }
             None => {}
         }
@@ -73,11 +79,12 @@ impl Diagnosis {
 }
 
 impl Unused<'_> {
-    /// A drawing of its own, in SVG: what is unused, and a small net in which it is pointed out; of the net with its events and
-    /// documentation, if that is given.
+    /// A drawing of its own, in SVG: what is unused, and a small net in which it is pointed out; of
+    /// the net with its events and documentation, if that is given.
     pub fn svg(&self, net: Option<&Net<'_>>) -> String {
         let frame = self.picture(net).map(|it| it.frame("start".to_owned(), "at-0-"));
-        let frames: Vec<Frame> = frame.map(|it| Frame { is_last: false, ..it }).into_iter().collect();
+        let frames: Vec<Frame> =
+            frame.map(|it| Frame { is_last: false, ..it }).into_iter().collect();
         let mut sheet = Sheet::around(&frames);
         sheet.said("quiet", 12, &printable(self.net_name()));
         sheet.lines(&self.to_string());
@@ -100,7 +107,8 @@ impl Sheet {
     fn around(frames: &[Frame]) -> Self {
         let columns = (1..=3).find(|it| it * it >= count(frames.len())).unwrap_or(3);
         let across = |columns: i64| columns * (widest(frames) + GAP) - GAP + 2 * MARGIN;
-        let width = (1..=columns).map(across).take_while(|it| *it <= WIDEST).last().unwrap_or(across(1));
+        let width =
+            (1..=columns).map(across).take_while(|it| *it <= WIDEST).last().unwrap_or(across(1));
         Self { out: String::new(), y: MARGIN, width: WIDTH.max(width) }
     }
 
@@ -114,7 +122,11 @@ impl Sheet {
                 parts.push((part, is_name));
             }
             let wide = |&(part, is_name): &(&str, bool)| {
-                if is_name || class == "heading" { bold_width(part, size) } else { width(part, size) }
+                if is_name || class == "heading" {
+                    bold_width(part, size)
+                } else {
+                    width(part, size)
+                }
             };
             let needed = parts.iter().map(wide).sum::<i64>() + width(" ", size);
             if used > 0 && used + needed > self.width - 2 * MARGIN {
@@ -141,7 +153,10 @@ impl Sheet {
     /// A line of markup.
     fn line(&mut self, class: &str, size: i64, markup: &str) {
         let base = self.y + size;
-        let _ = writeln!(self.out, "<text class=\"{class}\" x=\"{MARGIN}\" y=\"{base}\">{markup}</text>");
+        let _ = writeln!(
+            self.out,
+            "<text class=\"{class}\" x=\"{MARGIN}\" y=\"{base}\">{markup}</text>"
+        );
         self.y += size + size / 2;
     }
 
@@ -158,7 +173,8 @@ impl Sheet {
     /// Frames beside each other, as many as fit.
     fn frames(&mut self, frames: &[Frame]) {
         let widest = widest(frames);
-        let columns = usize::try_from((self.width - 2 * MARGIN + GAP) / (widest + GAP)).unwrap_or(1).max(1);
+        let columns =
+            usize::try_from((self.width - 2 * MARGIN + GAP) / (widest + GAP)).unwrap_or(1).max(1);
         for row in frames.chunks(columns) {
             let top = self.y + GAP;
             let height = row.iter().map(|it| it.part.height).max().unwrap_or(0);

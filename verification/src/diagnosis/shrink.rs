@@ -7,14 +7,15 @@ use std::collections::HashMap;
 /// The most firings that are tried in all.
 const TRIED: usize = 20_000_000;
 
-/// Leaves out of a firing sequence what its goal does not need. What is left can be fired from the initial marking and leads to
-/// a marking that meets the goal; without any one of its firings it would not (unless the work was cut short, after about
-/// 20 million firings). It need not be the shortest one that there is. A sequence that cannot be fired, or meets the goal
-/// nowhere, comes back as it is.
+/// Leaves out of a firing sequence what its goal does not need. What is left can be fired from the
+/// initial marking and leads to a marking that meets the goal; without any one of its firings it
+/// would not (unless the work was cut short, after about 20 million firings). It need not be the
+/// shortest one that there is. A sequence that cannot be fired, or meets the goal nowhere, comes
+/// back as it is.
 ///
-/// First what follows the first marking that meets the goal is cut off, then loops are cut out, then runs of firings are
-/// left out as long as that succeeds, long ones first (Zeller and Hildebrandt, "Simplifying and isolating failure-inducing
-/// input", IEEE TSE 28(2), 2002).
+/// First what follows the first marking that meets the goal is cut off, then loops are cut out,
+/// then runs of firings are left out as long as that succeeds, long ones first (Zeller and
+/// Hildebrandt, "Simplifying and isolating failure-inducing input", IEEE TSE 28(2), 2002).
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -31,7 +32,11 @@ const TRIED: usize = 20_000_000;
 /// let [left, right] = ["left", "right"].map(|it| pt.transition(it).unwrap());
 /// assert_eq!(shrink(&pt, &[left, right], |marking| marking[3] > 0), [right]);
 /// ```
-pub fn shrink(pt: &Pt, trace: &[TransitionId], mut goal: impl FnMut(&[u32]) -> bool) -> Vec<TransitionId> {
+pub fn shrink(
+    pt: &Pt,
+    trace: &[TransitionId],
+    mut goal: impl FnMut(&[u32]) -> bool,
+) -> Vec<TransitionId> {
     let Some(mut kept) = cut(pt, trace, &mut goal) else { return trace.to_vec() };
     let mut tried = 0;
     let mut length = kept.len().div_ceil(2);
@@ -58,7 +63,11 @@ pub fn shrink(pt: &Pt, trace: &[TransitionId], mut goal: impl FnMut(&[u32]) -> b
 }
 
 /// Up to the first marking that meets the goal, without loops.
-fn cut(pt: &Pt, trace: &[TransitionId], goal: &mut impl FnMut(&[u32]) -> bool) -> Option<Vec<TransitionId>> {
+fn cut(
+    pt: &Pt,
+    trace: &[TransitionId],
+    goal: &mut impl FnMut(&[u32]) -> bool,
+) -> Option<Vec<TransitionId>> {
     let mut kept: Vec<TransitionId> = Vec::new();
     let mut markings = vec![pt.initial.clone()];
     let mut met = HashMap::from([(pt.initial.clone(), 0)]);

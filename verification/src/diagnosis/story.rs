@@ -75,7 +75,9 @@ impl Teller<'_> {
         let name = name(&self.pt().transitions, transition.0);
         let net = self.case.net;
         let event = net.and_then(|net| {
-            net.events.get(net.transitions.get(transition.0 as usize)?.on?.0 as usize).map(|it| it.name)
+            net.events
+                .get(net.transitions.get(transition.0 as usize)?.on?.0 as usize)
+                .map(|it| it.name)
         });
         event.map_or_else(|| name.clone(), |event| format!("{name} (on {})", ticked(event)))
     }
@@ -83,7 +85,11 @@ impl Teller<'_> {
     /// When: "after 2 firings, at 300 ms,".
     pub(super) fn when(&self, at: usize) -> String {
         let Some(firing) = at.checked_sub(1) else { return "at the start".to_owned() };
-        let date = self.along.dates.get(firing).map_or_else(String::new, |date| format!(", at {date} ms,"));
+        let date = self
+            .along
+            .dates
+            .get(firing)
+            .map_or_else(String::new, |date| format!(", at {date} ms,"));
         format!("after {}{date}", counted(at, "firing"))
     }
 
@@ -97,7 +103,9 @@ impl Teller<'_> {
         self.explain(&claim, 0);
         let what = self.clauses.join(", and ");
         let what = match (&self.run().cycle, self.said) {
-            (Some(cycle), None) if cycle.is_empty() => format!("on a run that ends in a deadlock {what}"),
+            (Some(cycle), None) if cycle.is_empty() => {
+                format!("on a run that ends in a deadlock {what}")
+            }
             (Some(_), None) => format!("on a run that goes on for ever {what}"),
             _ => what,
         };
@@ -108,11 +116,13 @@ impl Teller<'_> {
             notes.extend(self.clocks(*at));
         }
         if let Some(forever) = &self.forever {
-            let literals: Vec<_> = super::claim::atoms(forever).into_iter().map(Formula::Atom).collect();
+            let literals: Vec<_> =
+                super::claim::atoms(forever).into_iter().map(Formula::Atom).collect();
             self.culprits.extend(words::places(&literals));
         }
         let last = self.run().len();
-        let is_dead = self.speaks_of_deadlock() || self.run().cycle.as_ref().is_some_and(Vec::is_empty);
+        let is_dead =
+            self.speaks_of_deadlock() || self.run().cycle.as_ref().is_some_and(Vec::is_empty);
         if is_dead && enabled(self.pt(), &self.marking(last)).next().is_none() {
             notes.extend(self.stuck());
         }
@@ -130,8 +140,11 @@ impl Teller<'_> {
             let marking = self.marking(at);
             let literals = words::literals(self.pt(), claim, &marking);
             let sentence = words::sentence(self.pt(), &literals, &marking, false);
-            let clause =
-                if self.said == Some(at) { sentence } else { format!("{} {sentence}", self.when(at)) };
+            let clause = if self.said == Some(at) {
+                sentence
+            } else {
+                format!("{} {sentence}", self.when(at))
+            };
             self.clauses.push(clause);
             self.said = Some(at);
             if self.moment.is_none() {
@@ -142,7 +155,8 @@ impl Teller<'_> {
         match claim {
             Formula::And(parts) => {
                 // What is said of this marking first, in one sentence.
-                let (now, later): (Vec<_>, Vec<_>) = parts.iter().cloned().partition(Formula::is_state);
+                let (now, later): (Vec<_>, Vec<_>) =
+                    parts.iter().cloned().partition(Formula::is_state);
                 if !now.is_empty() {
                     self.explain(&Formula::And(now), at);
                 }
@@ -170,7 +184,10 @@ impl Teller<'_> {
             Formula::Globally(inner) => {
                 let always = match &**inner {
                     Formula::Finally(goal) if goal.is_state() => {
-                        format!("again and again {} holds", ticked(&goal.display(self.pt()).to_string()))
+                        format!(
+                            "again and again {} holds",
+                            ticked(&goal.display(self.pt()).to_string())
+                        )
                     }
                     inner => words::always(self.pt(), inner),
                 };
@@ -187,7 +204,9 @@ impl Teller<'_> {
                         let [a, b] = [a, b].map(|it| ticked(&it.display(self.pt()).to_string()));
                         format!("{a} does not hold until {b} comes")
                     }
-                    other => format!("{} does not hold", ticked(&other.display(self.pt()).to_string())),
+                    other => {
+                        format!("{} does not hold", ticked(&other.display(self.pt()).to_string()))
+                    }
                 };
                 self.lasting(at, text);
                 if let Formula::Within(_, goal) = &**inner {

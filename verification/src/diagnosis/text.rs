@@ -85,7 +85,8 @@ impl Diagnosis {
         let shown = shown(self.trace.len(), self.cycle_starts_at);
         let mut table = Table { widths: vec![0; 5] };
         let heads = ["step", "ms", "fires", "on", "emits"].map(str::to_owned);
-        let rows: Vec<[String; 5]> = shown.iter().map(|&at| cells(at + 1, &self.trace[at])).collect();
+        let rows: Vec<[String; 5]> =
+            shown.iter().map(|&at| cells(at + 1, &self.trace[at])).collect();
         for row in &rows {
             for (width, cell) in table.widths.iter_mut().zip(row) {
                 *width = (*width).max(cell.chars().count());
@@ -96,7 +97,9 @@ impl Diagnosis {
         for (width, head) in table.widths.iter_mut().zip(&heads) {
             *width = if *width == 0 { 0 } else { (*width).max(head.len()) };
         }
-        let edge = |name: &str| [name.to_owned(), String::new(), String::new(), String::new(), String::new()];
+        let edge = |name: &str| {
+            [name.to_owned(), String::new(), String::new(), String::new(), String::new()]
+        };
         table.row(f, &heads, "changes")?;
         table.row(f, &edge("start"), &self.marking(&self.initial))?;
         let mut next = 0;
@@ -175,7 +178,8 @@ impl Diagnosis {
             1 => plain(&it.place),
             more => format!("{} {more}", plain(&it.place)),
         };
-        let mut all: Vec<String> = tokens.iter().filter(|it| self.shows(&it.place)).map(one).collect();
+        let mut all: Vec<String> =
+            tokens.iter().filter(|it| self.shows(&it.place)).map(one).collect();
         let more = all.len().saturating_sub(MARKED);
         all.truncate(MARKED);
         if more > 0 {

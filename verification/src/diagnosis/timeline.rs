@@ -27,7 +27,8 @@ struct Bars {
     left: usize,
 }
 
-/// The bars of the places that are watched, and of the atoms that are more than marked places; `None` without any.
+/// The bars of the places that are watched, and of the atoms that are more than marked places;
+/// `None` without any.
 pub(super) fn timeline(diagnosis: &Diagnosis) -> Option<String> {
     let atoms: Vec<&AtomTrack> = diagnosis.atoms.iter().filter(|it| !it.is_mark).collect();
     let rows = diagnosis.watched.len() + atoms.len();
@@ -37,7 +38,8 @@ pub(super) fn timeline(diagnosis: &Diagnosis) -> Option<String> {
     let all = diagnosis.trace.len() + 1;
     let count = all.min(SHOWN);
     let names = diagnosis.watched.iter().map(|it| &it.place).chain(atoms.iter().map(|it| &it.atom));
-    let longest = names.map(|it| super::words::printable(it).chars().count().min(NAME)).max().unwrap_or(0);
+    let longest =
+        names.map(|it| super::words::printable(it).chars().count().min(NAME)).max().unwrap_or(0);
     let left = longest.max(4) * CHARACTER + 20;
     let cell = (720 / count).clamp(9, 44);
     let mut bars = Bars { out: String::new(), first: all - count, count, cell, rows: 0, left };
@@ -81,7 +83,9 @@ impl Bars {
                 );
             }
         }
-        if let Some(start) = diagnosis.cycle_starts_at.map(|it| it + 1).filter(|it| *it >= self.first) {
+        if let Some(start) =
+            diagnosis.cycle_starts_at.map(|it| it + 1).filter(|it| *it >= self.first)
+        {
             let (x, end) = (self.x(start), self.x(self.first + self.count));
             let _ = writeln!(
                 self.out,

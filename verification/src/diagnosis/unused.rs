@@ -32,8 +32,8 @@ pub struct Never {
 }
 
 impl<'n> Unused<'n> {
-    /// From what was used: for each transition whether it fires in some marking, for each place whether it is marked in one.
-    /// What the lists do not reach counts as unused.
+    /// From what was used: for each transition whether it fires in some marking, for each place
+    /// whether it is marked in one. What the lists do not reach counts as unused.
     ///
     /// ```
     /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -50,21 +50,25 @@ impl<'n> Unused<'n> {
     /// ```
     pub fn new(pt: &'n Pt, fired: &[bool], marked: &[bool]) -> Self {
         let unused = |count: usize, used: &[bool]| -> Vec<u32> {
-            (0..count as u32).filter(|it| !used.get(*it as usize).copied().unwrap_or(false)).collect()
+            (0..count as u32)
+                .filter(|it| !used.get(*it as usize).copied().unwrap_or(false))
+                .collect()
         };
-        let transitions = unused(pt.transitions.len(), fired).into_iter().map(TransitionId).collect();
+        let transitions =
+            unused(pt.transitions.len(), fired).into_iter().map(TransitionId).collect();
         let places = unused(pt.places.len(), marked).into_iter().map(PlaceId).collect();
         Self { pt, transitions, places, is_complete: true, is_timed: false }
     }
 
-    /// What is known to be unused by transitions that are known never to fire: these, and the places that are empty at the start
-    /// and that only they mark.
+    /// What is known to be unused by transitions that are known never to fire: these, and the
+    /// places that are empty at the start and that only they mark.
     pub fn with_dead(pt: &'n Pt, dead: &[TransitionId]) -> Self {
         let mut fired = vec![true; pt.transitions.len()];
         for it in dead {
             fired[it.0 as usize] = false;
         }
-        let is_given = |place: u32| pt.changers.of(place).iter().any(|it| it.1 > 0 && fired[it.0 as usize]);
+        let is_given =
+            |place: u32| pt.changers.of(place).iter().any(|it| it.1 > 0 && fired[it.0 as usize]);
         let places = 0..pt.places.len() as u32;
         let marked: Vec<_> = places.map(|it| pt.initial[it as usize] > 0 || is_given(it)).collect();
         Self { is_complete: false, ..Self::new(pt, &fired, &marked) }
@@ -105,8 +109,8 @@ impl<'n> Unused<'n> {
         format!("{value:#}\n")
     }
 
-    /// A page of its own, with a drawing of a small net in which what is unused is pointed out; of the net with its events and
-    /// documentation, if that is given.
+    /// A page of its own, with a drawing of a small net in which what is unused is pointed out; of
+    /// the net with its events and documentation, if that is given.
     pub fn html(&self, net: Option<&Net<'_>>) -> String {
         let lines = self.to_string();
         let heads: Vec<_> = lines.lines().filter(|it| !it.starts_with(' ')).collect();
@@ -125,7 +129,12 @@ impl<'n> Unused<'n> {
             }
             let _ = writeln!(out, "<h2>{head}</h2>\n<div class=\"scroll\">\n<table>");
             for it in rows {
-                let _ = writeln!(out, "<tr><td>{}</td><td>{}</td></tr>", code(&it.name), sentence(&it.why));
+                let _ = writeln!(
+                    out,
+                    "<tr><td>{}</td><td>{}</td></tr>",
+                    code(&it.name),
+                    sentence(&it.why)
+                );
             }
             out += "</table>\n</div>\n";
         }
@@ -193,7 +202,9 @@ impl fmt::Display for Unused<'_> {
     /// A line for each, or a sentence when there is none.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.is_empty() && self.is_complete {
-            return f.write_str("Every transition fires in some run, and every place is marked in one.\n");
+            return f.write_str(
+                "Every transition fires in some run, and every place is marked in one.\n",
+            );
         }
         let head = |unused: usize, count: usize, noun: &str, verbs: [&str; 2]| {
             let plural = if count == 1 { "" } else { "s" };
@@ -201,8 +212,13 @@ impl fmt::Display for Unused<'_> {
         };
         if !self.transitions.is_empty() {
             let verbs = ["never fires", "never fire"];
-            writeln!(f, "{}", head(self.transitions.len(), self.pt.transitions.len(), "transition", verbs))?;
-            let line = |it: &TransitionId| (name(&self.pt.transitions, it.0), self.why_not_fired(*it));
+            writeln!(
+                f,
+                "{}",
+                head(self.transitions.len(), self.pt.transitions.len(), "transition", verbs)
+            )?;
+            let line =
+                |it: &TransitionId| (name(&self.pt.transitions, it.0), self.why_not_fired(*it));
             write_lines(f, &self.transitions.iter().map(line).collect::<Vec<_>>())?;
         }
         if !self.places.is_empty() {
@@ -211,7 +227,11 @@ impl fmt::Display for Unused<'_> {
             let line = |it: &PlaceId| (name(&self.pt.places, it.0), self.why_not_marked(*it));
             write_lines(f, &self.places.iter().map(line).collect::<Vec<_>>())?;
         }
-        if self.is_complete { Ok(()) } else { f.write_str("A limit was reached: there may be more.\n") }
+        if self.is_complete {
+            Ok(())
+        } else {
+            f.write_str("A limit was reached: there may be more.\n")
+        }
     }
 }
 

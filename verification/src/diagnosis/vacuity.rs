@@ -5,8 +5,9 @@ use super::words::{Says, always, says, ticked};
 use crate::property::{Atom, Formula};
 use crate::pt::Pt;
 
-/// A part of a property, and a stronger property in which it stands no more: if that holds as well, the part does not matter,
-/// and the property holds vacuously (Kupferman and Vardi, "Vacuity detection in temporal model checking", STTT 4(2), 2003).
+/// A part of a property, and a stronger property in which it stands no more: if that holds as well,
+/// the part does not matter, and the property holds vacuously (Kupferman and Vardi, "Vacuity
+/// detection in temporal model checking", STTT 4(2), 2003).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Vacuity {
     /// The part.
@@ -15,9 +16,9 @@ pub struct Vacuity {
     pub formula: Formula,
 }
 
-/// The questions that tell whether a formula, which is known to hold, holds vacuously. Each is to be checked; of one that
-/// holds, [`Vacuity::words`] says what that means. Those that say that something never
-/// comes are first; else larger parts come before what they are made of.
+/// The questions that tell whether a formula, which is known to hold, holds vacuously. Each is to
+/// be checked; of one that holds, [`Vacuity::words`] says what that means. Those that say that
+/// something never comes are first; else larger parts come before what they are made of.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace};
@@ -38,7 +39,8 @@ pub fn vacuous(formula: &Formula) -> Vec<Vacuity> {
     let mut found: Vec<Vacuity> = Vec::new();
     for (part, replaced) in replacements(formula, true) {
         let formula = replaced.simplified();
-        let says_nothing = formula == whole || formula == Formula::TRUE || formula == Formula::FALSE;
+        let says_nothing =
+            formula == whole || formula == Formula::TRUE || formula == Formula::FALSE;
         if !says_nothing && found.iter().all(|it| it.formula != formula) {
             found.push(Vacuity { part, formula });
         }
@@ -48,11 +50,16 @@ pub fn vacuous(formula: &Formula) -> Vec<Vacuity> {
     found
 }
 
-/// For each part, from the outside to the inside: the part, and the formula with false (true, below a negation) for it.
+/// For each part, from the outside to the inside: the part, and the formula with false (true, below
+/// a negation) for it.
 fn replacements(formula: &Formula, positive: bool) -> Vec<(Formula, Formula)> {
     let constant = if positive { Formula::FALSE } else { Formula::TRUE };
-    let inside = |inner: &Formula, positive: bool, wrap: &dyn Fn(Box<Formula>) -> Formula| -> Vec<_> {
-        let all = std::iter::once((inner.clone(), if positive { Formula::FALSE } else { Formula::TRUE }));
+    let inside = |inner: &Formula,
+                  positive: bool,
+                  wrap: &dyn Fn(Box<Formula>) -> Formula|
+     -> Vec<_> {
+        let all =
+            std::iter::once((inner.clone(), if positive { Formula::FALSE } else { Formula::TRUE }));
         let all = all.chain(replacements(inner, positive));
         all.map(|(part, it)| (part, wrap(Box::new(it)))).collect()
     };
@@ -68,10 +75,13 @@ fn replacements(formula: &Formula, positive: bool) -> Vec<(Formula, Formula)> {
                 all[at] = it;
                 if is_and { Formula::And(all) } else { Formula::Or(all) }
             };
-            let whole = all.iter().enumerate().map(|(at, part)| (part.clone(), with(at, constant.clone())));
+            let whole =
+                all.iter().enumerate().map(|(at, part)| (part.clone(), with(at, constant.clone())));
             let mut found: Vec<_> = whole.collect();
             for (at, part) in all.iter().enumerate() {
-                found.extend(replacements(part, positive).into_iter().map(|(part, it)| (part, with(at, it))));
+                found.extend(
+                    replacements(part, positive).into_iter().map(|(part, it)| (part, with(at, it))),
+                );
             }
             found
         }
@@ -90,14 +100,20 @@ fn replacements(formula: &Formula, positive: bool) -> Vec<(Formula, Formula)> {
 }
 
 fn is_equation(all: &[Formula]) -> bool {
-    let [Formula::Atom(Atom::AtMost(a)), Formula::Atom(Atom::AtMost(b))] = all else { return false };
+    let [Formula::Atom(Atom::AtMost(a)), Formula::Atom(Atom::AtMost(b))] = all else {
+        return false;
+    };
     a.weights.len() == b.weights.len()
         && a.constant.checked_neg() == Some(b.constant)
-        && a.weights.iter().zip(&b.weights).all(|(a, b)| a.0 == b.0 && a.1.checked_neg() == Some(b.1))
+        && a.weights
+            .iter()
+            .zip(&b.weights)
+            .all(|(a, b)| a.0 == b.0 && a.1.checked_neg() == Some(b.1))
 }
 
 impl Vacuity {
-    /// What it means that the stronger property holds, in a sentence; `property` is the text of the one that it was made from.
+    /// What it means that the stronger property holds, in a sentence; `property` is the text of the
+    /// one that it was made from.
     pub fn words(&self, property: &str, pt: &Pt) -> String {
         let show = |it: &Formula| ticked(&it.display(pt).to_string());
         let (property, part) = (ticked(property), show(&self.part));
@@ -117,7 +133,8 @@ impl Vacuity {
         let Formula::All(path) = &self.formula else { return None };
         let Formula::Globally(state) = &**path else { return None };
         let state = state.is_state().then(|| claim(state, true))?;
-        let is_never = |it: &Formula| matches!(says(it), Says::Empty(_) | Says::Disabled(_) | Says::Alive);
+        let is_never =
+            |it: &Formula| matches!(says(it), Says::Empty(_) | Says::Disabled(_) | Says::Alive);
         let all = match &state {
             Formula::And(parts) if !parts.is_empty() => parts.iter().all(is_never),
             one => is_never(one),

@@ -5,7 +5,8 @@ use crate::property::{Atom, Condition, Formula, Linear};
 use crate::pt::Pt;
 use std::collections::BTreeSet;
 
-/// A name in a sentence. Control characters are escaped, and what would end the name early is replaced.
+/// A name in a sentence. Control characters are escaped, and what would end the name early is
+/// replaced.
 pub(super) fn name(names: &[String], at: u32) -> String {
     names.get(at as usize).map_or_else(|| format!("`number {at}`"), |it| ticked(it))
 }
@@ -54,7 +55,8 @@ pub(super) fn counted(count: impl TryInto<u64>, noun: &str) -> String {
     )
 }
 
-/// The parts of a true claim about one marking that make it true: all of an `and`, of an `or` the first that holds.
+/// The parts of a true claim about one marking that make it true: all of an `and`, of an `or` the
+/// first that holds.
 pub(super) fn literals(pt: &Pt, claim: &Formula, marking: &[u32]) -> Vec<Formula> {
     let mut found = Vec::new();
     gather(pt, claim, marking, &mut found);
@@ -107,8 +109,13 @@ pub(super) fn says(literal: &Formula) -> Says<'_> {
         Formula::Atom(Atom::AtMost(linear)) => match (linear.weights.as_slice(), linear.constant) {
             (&[(place, -1)], 1) => Says::Marked(place.0),
             (&[(place, 1..)], 0) => Says::Empty(place.0),
-            ([(_, first), rest @ ..], _) if rest.iter().all(|it| it.1 == *first) && first.abs() == 1 => {
-                Says::Sum { places: linear.weights.iter().map(|it| it.0.0).collect(), large: *first < 0 }
+            ([(_, first), rest @ ..], _)
+                if rest.iter().all(|it| it.1 == *first) && first.abs() == 1 =>
+            {
+                Says::Sum {
+                    places: linear.weights.iter().map(|it| it.0.0).collect(),
+                    large: *first < 0,
+                }
             }
             _ => Says::Compares(linear),
         },
@@ -159,10 +166,9 @@ pub(super) fn sentence(pt: &Pt, literals: &[Formula], marking: &[u32], past: boo
                 parts.push(format!("{} {verb} {tokens}", sum_name(pt, &places)));
             }
             Says::Compares(linear) => {
-                let tokens = linear
-                    .weights
-                    .iter()
-                    .map(|&(place, _)| format!("{} {}", name(&pt.places, place.0), sum(&[place.0], marking)));
+                let tokens = linear.weights.iter().map(|&(place, _)| {
+                    format!("{} {}", name(&pt.places, place.0), sum(&[place.0], marking))
+                });
                 let tokens: Vec<_> = tokens.collect();
                 parts.push(format!(
                     "{} {holds} ({})",
@@ -179,17 +185,24 @@ pub(super) fn sentence(pt: &Pt, literals: &[Formula], marking: &[u32], past: boo
                 parts.push(format!("{} {verb} enabled", short_list(&names, 4)));
             }
             Says::Disabled(transitions) => {
-                let names: Vec<_> = transitions.iter().map(|it| name(&pt.transitions, *it)).collect();
+                let names: Vec<_> =
+                    transitions.iter().map(|it| name(&pt.transitions, *it)).collect();
                 parts.push(match names.as_slice() {
                     [one] => format!("{one} {is} not enabled"),
                     _ => format!("none of {} {is} enabled", short_list(&names, 4)),
                 });
             }
-            Says::Dead => parts.push(if past { "nothing could fire" } else { "nothing can fire" }.to_owned()),
-            Says::Alive => {
-                parts.push(if past { "something could fire" } else { "something can fire" }.to_owned());
+            Says::Dead => {
+                parts.push(if past { "nothing could fire" } else { "nothing can fire" }.to_owned())
             }
-            Says::Other => parts.push(format!("{} {holds}", ticked(&literal.display(pt).to_string()))),
+            Says::Alive => {
+                parts.push(
+                    if past { "something could fire" } else { "something can fire" }.to_owned(),
+                );
+            }
+            Says::Other => {
+                parts.push(format!("{} {holds}", ticked(&literal.display(pt).to_string())))
+            }
         }
     }
     let group = |names: &[String], what: &str| match names {
@@ -225,7 +238,8 @@ pub(super) fn effect(pt: &Pt, literals: &[Formula], before: &[u32], after: &[u32
                 parts.push(format!("enabled {}", short_list(&now, 4)));
             }
             Says::Disabled(transitions) => {
-                let names: Vec<_> = transitions.iter().map(|it| name(&pt.transitions, *it)).collect();
+                let names: Vec<_> =
+                    transitions.iter().map(|it| name(&pt.transitions, *it)).collect();
                 parts.push(format!("disabled {}", short_list(&names, 4)));
             }
             Says::Dead => parts.push("left nothing that can fire".to_owned()),
@@ -237,7 +251,8 @@ pub(super) fn effect(pt: &Pt, literals: &[Formula], before: &[u32], after: &[u32
     }
     let groups = [(marked, "marked"), (emptied, "emptied")];
     let groups = groups.iter().filter(|it| !it.0.is_empty());
-    let groups: Vec<_> = groups.map(|(names, verb)| format!("{verb} {}", short_list(names, 8))).collect();
+    let groups: Vec<_> =
+        groups.map(|(names, verb)| format!("{verb} {}", short_list(names, 8))).collect();
     parts.splice(0..0, groups);
     format!("it {}", list(&parts))
 }

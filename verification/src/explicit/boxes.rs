@@ -4,7 +4,8 @@ use super::table::{TABLES, hash, table_of};
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
-/// The boxes of a thread, one for each table; apart from those of another thread in the caches of processors.
+/// The boxes of a thread, one for each table; apart from those of another thread in the caches of
+/// processors.
 #[derive(Debug)]
 #[repr(align(128))]
 pub(super) struct Boxes<const S: usize> {
@@ -18,7 +19,8 @@ pub(super) struct Boxes<const S: usize> {
 }
 
 impl<const S: usize> Boxes<S> {
-    /// How many markings a box holds, a power of two: enough that many of them lie near each other in the table.
+    /// How many markings a box holds, a power of two: enough that many of them lie near each other
+    /// in the table.
     const ROOM: usize = 1 << (4096 / S).ilog2();
 
     /// Empty ones.
@@ -35,7 +37,8 @@ impl<const S: usize> Boxes<S> {
         std::array::from_fn(|table| table * Self::ROOM)
     }
 
-    /// Puts a marking into its box; returns the box if it is full now, to be emptied before the next marking.
+    /// Puts a marking into its box; returns the box if it is full now, to be emptied before the
+    /// next marking.
     #[inline]
     pub(super) fn put(&mut self, marking: &[u64; S], via: u32) -> Option<usize> {
         let table = table_of(hash(marking));
@@ -66,7 +69,8 @@ impl<const S: usize> Boxes<S> {
         }
     }
 
-    /// The next box with something in it, of this thread's share of the tables; no two threads are given the same one.
+    /// The next box with something in it, of this thread's share of the tables; no two threads are
+    /// given the same one.
     pub(super) fn next(&self, owner: usize) -> Option<usize> {
         let end = share(owner, self.given.len()).end;
         loop {

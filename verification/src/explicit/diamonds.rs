@@ -1,10 +1,12 @@
-//! Firings that may be left out of a search, because the same firings in another order lead to the same marking.
+//! Firings that may be left out of a search, because the same firings in another order lead to the
+//! same marking.
 //!
-//! Let `m` follow `p` by `u`, and let `t` be enabled in both, and `u` after `t`. Then `t` from `m` leads where `u` leads from
-//! the marking that follows `p` by `t`. When `t` comes after `u` in the net, `t` may be left out in `m`: the other marking is
-//! at most as far from the start, and what it is left out for there has a smaller number, and so on, which ends. So every
-//! level of a breadth first search has the same markings as without this. These are the sleep sets of P. Godefroid, *Using
-//! partial orders to improve automatic verification methods*, CAV 1990, for one firing back.
+//! Let `m` follow `p` by `u`, and let `t` be enabled in both, and `u` after `t`. Then `t` from `m`
+//! leads where `u` leads from the marking that follows `p` by `t`. When `t` comes after `u` in the
+//! net, `t` may be left out in `m`: the other marking is at most as far from the start, and what it
+//! is left out for there has a smaller number, and so on, which ends. So every level of a breadth
+//! first search has the same markings as without this. These are the sleep sets of P. Godefroid,
+//! *Using partial orders to improve automatic verification methods*, CAV 1990, for one firing back.
 
 use crate::pt::Pt;
 
@@ -33,8 +35,8 @@ impl Diamonds {
             for later in via + 1..transitions as u32 {
                 set[later as usize / 64] |= 1 << (later % 64);
             }
-            // What needs the tokens that were given may not have been enabled before; and what takes tokens that this one
-            // needs may disable it.
+            // What needs the tokens that were given may not have been enabled before; and what
+            // takes tokens that this one needs may disable it.
             let given = pt.effects.of(via).iter().filter(|it| it.1 > 0);
             let needing = given.flat_map(|it| pt.consumers.of(it.0)).map(|it| it.0);
             let changers = pt.needs.of(via).iter().flat_map(|it| pt.changers.of(it.0));

@@ -1,9 +1,10 @@
 //! Which transitions a packed marking enables: by tables, without a loop over transitions.
 //!
-//! Neighbouring fields of a word are a chunk of at most eight bits. For each value of a chunk a row says which transitions
-//! it allows, as bits; the transitions that all chunks allow are enabled. What else is linear in the marking, its number
-//! of tokens and the fields of implied places, is added up in the same way. In nets with very many transitions rows list
-//! instead the transitions that may be enabled, each in a single chunk, and the rest of what they need is looked up.
+//! Neighbouring fields of a word are a chunk of at most eight bits. For each value of a chunk a row
+//! says which transitions it allows, as bits; the transitions that all chunks allow are enabled.
+//! What else is linear in the marking, its number of tokens and the fields of implied places, is
+//! added up in the same way. In nets with very many transitions rows list instead the transitions
+//! that may be enabled, each in a single chunk, and the rest of what they need is looked up.
 
 use super::apart::Apart;
 use super::layout::{Field, Layout};
@@ -38,7 +39,8 @@ struct Chunk {
 struct Wide {
     place: u32,
     field: Field,
-    /// Numbers of tokens that make a difference, from small to large, and what is allowed with fewer than that.
+    /// Numbers of tokens that make a difference, from small to large, and what is allowed with
+    /// fewer than that.
     steps: Vec<(u64, Vec<u64>)>,
     /// Transitions that this field lists.
     listed: Vec<u32>,
@@ -61,7 +63,8 @@ pub(super) struct Enabling {
     wide: Vec<Wide>,
     /// How many chunks, and wide fields, are of stored words; those of computed words follow.
     in_stored: (usize, usize),
-    /// For each row the words of allowed transitions, what it adds to the sum, and to each computed word.
+    /// For each row the words of allowed transitions, what it adds to the sum, and to each computed
+    /// word.
     rows: Vec<u64>,
     /// Words of allowed transitions in a row.
     bits: usize,
@@ -92,8 +95,11 @@ impl Enabling {
             in_stored = (chunks.len(), wide.len());
         }
         let is_listed = row * words > MOST;
-        let mut start =
-            View { enabled: Apart::new(0, words), computed: Apart::new(0, layout.computed), sum: 0 };
+        let mut start = View {
+            enabled: Apart::new(0, words),
+            computed: Apart::new(0, layout.computed),
+            sum: 0,
+        };
         for transition in 0..pt.transitions.len() as u32 {
             if !is_listed || pt.needs.of(transition).is_empty() {
                 start.enabled[transition as usize / 64] |= 1 << (transition % 64);
@@ -146,7 +152,8 @@ impl Enabling {
                 let (allowed, sums) = row.split_at_mut(self.bits);
                 allowed.copy_from_slice(&self.start.enabled[..self.bits]);
                 for &place in &chunk.places {
-                    let tokens = layout.fields[place as usize].tokens((value as u64) << chunk.shift);
+                    let tokens =
+                        layout.fields[place as usize].tokens((value as u64) << chunk.shift);
                     for (sum, add) in sums.iter_mut().zip(&adds[place as usize]) {
                         *sum = sum.wrapping_add(add.wrapping_mul(tokens));
                     }
@@ -158,8 +165,13 @@ impl Enabling {
         }
         for wide in &mut self.wide {
             wide.adds.clone_from(&adds[wide.place as usize]);
-            let mut needed: Vec<u64> =
-                pt.consumers.of(wide.place).iter().map(|it| it.1.into()).filter(|_| self.bits > 0).collect();
+            let mut needed: Vec<u64> = pt
+                .consumers
+                .of(wide.place)
+                .iter()
+                .map(|it| it.1.into())
+                .filter(|_| self.bits > 0)
+                .collect();
             needed.sort_unstable();
             needed.dedup();
             wide.steps = needed
@@ -186,11 +198,16 @@ impl Enabling {
             let chunk = key.and_then(|key| chunk_of[key as usize]);
             let (here, rest): (Vec<_>, Vec<_>) =
                 needs.iter().partition(|it| chunk.is_some() && chunk_of[it.0 as usize] == chunk);
-            let field = |&(place, tokens): &(u32, u32)| (layout.fields[place as usize], u64::from(tokens));
+            let field =
+                |&(place, tokens): &(u32, u32)| (layout.fields[place as usize], u64::from(tokens));
             listed.rest.push(rest.iter().map(field).collect());
             if let Some(chunk) = chunk.map(|at| &self.chunks[at]) {
                 for value in 0..=chunk.mask {
-                    if here.iter().map(field).all(|(it, need)| it.tokens(value << chunk.shift) >= need) {
+                    if here
+                        .iter()
+                        .map(field)
+                        .all(|(it, need)| it.tokens(value << chunk.shift) >= need)
+                    {
                         listed.rows[chunk.row + value as usize].push(transition);
                     }
                 }
@@ -280,13 +297,17 @@ impl Enabling {
     /// Enables those of the listed transitions that have the rest of what they need.
     fn enable(&self, listed: &Listed, marking: &[u64], view: &mut View) {
         let View { enabled, computed, .. } = view;
-        let word = |at: usize| if at < self.stored { marking[at] } else { computed[at - self.stored] };
+        let word =
+            |at: usize| if at < self.stored { marking[at] } else { computed[at - self.stored] };
         let rows = self
             .chunks
             .iter()
             .map(|it| &listed.rows[it.row + ((word(it.word) >> it.shift) & it.mask) as usize]);
         for &transition in rows.chain(self.wide.iter().map(|it| &it.listed)).flatten() {
-            if listed.rest[transition as usize].iter().all(|(it, need)| it.tokens(word(it.word)) >= *need) {
+            if listed.rest[transition as usize]
+                .iter()
+                .all(|(it, need)| it.tokens(word(it.word)) >= *need)
+            {
                 enabled[transition as usize / 64] |= 1 << (transition % 64);
             }
         }
@@ -331,11 +352,22 @@ impl Seen {
 }
 
 /// Puts the fields of a word, which lie one after the other, into chunks.
-fn chunked(fields: Vec<(u32, Field)>, row: &mut usize, chunks: &mut Vec<Chunk>, wide: &mut Vec<Wide>) {
+fn chunked(
+    fields: Vec<(u32, Field)>,
+    row: &mut usize,
+    chunks: &mut Vec<Chunk>,
+    wide: &mut Vec<Wide>,
+) {
     let mut bits = CHUNK;
     for (place, field) in fields {
         if field.width > CHUNK {
-            wide.push(Wide { place, field, steps: Vec::new(), listed: Vec::new(), adds: Vec::new() });
+            wide.push(Wide {
+                place,
+                field,
+                steps: Vec::new(),
+                listed: Vec::new(),
+                adds: Vec::new(),
+            });
             // The next field cannot be in the chunk before it.
             bits = CHUNK;
             continue;
@@ -350,7 +382,13 @@ fn chunked(fields: Vec<(u32, Field)>, row: &mut usize, chunks: &mut Vec<Chunk>, 
             }
             _ => {
                 let Field { word, shift, .. } = field;
-                chunks.push(Chunk { word, shift, mask: (1 << bits) - 1, row: *row, places: vec![place] });
+                chunks.push(Chunk {
+                    word,
+                    shift,
+                    mask: (1 << bits) - 1,
+                    row: *row,
+                    places: vec![place],
+                });
                 *row += 1 << bits;
             }
         }

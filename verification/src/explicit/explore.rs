@@ -1,8 +1,9 @@
 //! Breadth first through all reachable markings, level by level, on any number of threads.
 //!
-//! Threads take blocks of a level, and sort the markings that follow into boxes, one for each table; a full box is added to
-//! its table at once, the others at the end of the level, by whichever thread has time. Which thread finds a marking first,
-//! and so the order within a level, is left to chance, but not which markings a level has, nor what is counted.
+//! Threads take blocks of a level, and sort the markings that follow into boxes, one for each
+//! table; a full box is added to its table at once, the others at the end of the level, by
+//! whichever thread has time. Which thread finds a marking first, and so the order within a level,
+//! is left to chance, but not which markings a level has, nor what is counted.
 
 use super::block::Block;
 use super::goal::Packed;
@@ -52,7 +53,10 @@ pub(super) struct Explored<const S: usize> {
     pub(super) peak: u64,
 }
 
-pub(super) fn explore<const S: usize>(space: &Space, plan: Plan<'_>) -> Result<Explored<S>, TooNarrow> {
+pub(super) fn explore<const S: usize>(
+    space: &Space,
+    plan: Plan<'_>,
+) -> Result<Explored<S>, TooNarrow> {
     let shared = Shared::<S>::new(space, plan);
     thread::scope(|scope| levels(scope, &shared, plan))
 }
@@ -76,11 +80,13 @@ fn levels<'s, const S: usize>(
         let limit = shared.space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
         let goals: Vec<[u64; S]> =
             workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.goals)).collect();
-        let fresh = workers.iter_mut().map(|it| it.as_mut().map(|it| std::mem::take(&mut it.fresh)));
+        let fresh =
+            workers.iter_mut().map(|it| it.as_mut().map(|it| std::mem::take(&mut it.fresh)));
         let fresh: Vec<Vec<Block<S>>> = fresh.map(Option::unwrap_or_default).collect();
         let blocks: usize = fresh.iter().map(Vec::len).sum();
         if let Some(before) = levels.last_mut() {
-            *before = workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.kept)).collect();
+            *before =
+                workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.kept)).collect();
         }
         let end = match limit {
             // How much of a level fits depends on chance; whether all of it fits does not.

@@ -32,7 +32,13 @@ pub(super) struct Packed<'f> {
 }
 
 impl Packed<'_> {
-    pub(super) fn holds(self, space: &Space, packed: &[u64], view: &mut View, seen: &mut Seen) -> bool {
+    pub(super) fn holds(
+        self,
+        space: &Space,
+        packed: &[u64],
+        view: &mut View,
+        seen: &mut Seen,
+    ) -> bool {
         if self.looks {
             space.enabling.look(packed, view, seen);
         }
@@ -45,7 +51,9 @@ impl Packed<'_> {
 fn holds(formula: &Formula, look: &Look<'_>) -> bool {
     match formula {
         Formula::Atom(Atom::AtMost(linear)) => linear.holds(look),
-        Formula::Atom(Atom::Fireable(transitions)) => transitions.iter().any(|it| look.enables(it.0)),
+        Formula::Atom(Atom::Fireable(transitions)) => {
+            transitions.iter().any(|it| look.enables(it.0))
+        }
         Formula::Atom(Atom::Deadlock) => look.view.is_dead(),
         Formula::Not(inner) => !holds(inner, look),
         Formula::And(all) => all.iter().all(|it| holds(it, look)),

@@ -12,8 +12,8 @@ use std::time::Instant;
 /// Successors whose places in the index are looked up at once: their loads overlap.
 const BATCH: usize = 256;
 
-/// The reachable markings, numbered from 0, the initial one, in the order of a breadth first search that fires transitions
-/// in their order; and for each marking those that follow it.
+/// The reachable markings, numbered from 0, the initial one, in the order of a breadth first search
+/// that fires transitions in their order; and for each marking those that follow it.
 #[derive(Debug)]
 pub struct Graph {
     space: Space,
@@ -30,10 +30,12 @@ pub struct Graph {
 }
 
 impl Graph {
-    /// The graph of a net; on one thread, so that numbers are always the same. `progress` is called now and then.
+    /// The graph of a net; on one thread, so that numbers are always the same. `progress` is called
+    /// now and then.
     ///
     /// # Errors
-    /// The limit that was reached, and how many markings there were before; [`Limit::States`] also when there are 4,294,967,295.
+    /// The limit that was reached, and how many markings there were before; [`Limit::States`] also
+    /// when there are 4,294,967,295.
     ///
     /// ```
     /// use cotama_core::net::TransitionId;
@@ -69,11 +71,13 @@ impl Graph {
 
     /// About how much memory it takes.
     pub fn bytes(&self) -> u64 {
-        (size_of_val(&self.markings[..]) + size_of_val(&self.starts[..]) + size_of_val(&self.successors[..]))
-            as u64
+        (size_of_val(&self.markings[..])
+            + size_of_val(&self.starts[..])
+            + size_of_val(&self.successors[..])) as u64
     }
 
-    /// The markings that follow a marking, one for each transition that is enabled in it, in their order.
+    /// The markings that follow a marking, one for each transition that is enabled in it, in their
+    /// order.
     ///
     /// # Panics
     /// When there is no such marking.
@@ -82,7 +86,8 @@ impl Graph {
         &self.successors[self.starts[state as usize]..self.starts[state as usize + 1]]
     }
 
-    /// The transitions that are enabled in a marking, in their order, which is that of [`Graph::successors`].
+    /// The transitions that are enabled in a marking, in their order, which is that of
+    /// [`Graph::successors`].
     ///
     /// # Panics
     /// When there is no such marking.
@@ -133,7 +138,8 @@ impl Graph {
     /// # Panics
     /// When there is no such marking.
     pub fn way(&self, to: u32) -> Vec<TransitionId> {
-        // The marking that a marking was first met from: later markings are not met from earlier ones than their own.
+        // The marking that a marking was first met from: later markings are not met from earlier
+        // ones than their own.
         let mut before = vec![0; to as usize + 1];
         let mut met = 0;
         for from in 0..=to {
@@ -161,7 +167,8 @@ impl Graph {
 
     /// Transitions that some marking enables, or that none does.
     pub(super) fn fired(&self, ever: bool) -> impl Iterator<Item = u32> {
-        (0..self.transitions).filter(move |it| (self.fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
+        (0..self.transitions)
+            .filter(move |it| (self.fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
     }
 
     /// Transitions that some of these markings enable: a bit for each, 64 to a word.
@@ -216,7 +223,8 @@ struct Parts<'p, const S: usize> {
     starts: Vec<usize>,
     successors: Vec<u32>,
     fired: Vec<u64>,
-    /// Numbers of markings, [`EMPTY`] where there is none, each where its hash leads to or after that with none empty between.
+    /// Numbers of markings, [`EMPTY`] where there is none, each where its hash leads to or after
+    /// that with none empty between.
     index: Vec<u32>,
     /// All bits of all markings.
     union: [u64; S],
@@ -266,7 +274,8 @@ impl<'p, const S: usize> Parts<'p, S> {
                 state += 1;
             }
             self.connect(&following)?;
-            let (states, waiting) = (self.markings.len() as u64, (self.markings.len() - state) as u64);
+            let (states, waiting) =
+                (self.markings.len() as u64, (self.markings.len() - state) as u64);
             progress(Progress { states, depth, waiting });
             if state == level {
                 (level, depth) = (self.markings.len(), depth + 1);
@@ -345,7 +354,8 @@ fn home<const S: usize>(marking: &[u64; S], slots: usize) -> usize {
     ((u128::from(hash(marking)) * slots as u128) >> 64) as usize
 }
 
-/// Makes room for so many more items in a list, half as many again as it has if it must grow; returns the bytes taken.
+/// Makes room for so many more items in a list, half as many again as it has if it must grow;
+/// returns the bytes taken.
 fn make_room<T>(list: &mut Vec<T>, more: usize, free: u64) -> Result<u64, Limit> {
     let (before, needed) = (list.capacity(), list.len() + more);
     if needed <= before {

@@ -9,12 +9,14 @@ const MARKINGS: usize = 20_000;
 /// The most firings it is away from the initial marking.
 const DEPTH: usize = 2_000;
 
-/// A proof that a net is unbounded: firings that can be repeated for ever, and add tokens each time.
+/// A proof that a net is unbounded: firings that can be repeated for ever, and add tokens each
+/// time.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Growth {
     /// From the initial marking to one from which the others can be repeated.
     pub first: Vec<TransitionId>,
-    /// Firings after which every place has at least as many tokens as before, and some place has more.
+    /// Firings after which every place has at least as many tokens as before, and some place has
+    /// more.
     pub repeated: Vec<TransitionId>,
 }
 

@@ -16,7 +16,8 @@ pub(super) struct Implied {
     pub(super) terms: Row,
 }
 
-/// Of these places, the earlier ones first, those that others imply. None occurs in the terms of another.
+/// Of these places, the earlier ones first, those that others imply. None occurs in the terms of
+/// another.
 pub(super) fn implied(pt: &Pt, candidates: &[u32]) -> Vec<Implied> {
     let mut free = invariants(pt);
     let mut used: Vec<(u32, Row)> = Vec::new();
@@ -53,10 +54,12 @@ fn solved(pt: &Pt, place: u32, row: &Row) -> Option<Implied> {
     Some(Implied { place, constant: constant.checked_mul(sign)?, terms })
 }
 
-/// Weighted sums of tokens that no transition changes: as many as are independent, as far as they are found.
+/// Weighted sums of tokens that no transition changes: as many as are independent, as far as they
+/// are found.
 fn invariants(pt: &Pt) -> Vec<Row> {
-    let mut rows: Vec<(Row, Row)> =
-        (0..pt.places.len() as u32).map(|it| (pt.changers.of(it).to_vec(), vec![(it, 1)])).collect();
+    let mut rows: Vec<(Row, Row)> = (0..pt.places.len() as u32)
+        .map(|it| (pt.changers.of(it).to_vec(), vec![(it, 1)]))
+        .collect();
     let mut work = 0;
     for transition in 0..pt.transitions.len() as u32 {
         work += rows.len();
@@ -91,7 +94,11 @@ fn eliminated(row: &(Row, Row), pivot: &(Row, Row), transition: u32) -> Option<(
     let (a, b) = (a / divisor, b.checked_neg()? / divisor);
     let mut changes = combined(&row.0, a, &pivot.0, b)?;
     let mut weights = combined(&row.1, a, &pivot.1, b)?;
-    let all = changes.iter().chain(&weights).fold(0, |all, it| gcd(all, it.1.unsigned_abs())).cast_signed();
+    let all = changes
+        .iter()
+        .chain(&weights)
+        .fold(0, |all, it| gcd(all, it.1.unsigned_abs()))
+        .cast_signed();
     if all > 1 {
         changes.iter_mut().chain(&mut weights).for_each(|it| it.1 /= all);
     }

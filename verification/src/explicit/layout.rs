@@ -1,9 +1,9 @@
 //! How a marking is packed into machine words.
 //!
-//! Every place is a field of a word. Where the bound of a place is proved the field is as wide as the bound; elsewhere it
-//! has a guess, and one bit more that tells when the guess was too small. The map from markings to words is linear, so
-//! firing a transition is one addition to each word, whatever it takes and gives. Places that others imply are left out
-//! where that saves a word.
+//! Every place is a field of a word. Where the bound of a place is proved the field is as wide as
+//! the bound; elsewhere it has a guess, and one bit more that tells when the guess was too small.
+//! The map from markings to words is linear, so firing a transition is one addition to each word,
+//! whatever it takes and gives. Places that others imply are left out where that saves a word.
 
 use super::implied::{Implied, implied};
 use crate::bounds::bounds;
@@ -25,7 +25,8 @@ pub(super) struct Width {
 }
 
 impl Width {
-    /// For each place what is proved, or a first guess; `None` when a firing can add more tokens than there may be.
+    /// For each place what is proved, or a first guess; `None` when a firing can add more tokens
+    /// than there may be.
     pub(super) fn of(pt: &Pt) -> Option<Vec<Self>> {
         let width = |tokens: u32| (u32::BITS - tokens.leading_zeros()).max(1);
         let first = |(place, &bound): (usize, &Option<u32>)| {
@@ -33,8 +34,12 @@ impl Width {
                 return Some(Self { bits: width(bound), proved: true });
             }
             // One firing beyond the guess must not pass the additional bit.
-            let given = pt.changers.of(place as u32).iter().map(|it| it.1).max().unwrap_or(0).max(0);
-            Some(Self { bits: width(pt.initial[place].max(u32::try_from(given).ok()?)), proved: false })
+            let given =
+                pt.changers.of(place as u32).iter().map(|it| it.1).max().unwrap_or(0).max(0);
+            Some(Self {
+                bits: width(pt.initial[place].max(u32::try_from(given).ok()?)),
+                proved: false,
+            })
         };
         bounds(pt).iter().enumerate().map(first).collect()
     }
@@ -79,7 +84,8 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// Packs places of these widths; `None` when a marking needs more words than the largest of [`SIZES`].
+    /// Packs places of these widths; `None` when a marking needs more words than the largest of
+    /// [`SIZES`].
     pub(super) fn new(pt: &Pt, widths: &[Width]) -> Option<Self> {
         let implied = left_out(pt, widths);
         let mut is_stored = vec![true; widths.len()];
@@ -116,7 +122,8 @@ impl Layout {
         for &(place, by) in pt.effects.of(transition) {
             let field = self.fields[place as usize];
             if field.word < self.stored {
-                words[field.word] = words[field.word].wrapping_add(by.cast_unsigned() << field.shift);
+                words[field.word] =
+                    words[field.word].wrapping_add(by.cast_unsigned() << field.shift);
             }
         }
         words
@@ -137,7 +144,9 @@ impl Words {
 
     fn add(&mut self, width: u32) -> Field {
         let first = self.first;
-        let room = |&(word, used): &(usize, &u32)| used + width <= if word == 0 { first } else { u64::BITS };
+        let room = |&(word, used): &(usize, &u32)| {
+            used + width <= if word == 0 { first } else { u64::BITS }
+        };
         let word = self.used.iter().enumerate().find(room).map_or(self.used.len(), |it| it.0);
         if word == self.used.len() {
             self.used.push(0);
@@ -168,7 +177,8 @@ fn left_out(pt: &Pt, widths: &[Width]) -> Vec<Implied> {
     let mut candidates: Vec<u32> =
         (0..widths.len() as u32).filter(|&place| widths[place as usize].proved).collect();
     // Places that nothing needs cost least to compute, wide ones save most.
-    candidates.sort_by_key(|&it| (!pt.consumers.of(it).is_empty(), u32::MAX - widths[it as usize].bits));
+    candidates
+        .sort_by_key(|&it| (!pt.consumers.of(it).is_empty(), u32::MAX - widths[it as usize].bits));
     let mut places = implied(pt, &candidates);
     let least = words(&places);
     if least == all {

@@ -3,7 +3,8 @@
 use super::graph::Graph;
 use cotama_core::net::TransitionId;
 
-/// Which transitions can fire once, which always again, and whether the net can always return to the start.
+/// Which transitions can fire once, which always again, and whether the net can always return to
+/// the start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Liveness {
     /// Transitions that can fire from every reachable marking, at once or later.
@@ -30,7 +31,8 @@ impl Liveness {
     }
 }
 
-/// The strongly connected components of a [`Graph`]: sets of markings that can all be reached from each other.
+/// The strongly connected components of a [`Graph`]: sets of markings that can all be reached from
+/// each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Components {
     /// For each marking its component. Arcs lead to components with smaller numbers, or stay.
@@ -42,12 +44,13 @@ pub struct Components {
 impl Graph {
     /// Its strongly connected components.
     ///
-    /// They are those of D. J. Pearce, *A space-efficient algorithm for finding strongly connected components*, Information
-    /// Processing Letters 116 (2016), without recursion.
+    /// They are those of D. J. Pearce, *A space-efficient algorithm for finding strongly connected
+    /// components*, Information Processing Letters 116 (2016), without recursion.
     pub fn components(&self) -> Components {
         let states = self.states() as u32;
-        // Zero for a marking that was not met; for one that is under way the least that it leads back to, as numbers in the
-        // order in which they were met; for others `states` minus the number of the component, which is never less.
+        // Zero for a marking that was not met; for one that is under way the least that it leads
+        // back to, as numbers in the order in which they were met; for others `states` minus the
+        // number of the component, which is never less.
         let mut ranks = vec![0_u32; states as usize];
         let (mut rank, mut count) = (1, 0);
         // Markings that are left, and wait for the one that they lead back to.
@@ -101,15 +104,19 @@ impl Graph {
             is_final[component as usize] &=
                 self.successors(state).iter().all(|it| of[*it as usize] == component);
         }
-        let mut last: Vec<u32> = states().filter(|it| is_final[of[*it as usize] as usize]).collect();
+        let mut last: Vec<u32> =
+            states().filter(|it| is_final[of[*it as usize] as usize]).collect();
         last.sort_by_key(|it| of[*it as usize]);
         let mut live: Vec<u32> = self.fired(true).collect();
         for component in last.chunk_by(|a, b| of[*a as usize] == of[*b as usize]) {
             let enabled = self.enabled(component.iter().copied());
             live.retain(|it| enabled[*it as usize / 64] >> (it % 64) & 1 == 1);
         }
-        let mortal =
-            self.fired(true).filter(|it| live.binary_search(it).is_err()).map(TransitionId).collect();
+        let mortal = self
+            .fired(true)
+            .filter(|it| live.binary_search(it).is_err())
+            .map(TransitionId)
+            .collect();
         let is_home = is_final.iter().filter(|it| **it).count() == 1;
         Liveness {
             live: live.into_iter().map(TransitionId).collect(),

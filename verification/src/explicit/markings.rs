@@ -13,8 +13,8 @@ use std::time::Instant;
 /// No number.
 const EMPTY: u32 = u32::MAX;
 
-/// Markings with numbers in the order in which they are met; the initial one has number 0. They are packed; when a place
-/// outgrows its field all are packed anew, and keep their numbers.
+/// Markings with numbers in the order in which they are met; the initial one has number 0. They are
+/// packed; when a place outgrows its field all are packed anew, and keep their numbers.
 pub(crate) struct Markings<'n> {
     pt: &'n Pt,
     limits: Limits,
@@ -99,7 +99,11 @@ impl<'n> Markings<'n> {
     /// # Errors
     /// [`Limit::Time`] when it is.
     pub(crate) fn check_time(&self) -> Result<(), Limit> {
-        if self.limits.deadline.is_some_and(|it| Instant::now() >= it) { Err(Limit::Time) } else { Ok(()) }
+        if self.limits.deadline.is_some_and(|it| Instant::now() >= it) {
+            Err(Limit::Time)
+        } else {
+            Ok(())
+        }
     }
 
     fn add(&mut self, marking: u32, transition: u32) {
@@ -113,7 +117,8 @@ impl<'n> Markings<'n> {
     fn number(&mut self) -> Result<u32, Limit> {
         let (words, count) = (self.words, self.len());
         let (stored, after) = (&self.stored, &self.after);
-        let found = self.index.find(hash(after), |it| stored[it as usize * words..][..words] == after[..]);
+        let found =
+            self.index.find(hash(after), |it| stored[it as usize * words..][..words] == after[..]);
         let Err(slot) = found else { return found.map_err(|_| Limit::Bytes) };
         if count as u64 >= self.limits.states.min(EMPTY.into()) {
             return Err(Limit::States);
@@ -140,13 +145,16 @@ impl<'n> Markings<'n> {
         for (at, packed) in stored.chunks_exact_mut(words).enumerate() {
             let look = self.look(at as u32);
             packed[0] = PRESENT;
-            for (place, field) in space.layout.fields.iter().enumerate().filter(|it| it.1.word < words) {
+            for (place, field) in
+                space.layout.fields.iter().enumerate().filter(|it| it.1.word < words)
+            {
                 packed[field.word] |= look.tokens(PlaceId(place as u32)) << field.shift;
             }
         }
         self.memory.give_back(&self.stored);
         (self.view, self.seen) = (space.enabling.view(), space.enabling.unseen());
-        (self.deltas, self.words, self.stored, self.space) = (deltas(self.pt, &space), words, stored, space);
+        (self.deltas, self.words, self.stored, self.space) =
+            (deltas(self.pt, &space), words, stored, space);
         let stored = &self.stored;
         self.index.refill(count as u32, |it| hash(&stored[it as usize * words..][..words]));
         Ok(())
@@ -173,7 +181,10 @@ impl Look<'_> {
 
     /// Whether a transition is enabled.
     pub(crate) fn enables(&self, transition: u32) -> bool {
-        self.view.enabled.get(transition as usize / 64).is_some_and(|it| it >> (transition % 64) & 1 == 1)
+        self.view
+            .enabled
+            .get(transition as usize / 64)
+            .is_some_and(|it| it >> (transition % 64) & 1 == 1)
     }
 }
 
@@ -183,7 +194,11 @@ impl Marking for Look<'_> {
         let stored = self.packed.len();
         self.space.layout.fields.get(place.0 as usize).map_or(0, |field| {
             let at = field.word;
-            field.tokens(if at < stored { self.packed[at] } else { self.view.computed[at - stored] })
+            field.tokens(if at < stored {
+                self.packed[at]
+            } else {
+                self.view.computed[at - stored]
+            })
         })
     }
 }
@@ -217,7 +232,12 @@ impl Memory {
     ///
     /// # Errors
     /// [`Limit::Bytes`] when that is too much.
-    pub(crate) fn extend<T: Clone>(&mut self, list: &mut Vec<T>, len: usize, with: T) -> Result<(), Limit> {
+    pub(crate) fn extend<T: Clone>(
+        &mut self,
+        list: &mut Vec<T>,
+        len: usize,
+        with: T,
+    ) -> Result<(), Limit> {
         self.room(list, len.saturating_sub(list.len()))?;
         list.resize(len, with);
         Ok(())
@@ -228,7 +248,8 @@ impl Memory {
     }
 }
 
-/// Numbers of items, each where the hash of the item leads to or after that with none empty between.
+/// Numbers of items, each where the hash of the item leads to or after that with none empty
+/// between.
 #[derive(Debug, Default)]
 pub(crate) struct Index {
     slots: Vec<u32>,

@@ -7,9 +7,10 @@
 //! | [`Graph`] | the markings and the arcs between them, to be passed through again |
 //! | [`Liveness`] | liveness and reversibility, from the strongly connected components of the graph |
 //!
-//! Markings are packed into machine words by bounds that [`bounds`](crate::bounds::bounds) proves, in widths that are tried
-//! out elsewhere. A search ends with all markings, or at one of its [`Limits`]; that too is an answer. Answers are the same
-//! on any number of threads, but for limits of memory and time.
+//! Markings are packed into machine words by bounds that [`bounds`](crate::bounds::bounds) proves,
+//! in widths that are tried out elsewhere. A search ends with all markings, or at one of its
+//! [`Limits`]; that too is an answer. Answers are the same on any number of threads, but for limits
+//! of memory and time.
 //!
 //! ```
 //! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};

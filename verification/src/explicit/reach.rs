@@ -38,16 +38,18 @@ impl Reached {
     /// How many markings were reached.
     pub fn states(&self) -> u64 {
         match *self {
-            Self::Trace { states, .. } | Self::Never { states } | Self::Unknown { states, .. } => states,
+            Self::Trace { states, .. } | Self::Never { states } | Self::Unknown { states, .. } => {
+                states
+            }
         }
     }
 }
 
 /// Searches for a marking in which the goal holds, on so many threads.
 ///
-/// The way to it is the same on any number of threads: of all markings of the first level that has one the least as it is
-/// packed, and from there back at each step the transition that comes first in the net. `progress` is called by this thread
-/// now and then.
+/// The way to it is the same on any number of threads: of all markings of the first level that has
+/// one the least as it is packed, and from there back at each step the transition that comes first
+/// in the net. `progress` is called by this thread now and then.
 ///
 /// ```
 /// use cotama_core::net::TransitionId;
@@ -66,7 +68,13 @@ impl Reached {
 /// let reached = reach(&fuse, goal, &Limits::default(), 1, &|_| ());
 /// assert_eq!(reached, Reached::Trace { transitions: vec![TransitionId(0)], states: 2 });
 /// ```
-pub fn reach(pt: &Pt, goal: Goal<'_>, limits: &Limits, jobs: usize, progress: &dyn Fn(Progress)) -> Reached {
+pub fn reach(
+    pt: &Pt,
+    goal: Goal<'_>,
+    limits: &Limits,
+    jobs: usize,
+    progress: &dyn Fn(Progress),
+) -> Reached {
     let widths = Width::of(pt).ok_or(Limit::Tokens);
     widths
         .and_then(|it| search(pt, it, &mut Reach { pt, goal, limits, jobs, progress }))
@@ -100,8 +108,13 @@ impl Search for Reach<'_> {
     }
 }
 
-/// The way from the only marking of the first of these levels to a marking that follows the last one.
-fn way<const S: usize>(space: &Space, levels: &[Vec<Block<S>>], mut to: [u64; S]) -> Vec<TransitionId> {
+/// The way from the only marking of the first of these levels to a marking that follows the last
+/// one.
+fn way<const S: usize>(
+    space: &Space,
+    levels: &[Vec<Block<S>>],
+    mut to: [u64; S],
+) -> Vec<TransitionId> {
     let deltas = space.deltas::<S>();
     let (mut view, mut seen) = (space.enabling.view(), space.enabling.unseen());
     let mut way = Vec::with_capacity(levels.len());

@@ -76,7 +76,11 @@ pub(super) trait Search {
 ///
 /// # Errors
 /// When a marking needs more words than there can be.
-pub(super) fn search<T: Search>(pt: &Pt, mut widths: Vec<Width>, search: &mut T) -> Result<T::Found, Limit> {
+pub(super) fn search<T: Search>(
+    pt: &Pt,
+    mut widths: Vec<Width>,
+    search: &mut T,
+) -> Result<T::Found, Limit> {
     loop {
         let space = Space::new(pt, &widths).ok_or(Limit::Words)?;
         match sized(space, search) {

@@ -8,7 +8,8 @@ use super::{Limit, Limits, Progress};
 use crate::pt::Pt;
 use cotama_core::net::TransitionId;
 
-/// What is counted of the reachable markings; with a [`StateSpace::limit`], of those that were reached.
+/// What is counted of the reachable markings; with a [`StateSpace::limit`], of those that were
+/// reached.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StateSpace {
     /// Markings.
@@ -73,11 +74,17 @@ impl StateSpace {
 /// Markings of an unbounded net that are passed through.
 const OF_AN_UNBOUNDED_NET: u64 = 1 << 16;
 
-/// Passes through all reachable markings, on so many threads; and, when growth without end is found first, through some.
+/// Passes through all reachable markings, on so many threads; and, when growth without end is found
+/// first, through some.
 ///
-/// All counts are the same on any number of threads, but for limits of memory and time. `progress` is called by this thread
-/// now and then.
-pub fn statespace(pt: &Pt, limits: &Limits, jobs: usize, progress: &dyn Fn(Progress)) -> StateSpace {
+/// All counts are the same on any number of threads, but for limits of memory and time. `progress`
+/// is called by this thread now and then.
+pub fn statespace(
+    pt: &Pt,
+    limits: &Limits,
+    jobs: usize,
+    progress: &dyn Fn(Progress),
+) -> StateSpace {
     let Some(widths) = Width::of(pt) else { return StateSpace::none(pt, Limit::Tokens) };
     let is_bounded = widths.iter().all(|it| it.proved);
     let growth = if is_bounded { None } else { growth(pt) };

@@ -1,6 +1,8 @@
-//! The set of markings that were reached: open addressing over packed markings, without anything else.
+//! The set of markings that were reached: open addressing over packed markings, without anything
+//! else.
 
-/// How many tables there are, each with a lock and a size of its own: no growth doubles the whole set.
+/// How many tables there are, each with a lock and a size of its own: no growth doubles the whole
+/// set.
 pub(super) const TABLES: usize = 64;
 
 /// Markings that are looked up at once: their loads overlap.
@@ -52,8 +54,11 @@ impl<const S: usize> Table<S> {
     pub(super) fn grown(&self, more: usize) -> Option<usize> {
         let used = self.used + more;
         // Few steps while tables are small: on Kanban(5) the process takes 4 MB less.
-        let grown =
-            if self.slots.len() < Self::SMALL { self.slots.len() * 4 } else { self.slots.len() * 7 / 5 };
+        let grown = if self.slots.len() < Self::SMALL {
+            self.slots.len() * 4
+        } else {
+            self.slots.len() * 7 / 5
+        };
         (used * 5 > self.slots.len() * 4).then(|| grown.max(used * 7 / 5).max(16))
     }
 
@@ -68,15 +73,17 @@ impl<const S: usize> Table<S> {
 
     /// Grows to so many slots, if the system has memory for them; returns whether it has.
     ///
-    /// Slots grow where they are: a system that can remap pages copies nothing, and memory is not torn to pieces.
+    /// Slots grow where they are: a system that can remap pages copies nothing, and memory is not
+    /// torn to pieces.
     pub(super) fn grow(&mut self, slots: usize) -> bool {
         let before = self.slots.len();
         if self.slots.try_reserve_exact(slots - before).is_err() {
             return false;
         }
         self.slots.resize(slots, [0; S]);
-        // From the last one down, each moves up to where it belongs, past those that moved before. Some wait: a few at the
-        // start, which belong where others have not moved yet, and those that find no place before the end.
+        // From the last one down, each moves up to where it belongs, past those that moved before.
+        // Some wait: a few at the start, which belong where others have not moved yet, and those
+        // that find no place before the end.
         let mut late = Vec::new();
         for from in (0..before).rev() {
             let marking = std::mem::replace(&mut self.slots[from], [0; S]);
@@ -106,9 +113,11 @@ impl<const S: usize> Table<S> {
         ((u128::from(within) * self.slots.len() as u128) >> 64) as usize
     }
 
-    /// Adds markings, at most [`BATCH`] of them, for which there is room, and calls `new` with the positions of those that were not there.
+    /// Adds markings, at most [`BATCH`] of them, for which there is room, and calls `new` with the
+    /// positions of those that were not there.
     pub(super) fn insert(&mut self, markings: &[[u64; S]], mut new: impl FnMut(usize)) {
-        // Most markings are there already, and most of those where they belong: no branch on the way.
+        // Most markings are there already, and most of those where they belong: no branch on the
+        // way.
         let mut open = [(0_u32, 0_u32); BATCH];
         let mut count = 0;
         for (at, marking) in markings.iter().enumerate().take(BATCH) {

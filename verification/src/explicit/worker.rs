@@ -151,7 +151,11 @@ impl Tally {
 
 impl<const S: usize> Worker<S> {
     /// That of a thread, which makes it, so that its memory lies apart from that of others.
-    pub(super) fn of<'w>(place: &'w mut Option<Self>, shared: &Shared<'_, S>, number: usize) -> &'w mut Self {
+    pub(super) fn of<'w>(
+        place: &'w mut Option<Self>,
+        shared: &Shared<'_, S>,
+        number: usize,
+    ) -> &'w mut Self {
         place.get_or_insert_with(|| Self::new(shared, number))
     }
 
@@ -191,8 +195,9 @@ impl<const S: usize> Worker<S> {
     /// Takes blocks of the level as long as there are any, and then boxes.
     pub(super) fn level(&mut self, shared: &Shared<'_, S>, tick: &dyn Fn()) {
         self.fill(shared, tick);
-        // Of its own share of the tables first, so that a thread mostly meets what it wrote itself, and expands what it found
-        // itself; its own boxes first, because the others may not be filled yet.
+        // Of its own share of the tables first, so that a thread mostly meets what it wrote itself,
+        // and expands what it found itself; its own boxes first, because the others may not be
+        // filled yet.
         for owner in self.first(shared) {
             for it in self.first(shared) {
                 // One lock at a time: who holds one and waits for another may wait for ever.
@@ -220,13 +225,15 @@ impl<const S: usize> Worker<S> {
         let mut boxes = write(&shared.boxes[self.number]);
         boxes.clear_all();
         loop {
-            let Some(mut block) = self.first(shared).find_map(|it| lock(&shared.queues[it]).pop()) else {
+            let Some(mut block) = self.first(shared).find_map(|it| lock(&shared.queues[it]).pop())
+            else {
                 break;
             };
             if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
                 shared.stop(Limit::Time);
             }
-            // Other limits let the level be counted to its end, so that the counts are those of complete levels.
+            // Other limits let the level be counted to its end, so that the counts are those of
+            // complete levels.
             if shared.stop.load(Relaxed) != Limit::Time.code() {
                 self.expand(shared, &mut boxes, &block);
             }
@@ -313,7 +320,9 @@ impl<const S: usize> Worker<S> {
                     goals.push(*marking);
                 }
                 match fresh.last_mut() {
-                    Some(block) if block.via.len() < Block::<S>::ROOM => block.push(marking, via[at]),
+                    Some(block) if block.via.len() < Block::<S>::ROOM => {
+                        block.push(marking, via[at])
+                    }
                     _ => fresh.extend(shared.block(marking, via[at])),
                 }
             });

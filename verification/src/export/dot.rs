@@ -6,8 +6,8 @@ use std::fmt::{self, Write as _};
 
 /// Writes a net as a directed graph for Graphviz.
 ///
-/// Nodes are called `p0`, `p1`, ... for places and `t0`, `t1`, ... for transitions, by position. Read arcs are
-/// dashed and end in a dot; the documentation is the tooltip.
+/// Nodes are called `p0`, `p1`, ... for places and `t0`, `t1`, ... for transitions, by position.
+/// Read arcs are dashed and end in a dot; the documentation is the tooltip.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -29,7 +29,11 @@ pub fn write(net: &Net<'_>, style: Style) -> String {
 
 fn graph(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
     writeln!(out, "digraph {} {{", quoted(figure.name))?;
-    writeln!(out, "  graph [fontname=\"Helvetica\", forcelabels=true, tooltip={}];", quoted(figure.doc))?;
+    writeln!(
+        out,
+        "  graph [fontname=\"Helvetica\", forcelabels=true, tooltip={}];",
+        quoted(figure.doc)
+    )?;
     writeln!(out, "  node [fontname=\"Helvetica\", fontsize=11];")?;
     writeln!(out, "  edge [fontname=\"Helvetica\", fontsize=10, arrowsize=0.7];")?;
     let mut pseudo = 0..;
@@ -38,7 +42,12 @@ fn graph(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
         match node.kind {
             Kind::State(place) => {
                 let look = "shape=box, style=\"rounded,filled\", fillcolor=\"#eef3f9\"";
-                writeln!(out, "  {id} [{look}, label={}, tooltip={}];", quoted(node.name), quoted(node.doc))?;
+                writeln!(
+                    out,
+                    "  {id} [{look}, label={}, tooltip={}];",
+                    quoted(node.name),
+                    quoted(node.doc)
+                )?;
                 if net.places[place].initial > 0 {
                     writeln!(out, "  start [shape=point, width=0.12];\n  start -> {id};")?;
                 }
@@ -48,7 +57,11 @@ fn graph(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
                         "  any{at} [shape=plaintext, fontcolor=\"#57606a\", label={}];",
                         quoted(&entry.sources)
                     )?;
-                    writeln!(out, "  any{at} -> {id} [label={}];", quoted(&entry.label.to_string()))?;
+                    writeln!(
+                        out,
+                        "  any{at} -> {id} [label={}];",
+                        quoted(&entry.label.to_string())
+                    )?;
                 }
             }
             Kind::Place { place, shared } => {
@@ -56,13 +69,23 @@ fn graph(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
                 let tokens = quoted(&tokens(net.places[place].initial));
                 let (name, doc) = (quoted(node.name), quoted(node.doc));
                 let size = "shape=circle, fixedsize=true, width=0.45";
-                writeln!(out, "  {id} [{size}{look}, label={tokens}, xlabel={name}, tooltip={doc}];")?;
+                writeln!(
+                    out,
+                    "  {id} [{size}{look}, label={tokens}, xlabel={name}, tooltip={doc}];"
+                )?;
             }
             Kind::Transition(_) => {
-                let label = node.label.as_ref().map(Label::to_string).filter(|label| !label.is_empty());
-                let text = label.map_or(node.name.to_owned(), |label| format!("{}\n{label}", node.name));
+                let label =
+                    node.label.as_ref().map(Label::to_string).filter(|label| !label.is_empty());
+                let text =
+                    label.map_or(node.name.to_owned(), |label| format!("{}\n{label}", node.name));
                 let look = "shape=box, height=0.25, style=filled, fillcolor=\"#e4e7eb\"";
-                writeln!(out, "  {id} [{look}, label={}, tooltip={}];", quoted(&text), quoted(node.doc))?;
+                writeln!(
+                    out,
+                    "  {id} [{look}, label={}, tooltip={}];",
+                    quoted(&text),
+                    quoted(node.doc)
+                )?;
             }
         }
     }
@@ -78,8 +101,11 @@ fn graph(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
             Flow::Read => Some("style=dashed, arrowhead=dot".to_owned()),
         };
         let attributes: Vec<String> = label.into_iter().chain(look).collect();
-        let attributes =
-            if attributes.is_empty() { String::new() } else { format!(" [{}]", attributes.join(", ")) };
+        let attributes = if attributes.is_empty() {
+            String::new()
+        } else {
+            format!(" [{}]", attributes.join(", "))
+        };
         let (from, to) = (id(&figure.nodes[edge.from]), id(&figure.nodes[edge.to]));
         writeln!(out, "  {from} -> {to}{attributes};")?;
     }

@@ -3,7 +3,8 @@
 use cotama_core::net::{Arc, PlaceId, Transition};
 use std::collections::BTreeMap;
 
-/// Tokens that a firing adds to each place, less those that it removes; places without a change are left out.
+/// Tokens that a firing adds to each place, less those that it removes; places without a change are
+/// left out.
 pub(super) fn effect(transition: &Transition<'_>) -> BTreeMap<PlaceId, i64> {
     let mut effect = BTreeMap::new();
     let mut add = |arcs: &[Arc], sign: i64| {

@@ -6,8 +6,8 @@ use super::effect::effect;
 use super::identifier::identifiers;
 use cotama_core::net::{Arc, Law, Net, Place, PlaceId, Transition};
 use document::{
-    Action, Assignment, Automaton, Composition, Destination, Edge, Element, Expression, Guard, Location,
-    Metadata, Model, Property, Sync, Type, Variable,
+    Action, Assignment, Automaton, Composition, Destination, Edge, Element, Expression, Guard,
+    Location, Metadata, Model, Property, Sync, Type, Variable,
 };
 
 const LOCATION: &str = "marking";
@@ -15,25 +15,26 @@ const AUTOMATON: &str = "net";
 
 /// The net as a JANI model of type `lts`, in version 1 of the format.
 ///
-/// One automaton with one location; each place is an integer variable, bounded when a bound is claimed, each
-/// transition an edge whose guard asks for the tokens that it takes and reads. Every edge carries an action of its
-/// own, named after the transition, so that a trace tells which one fired; the event that it needs, what it emits and
-/// its documentation are the `comment` of the edge. A name that is not a letter followed by letters, digits and `_`
-/// is changed to one, and the comment keeps the original.
+/// One automaton with one location; each place is an integer variable, bounded when a bound is
+/// claimed, each transition an edge whose guard asks for the tokens that it takes and reads. Every
+/// edge carries an action of its own, named after the transition, so that a trace tells which one
+/// fired; the event that it needs, what it emits and its documentation are the `comment` of the
+/// edge. A name that is not a letter followed by letters, digits and `_` is changed to one, and the
+/// comment keeps the original.
 ///
-/// The model is the net *without time and priorities*: every order in which enabled transitions can fire, which is
-/// what [`Law`]s speak about. Time intervals and priorities stand in the comments of the edges. They are no clocks:
-/// a clock of a time Petri net starts when its transition becomes enabled, which depends on the marking before and
-/// after each other firing, and JANI has no conditional reset. `metadata.description` of the model says what it
-/// leaves out.
+/// The model is the net *without time and priorities*: every order in which enabled transitions can
+/// fire, which is what [`Law`]s speak about. Time intervals and priorities stand in the comments of
+/// the edges. They are no clocks: a clock of a time Petri net starts when its transition becomes
+/// enabled, which depends on the marking before and after each other firing, and JANI has no
+/// conditional reset. `metadata.description` of the model says what it leaves out.
 ///
 /// Laws become properties over the initial state: [`Law::Invariant`] and [`Law::NeverBoth`] `∀ G`,
-/// [`Law::Reachable`] `∃ F`, [`Law::AlwaysCan`] `∀ G ∃ F` (branching time, which not every checker reads) and
-/// [`Law::DeadlockFree`] `∀ G` with the predicate `deadlock`. The others speak of events and are listed in
-/// `metadata.description`.
+/// [`Law::Reachable`] `∃ F`, [`Law::AlwaysCan`] `∀ G ∃ F` (branching time, which not every checker
+/// reads) and [`Law::DeadlockFree`] `∀ G` with the predicate `deadlock`. The others speak of events
+/// and are listed in `metadata.description`.
 ///
-/// A net that breaks a claimed bound is a model whose variable leaves its range, which checkers report. Arcs and laws
-/// that name what the net does not have (see [`Net::defect`]) are left out.
+/// A net that breaks a claimed bound is a model whose variable leaves its range, which checkers
+/// report. Arcs and laws that name what the net does not have (see [`Net::defect`]) are left out.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -79,7 +80,13 @@ impl Writer<'_> {
                 name: AUTOMATON,
                 locations: [Location { name: LOCATION }],
                 initial_locations: [LOCATION],
-                edges: self.net.transitions.iter().zip(&self.actions).map(|it| self.edge(it)).collect(),
+                edges: self
+                    .net
+                    .transitions
+                    .iter()
+                    .zip(&self.actions)
+                    .map(|it| self.edge(it))
+                    .collect(),
             }],
             system: Composition {
                 elements: [Element { automaton: AUTOMATON }],
@@ -95,7 +102,8 @@ impl Writer<'_> {
     fn description(&self, unsaid: &[&'static str]) -> String {
         let timed = self.net.transitions.iter().any(|it| it.within.is_some());
         let ranked = self.net.transitions.iter().any(|it| it.priority != 0);
-        let left_out = timed.then_some("time intervals").into_iter().chain(ranked.then_some("priorities"));
+        let left_out =
+            timed.then_some("time intervals").into_iter().chain(ranked.then_some("priorities"));
         let left_out: Vec<&str> = left_out.chain(unsaid.iter().copied()).collect();
         let mut text = self.net.doc.to_owned();
         if !left_out.is_empty() {
@@ -108,7 +116,8 @@ impl Writer<'_> {
     }
 
     fn edge(&self, (transition, action): (&Transition<'_>, &String)) -> Edge {
-        let needs = transition.take.iter().chain(transition.read).filter_map(|&arc| self.holds(arc));
+        let needs =
+            transition.take.iter().chain(transition.read).filter_map(|&arc| self.holds(arc));
         let assignments = effect(transition).into_iter().filter_map(|(place, change)| {
             let variable = self.variables.get(place.0 as usize)?;
             let op = if change > 0 { "+" } else { "-" };
@@ -156,9 +165,14 @@ impl Writer<'_> {
         let named = |id: PlaceId| self.variables.get(id.0 as usize).map_or("", String::as_str);
         for law in self.net.laws {
             let (name, formula) = match *law {
-                Law::Invariant { sum, equals } => ("invariant".to_owned(), self.invariant(sum, equals)),
+                Law::Invariant { sum, equals } => {
+                    ("invariant".to_owned(), self.invariant(sum, equals))
+                }
                 Law::NeverBoth(a, b) => {
-                    let both = self.marked(a).zip(self.marked(b)).map(|(a, b)| Expression::binary("∧", a, b));
+                    let both = self
+                        .marked(a)
+                        .zip(self.marked(b))
+                        .map(|(a, b)| Expression::binary("∧", a, b));
                     let never = both.map(|both| always(Expression::unary("¬", both)));
                     (format!("never_both_{}_{}", named(a), named(b)), never)
                 }
@@ -193,7 +207,8 @@ impl Writer<'_> {
             }
         }
         let names = identifiers(names.iter().map(String::as_str), "", &[]);
-        let property = |(name, formula)| Property { name, expression: Expression::at_start(formula) };
+        let property =
+            |(name, formula)| Property { name, expression: Expression::at_start(formula) };
         (names.into_iter().zip(expressions).map(property).collect(), unsaid)
     }
 
@@ -201,7 +216,11 @@ impl Writer<'_> {
         let term = |arc: &Arc| {
             let variable = Expression::Variable(self.variables.get(arc.place.0 as usize)?.clone());
             let weight = || Expression::Number(u64::from(arc.weight));
-            Some(if arc.weight == 1 { variable } else { Expression::binary("*", weight(), variable) })
+            Some(if arc.weight == 1 {
+                variable
+            } else {
+                Expression::binary("*", weight(), variable)
+            })
         };
         let terms = sum.iter().map(term).collect::<Option<Vec<_>>>()?;
         let sum = Expression::all("+", terms).unwrap_or(Expression::Number(0));

@@ -28,15 +28,16 @@ pub const MAX_ARCS: usize = 1000;
 ///   "laws": [{ "reachable": "off" }, "settles"] }
 /// ```
 ///
-/// Ids are positions in the lists. `bound` is `null` for [`Place::UNBOUNDED`](cotama_core::net::Place::UNBOUNDED); a
-/// role is `"state"`, `"data"`, `{ "complement": PLACE }`, `"shared"` or `"mailbox"`; a law is
-/// `{ "invariant": { "sum": ARCS, "equals": NUMBER } }`, `{ "never_both": [PLACE, PLACE] }`, `{ "reachable": PLACE }`,
-/// `{ "always_can": PLACE }`, `"handles_all"`, `"settles"`, `{ "deadlock_free": { "end": PLACE or null } }` or
-/// `"deterministic"`. Times are in milliseconds.
+/// Ids are positions in the lists. `bound` is `null` for
+/// [`Place::UNBOUNDED`](cotama_core::net::Place::UNBOUNDED); a role is `"state"`, `"data"`, `{
+/// "complement": PLACE }`, `"shared"` or `"mailbox"`; a law is `{ "invariant": { "sum": ARCS,
+/// "equals": NUMBER } }`, `{ "never_both": [PLACE, PLACE] }`, `{ "reachable": PLACE }`, `{
+/// "always_can": PLACE }`, `"handles_all"`, `"settles"`, `{ "deadlock_free": { "end": PLACE or null
+/// } }` or `"deterministic"`. Times are in milliseconds.
 ///
-/// [`read`] gives back the same net, unless names of places, events or outputs occur twice, the net has a
-/// [defect](Net::defect), or the text is beyond the limits: it then refuses the text. An id that the net does not
-/// have is written as a number.
+/// [`read`] gives back the same net, unless names of places, events or outputs occur twice, the net
+/// has a [defect](Net::defect), or the text is beyond the limits: it then refuses the text. An id
+/// that the net does not have is written as a number.
 pub fn write(net: &Net<'_>) -> String {
     let mut text = serde_json::to_string_pretty(&Document::of(net)).unwrap_or_default(); // strings and numbers: no error
     text.push('\n');
@@ -45,8 +46,8 @@ pub fn write(net: &Net<'_>) -> String {
 
 /// The net of a JSON text as [`write()`] makes it.
 ///
-/// Members come in any order; none may be missing but `on`, `bound`, `within`, `latest` and `end`, for which that
-/// means `null`, and none may be unknown.
+/// Members come in any order; none may be missing but `on`, `bound`, `within`, `latest` and `end`,
+/// for which that means `null`, and none may be unknown.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -68,10 +69,8 @@ pub fn read(text: &str) -> Result<OwnedNet, JsonNetError> {
     if text.len() > MAX_BYTES {
         return Err(JsonNetError::TooLong { bytes: text.len() });
     }
-    let document: Document<String> = serde_json::from_str(text).map_err(|error| JsonNetError::Json {
-        line: error.line(),
-        column: error.column(),
-        what: what(&error),
+    let document: Document<String> = serde_json::from_str(text).map_err(|error| {
+        JsonNetError::Json { line: error.line(), column: error.column(), what: what(&error) }
     })?;
     let net = document.net()?;
     match net.view().net().defect() {
@@ -163,7 +162,9 @@ fn fault(defect: Defect) -> &'static str {
         Defect::Arcs { .. } => {
             "has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` together"
         }
-        Defect::Interval { .. } => "has an interval that ends before it begins, or after 4294967294 ms",
+        Defect::Interval { .. } => {
+            "has an interval that ends before it begins, or after 4294967294 ms"
+        }
         Defect::Place { .. } => {
             "has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
         }
@@ -179,12 +180,12 @@ fn place_of(defect: Defect, net: &OwnedNet) -> String {
             Some(place) => format!("place `{}`", place.name),
             None => format!("place {place}"),
         },
-        Defect::UnknownId { transition } | Defect::Arcs { transition } | Defect::Interval { transition } => {
-            match net.transitions.get(transition) {
-                Some(transition) => format!("transition `{}`", transition.name),
-                None => format!("transition {transition}"),
-            }
-        }
+        Defect::UnknownId { transition }
+        | Defect::Arcs { transition }
+        | Defect::Interval { transition } => match net.transitions.get(transition) {
+            Some(transition) => format!("transition `{}`", transition.name),
+            None => format!("transition {transition}"),
+        },
         Defect::Law => "a law".to_owned(),
     }
 }

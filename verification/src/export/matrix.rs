@@ -5,21 +5,23 @@ use std::fmt::Write as _;
 
 /// The matrices of a net as one table of tab-separated columns.
 ///
-/// The lines that begin with `#` say what the table is. The line after them names the columns: `part`, `place`, then
-/// the transitions in their order. Each further line belongs to one place in one of four parts, in this order: `pre`
-/// (tokens that a transition removes), `read` (tokens that must be there and stay), `post` (tokens that it adds) and
-/// `incidence`, which is `post` less `pre`: what a firing changes. Reading changes nothing, so `read` is in neither.
+/// The lines that begin with `#` say what the table is. The line after them names the columns:
+/// `part`, `place`, then the transitions in their order. Each further line belongs to one place in
+/// one of four parts, in this order: `pre` (tokens that a transition removes), `read` (tokens that
+/// must be there and stay), `post` (tokens that it adds) and `incidence`, which is `post` less
+/// `pre`: what a firing changes. Reading changes nothing, so `read` is in neither.
 ///
-/// A character of a name that a reader of tables could take for something else (white space other than a blank,
-/// control characters, `#`, `"` and `\`) is written as `\u{..}` with its code point in hexadecimal, so that
+/// A character of a name that a reader of tables could take for something else (white space other
+/// than a blank, control characters, `#`, `"` and `\`) is written as `\u{..}` with its code point
+/// in hexadecimal, so that
 ///
 /// ```text
 /// table = pandas.read_csv("net.tsv", sep="\t", comment="#", index_col=[0, 1], keep_default_na=False)
 /// table.loc["incidence"].to_numpy()
 /// ```
 ///
-/// reads it. The table is dense: four numbers for each place and transition. Arcs to places that the net does not
-/// have (see [`Net::defect`]) are left out.
+/// reads it. The table is dense: four numbers for each place and transition. Arcs to places that
+/// the net does not have (see [`Net::defect`]) are left out.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -37,7 +39,8 @@ pub fn write(net: &Net<'_>) -> String {
         "# Matrices of the net {}: a row for each place, a column for each transition.\n",
         name(net.name)
     );
-    text += "# pre: tokens removed; read: tokens that must be there and stay; post: tokens added.\n";
+    text +=
+        "# pre: tokens removed; read: tokens that must be there and stay; post: tokens added.\n";
     text += "# incidence = post - pre: what a firing changes.\n";
     text += "part\tplace";
     for transition in net.transitions {
@@ -55,7 +58,12 @@ pub fn write(net: &Net<'_>) -> String {
     text
 }
 
-fn part(text: &mut String, net: &Net<'_>, part: &str, entry: impl Fn(&Transition<'_>, usize) -> i64) {
+fn part(
+    text: &mut String,
+    net: &Net<'_>,
+    part: &str,
+    entry: impl Fn(&Transition<'_>, usize) -> i64,
+) {
     for (id, place) in net.places.iter().enumerate() {
         *text += part;
         text.push('\t');
@@ -72,8 +80,9 @@ fn weight(arcs: &[Arc], place: usize) -> i64 {
 }
 
 fn name(name: &str) -> String {
-    let misread =
-        |c: char| c.is_control() || (c.is_whitespace() && c != ' ') || matches!(c, '#' | '"' | '\\');
+    let misread = |c: char| {
+        c.is_control() || (c.is_whitespace() && c != ' ') || matches!(c, '#' | '"' | '\\')
+    };
     name.chars().fold(String::with_capacity(name.len()), |mut text, c| {
         if misread(c) {
             text.extend(c.escape_unicode());

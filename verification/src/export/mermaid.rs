@@ -7,8 +7,9 @@ use std::fmt::{self, Write as _};
 
 /// Writes a net as a `stateDiagram-v2` when it is drawn as states, otherwise as a `flowchart`.
 ///
-/// Nodes are called `p0`, `p1`, ... for places and `t0`, `t1`, ... for transitions, by position. What Mermaid could
-/// take for syntax is written as its character codes, such as `#58;` for a colon.
+/// Nodes are called `p0`, `p1`, ... for places and `t0`, `t1`, ... for transitions, by position.
+/// What Mermaid could take for syntax is written as its character codes, such as `#58;` for a
+/// colon.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -25,7 +26,11 @@ pub fn write(net: &Net<'_>, style: Style) -> String {
     let figure = Figure::of(net, style);
     let mut out = String::new();
     // Writing into a string cannot fail.
-    let _ = if figure.is_states { states(&mut out, net, &figure) } else { flowchart(&mut out, net, &figure) };
+    let _ = if figure.is_states {
+        states(&mut out, net, &figure)
+    } else {
+        flowchart(&mut out, net, &figure)
+    };
     out
 }
 
@@ -36,7 +41,12 @@ fn states(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
         writeln!(out, "  state \"{}\" as {}", visible(node.name), id(node))?;
         for (entry, at) in node.entries.iter().zip(&mut pseudo) {
             writeln!(out, "  state \"{}\" as any{at}", visible(&entry.sources))?;
-            writeln!(out, "  any{at} --> {}{}", id(node), description(std::slice::from_ref(&entry.label)))?;
+            writeln!(
+                out,
+                "  any{at} --> {}{}",
+                id(node),
+                description(std::slice::from_ref(&entry.label))
+            )?;
         }
         if matches!(node.kind, Kind::State(place) if net.places[place].initial > 0) {
             writeln!(out, "  [*] --> {}", id(node))?;
@@ -60,7 +70,8 @@ fn flowchart(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Resul
                 lines.push(tokens(net.places[place].initial));
                 lines.retain(|line| !line.is_empty());
                 writeln!(out, "  {id}((\"{}\"))", lines.join("<br/>"))?;
-                shared_ids.extend(matches!(node.kind, Kind::Place { shared: true, .. }).then_some(id));
+                shared_ids
+                    .extend(matches!(node.kind, Kind::Place { shared: true, .. }).then_some(id));
             }
             Kind::Transition(_) => {
                 lines.extend(node.label.iter().map(|label| escape(&label.to_string())));
@@ -80,7 +91,11 @@ fn flowchart(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Resul
         writeln!(out, "  {from} {arrow}{weight} {to}")?;
     }
     if !shared_ids.is_empty() {
-        writeln!(out, "  classDef shared stroke-dasharray: 4 3\n  class {} shared", shared_ids.join(","))?;
+        writeln!(
+            out,
+            "  classDef shared stroke-dasharray: 4 3\n  class {} shared",
+            shared_ids.join(",")
+        )?;
     }
     Ok(())
 }
@@ -97,12 +112,14 @@ fn visible(name: &str) -> String {
     if name.trim().is_empty() { "#160;".to_owned() } else { escape(name) }
 }
 
-/// Letters, digits and the signs of labels stay; the rest becomes character codes, and control characters spaces.
+/// Letters, digits and the signs of labels stay; the rest becomes character codes, and control
+/// characters spaces.
 fn escape(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars() {
         match c {
-            ' ' | '_' | ',' | '.' | '!' | '/' | '+' | '=' | '[' | ']' | '(' | ')' | '≤' | '≥' | '●' => {
+            ' ' | '_' | ',' | '.' | '!' | '/' | '+' | '=' | '[' | ']' | '(' | ')' | '≤' | '≥'
+            | '●' => {
                 out.push(c);
             }
             c if c.is_alphanumeric() => out.push(c),

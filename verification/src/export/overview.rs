@@ -24,9 +24,9 @@ impl Way {
     }
 }
 
-/// Draws a system: each net as a box. An arrow leads from a net to one that hears its outputs, `now` in the same step or by
-/// `mail`; an output is written with its event where that has another name. A dashed line leads from a net to one that `sees` its
-/// places or its mailboxes.
+/// Draws a system: each net as a box. An arrow leads from a net to one that hears its outputs,
+/// `now` in the same step or by `mail`; an output is written with its event where that has another
+/// name. A dashed line leads from a net to one that `sees` its places or its mailboxes.
 ///
 /// ```
 /// let drawing = cotama_verification::export::overview::write(&cotama_models::cotama::delivery::SYSTEM);
@@ -68,7 +68,9 @@ fn figure<'n>(boxes: &Net<'n>, system: &System<'_>) -> Figure<'n> {
         if edge.labels.last().and_then(|it| it.event) != Some(way.word()) {
             edge.labels.push(Label { event: Some(way.word()), ..Label::default() });
         }
-        let Some(label) = edge.labels.last_mut().filter(|it| !it.timing.contains(&what)) else { continue };
+        let Some(label) = edge.labels.last_mut().filter(|it| !it.timing.contains(&what)) else {
+            continue;
+        };
         label.timing.push(what);
     }
     Figure { name: boxes.name, doc: boxes.doc, is_states: true, nodes, edges }
@@ -89,14 +91,22 @@ fn said(system: &System<'_>) -> Vec<Said> {
     let place = |of: Of<PlaceId>| Some(net(of.component)?.places.get(of.id.0 as usize)?.name);
     let links = system.links.iter().filter_map(|it| {
         let (output, event) = (output(it.from)?, event(it.to.component, it.to.id.0)?);
-        let what = if output == event { output.to_owned() } else { format!("{output} → {event}") };
+        let what =
+            if output == event { output.to_owned() } else { format!("{output} → {event}") };
         let way = if it.delivery == Delivery::Now { Way::Now } else { Way::Mail };
-        Some(Said { from: usize::from(it.from.component), to: usize::from(it.to.component), way, what })
+        Some(Said {
+            from: usize::from(it.from.component),
+            to: usize::from(it.to.component),
+            way,
+            what,
+        })
     });
     let looks = system.bindings.iter().filter_map(|it| {
         let (owner, what) = match it.target {
             Target::Place(of) => (of.component, place(of)?.to_owned()),
-            Target::Mailbox(of) => (of.component, format!("{} waiting", event(of.component, of.id.0)?)),
+            Target::Mailbox(of) => {
+                (of.component, format!("{} waiting", event(of.component, of.id.0)?))
+            }
         };
         let (from, to) = (usize::from(owner), usize::from(it.shared.component));
         Some(Said { from, to, way: Way::Look, what })

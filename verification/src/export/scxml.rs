@@ -7,9 +7,9 @@ use cotama_core::net::{Net, TransitionId};
 pub use machine::NotAStateMachine;
 use machine::{Machine, Timing};
 
-/// The net as a state chart, if its [`Role::State`](cotama_core::net::Role::State) places are the states of one
-/// machine: one token in them at the start, and every transition either moves it (takes it from one state and gives it
-/// to one) or stays (reads one state).
+/// The net as a state chart, if its [`Role::State`](cotama_core::net::Role::State) places are the
+/// states of one machine: one token in them at the start, and every transition either moves it
+/// (takes it from one state and gives it to one) or stays (reads one state).
 ///
 /// | of the net | in the chart |
 /// | --- | --- |
@@ -24,19 +24,21 @@ use machine::{Machine, Timing};
 /// | priority, then position | document order within the state |
 /// | documentation | comments |
 ///
-/// A transition that fires by itself `within` an interval fires at its earliest instant: the state sends itself a
-/// delayed event when it is entered and cancels it when it is left. This is the net's clock only if that starts when
-/// the state is entered, so no transition that stays may touch what the timed one needs, nor may another net
-/// (shared places, mailboxes). Otherwise, and when a transition has both an event and an interval, no timer keeps the
-/// interval: it stands in the attribute `cotama:within`, in milliseconds, a comment at the top lists it, and
-/// [`unkept_intervals`] gives it to a program. If such a transition has no event, it waits for the event
-/// `timeout_` and its name, which the environment then has to send: it never fires too early. Of two timers that end
-/// at the same instant the one that was started first goes first, whatever the priorities.
+/// A transition that fires by itself `within` an interval fires at its earliest instant: the state
+/// sends itself a delayed event when it is entered and cancels it when it is left. This is the
+/// net's clock only if that starts when the state is entered, so no transition that stays may touch
+/// what the timed one needs, nor may another net (shared places, mailboxes). Otherwise, and when a
+/// transition has both an event and an interval, no timer keeps the interval: it stands in the
+/// attribute `cotama:within`, in milliseconds, a comment at the top lists it, and
+/// [`unkept_intervals`] gives it to a program. If such a transition has no event, it waits for the
+/// event `timeout_` and its name, which the environment then has to send: it never fires too early.
+/// Of two timers that end at the same instant the one that was started first goes first, whatever
+/// the priorities.
 ///
-/// Names are changed where SCXML allows fewer characters: a letter, then letters, digits, `_`, and for states and
-/// events `-`. No dots, as `event="door"` would also match `door.open`; no reserved word of ECMAScript as a variable.
-/// The attribute `cotama:name` keeps the original, and the name of each transition. Characters that XML 1.0 cannot
-/// hold become U+FFFD. Laws are not written.
+/// Names are changed where SCXML allows fewer characters: a letter, then letters, digits, `_`, and
+/// for states and events `-`. No dots, as `event="door"` would also match `door.open`; no reserved
+/// word of ECMAScript as a variable. The attribute `cotama:name` keeps the original, and the name
+/// of each transition. Characters that XML 1.0 cannot hold become U+FFFD. Laws are not written.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -67,6 +69,7 @@ pub fn write(net: &Net<'_>) -> Result<String, NotAStateMachine> {
 /// [`NotAStateMachine`], as for [`write()`].
 pub fn unkept_intervals(net: &Net<'_>) -> Result<Vec<TransitionId>, NotAStateMachine> {
     let machine = Machine::of(net)?;
-    let unkept = machine.moves.iter().zip(0..).filter(|(it, _)| matches!(it.timing, Timing::Unkept));
+    let unkept =
+        machine.moves.iter().zip(0..).filter(|(it, _)| matches!(it.timing, Timing::Unkept));
     Ok(unkept.map(|(_, id)| TransitionId(id)).collect())
 }

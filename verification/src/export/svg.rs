@@ -1,9 +1,10 @@
 //! A drawing of a net, complete in one SVG file.
 //!
-//! The layout is layered, with lines that pass no node and labels that stand in their lines. Colours follow the
-//! reader's light or dark mode; hovering shows the documentation of what is under the pointer. Up to 4,000 nodes,
-//! labels and bends of lines the order in the layers is optimised; larger nets are drawn with more crossings, and
-//! from 20,000 on with long lines across whatever is there.
+//! The layout is layered, with lines that pass no node and labels that stand in their lines.
+//! Colours follow the reader's light or dark mode; hovering shows the documentation of what is
+//! under the pointer. Up to 4,000 nodes, labels and bends of lines the order in the layers is
+//! optimised; larger nets are drawn with more crossings, and from 20,000 on with long lines across
+//! whatever is there.
 
 mod scene;
 mod text;
@@ -123,7 +124,8 @@ impl Svg<'_> {
     fn head(&mut self, scene: &Scene<'_>, kind: &str) {
         let (width, height) = (scene.layout.width, scene.layout.height);
         let figure = &scene.figure;
-        let doc = if figure.doc.is_empty() { kind.to_owned() } else { format!("{kind}. {}", figure.doc) };
+        let doc =
+            if figure.doc.is_empty() { kind.to_owned() } else { format!("{kind}. {}", figure.doc) };
         self.add(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" height=\"{height}\" \
              viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title desc\">\n\
@@ -211,7 +213,11 @@ impl Svg<'_> {
     /// The tip of a line that ends at a point in a direction.
     fn tip(&mut self, at: Point, (right, down): (i64, i64), tip: Tip) {
         let back = |along: i64, aside: i64| {
-            format!("{} {}", at.x - right * along + down * aside, at.y - down * along + right * aside)
+            format!(
+                "{} {}",
+                at.x - right * along + down * aside,
+                at.y - down * along + right * aside
+            )
         };
         match tip {
             Tip::None => {}
@@ -271,7 +277,9 @@ impl Svg<'_> {
             }
             Kind::Place { place, .. } => {
                 self.title(&place_title(&net.places[place], sign.tokens));
-                self.add(format_args!("<circle class=\"rim\" cx=\"{x}\" cy=\"{y}\" r=\"{half}\"/>"));
+                self.add(format_args!(
+                    "<circle class=\"rim\" cx=\"{x}\" cy=\"{y}\" r=\"{half}\"/>"
+                ));
                 self.tokens(sign.tokens, Point { x, y });
                 self.block(&sign.text, beside, "begin");
             }
@@ -285,7 +293,8 @@ impl Svg<'_> {
         self.text.push_str("</g>\n");
     }
 
-    /// What leads into a state without being an edge: the start of the net, and lines from many states.
+    /// What leads into a state without being an edge: the start of the net, and lines from many
+    /// states.
     fn arrivals(&mut self, net: &Net<'_>, scene: &Scene<'_>, at: usize) {
         let (node, sign) = (&scene.figure.nodes[at], &scene.signs[at]);
         let Point { x, y } = scene.layout.nodes[at];
@@ -302,12 +311,20 @@ impl Svg<'_> {
         if !sign.entries.lines.is_empty() {
             let hot = if sign.entries.lines.iter().any(|line| line.hot) { " hot" } else { "" };
             let (from, to) = (x - wide - ENTRY, x - wide);
-            let labels: Vec<Label<'_>> = node.entries.iter().map(|entry| entry.label.clone()).collect();
+            let labels: Vec<Label<'_>> =
+                node.entries.iter().map(|entry| entry.label.clone()).collect();
             self.add(format_args!("<g class=\"entry{hot}\">"));
             self.title(&labels_title(net, &labels));
-            self.add(format_args!("<path class=\"line\" d=\"M{from} {y}H{}\"/>", to - Tip::Arrow.length()));
+            self.add(format_args!(
+                "<path class=\"line\" d=\"M{from} {y}H{}\"/>",
+                to - Tip::Arrow.length()
+            ));
             self.tip(Point { x: to, y }, (1, 0), Tip::Arrow);
-            self.block(&sign.entries, Point { x: from - SPACE, y: y - sign.entries.height / 2 }, "end");
+            self.block(
+                &sign.entries,
+                Point { x: from - SPACE, y: y - sign.entries.height / 2 },
+                "end",
+            );
             self.text.push_str("</g>");
         }
     }
@@ -341,7 +358,9 @@ impl Svg<'_> {
         let radius = if tokens == 1 { 5 } else { 4 };
         for (right, down) in dots {
             let (x, y) = (x + right, y + down);
-            self.add(format_args!("<circle class=\"token\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>"));
+            self.add(format_args!(
+                "<circle class=\"token\" cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>"
+            ));
         }
     }
 
@@ -404,8 +423,11 @@ fn half_width(scene: &Scene<'_>, node: usize) -> i64 {
 /// Name, documentation and tokens of a place.
 fn place_title(place: &Place<'_>, tokens: u32) -> String {
     let doc = if place.doc.is_empty() { String::new() } else { format!(": {}", place.doc) };
-    let bound =
-        if place.bound == Place::UNBOUNDED { String::new() } else { format!(" of at most {}", place.bound) };
+    let bound = if place.bound == Place::UNBOUNDED {
+        String::new()
+    } else {
+        format!(" of at most {}", place.bound)
+    };
     let noun = if tokens == 1 && bound.is_empty() { "token" } else { "tokens" };
     format!("{}{doc}\n{tokens}{bound} {noun}", place.name)
 }

@@ -1,4 +1,5 @@
-//! What a step does, told apart by what its tests find: every way through it, with the markings that take that way.
+//! What a step does, told apart by what its tests find: every way through it, with the markings
+//! that take that way.
 
 use super::{FlatError, MOST_TRANSITIONS};
 use cotama_core::net::{Place, PlaceId};
@@ -110,7 +111,9 @@ impl<'k> Branch<'k> {
         let mut held = self.held.clone();
         for &place in self.held.keys() {
             let bound = self.known.bound(place);
-            for side in [|it: &mut (i64, i64), bound| it.1 = bound, |it: &mut (i64, i64), _| it.0 = 0] {
+            for side in
+                [|it: &mut (i64, i64), bound| it.1 = bound, |it: &mut (i64, i64), _| it.0 = 0]
+            {
                 let mut fewer = held.clone();
                 fewer.entry(place).and_modify(|it| side(it, bound));
                 if spread(self.known, &fewer) == spread(self.known, &held) {
@@ -123,8 +126,8 @@ impl<'k> Branch<'k> {
     }
 }
 
-/// What each place can hold where these tokens are held, as far as this follows from bounds and sums; what cannot be at all is
-/// not followed to its end.
+/// What each place can hold where these tokens are held, as far as this follows from bounds and
+/// sums; what cannot be at all is not followed to its end.
 fn spread(known: &Known, held: &Held) -> Vec<(i64, i64)> {
     let mut ranges: Vec<(i64, i64)> = known.bounds.iter().map(|&bound| (0, bound)).collect();
     for (place, &range) in held {
@@ -140,8 +143,11 @@ fn spread(known: &Known, held: &Held) -> Vec<(i64, i64)> {
                 let (low, high) = ranges[it.0.0 as usize];
                 (it.1 * low, it.1 * high.min(sum.total))
             };
-            let (least, most) =
-                sum.weights.iter().map(weighed).fold((0, 0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
+            let (least, most) = sum
+                .weights
+                .iter()
+                .map(weighed)
+                .fold((0, 0), |sum, it| (sum.0 + it.0, sum.1 + it.1));
             let before: Vec<_> = sum.weights.iter().map(weighed).collect();
             for (&(place, weight), own) in sum.weights.iter().zip(before) {
                 let (low, high) = ranges[place.0 as usize];
@@ -161,7 +167,8 @@ fn spread(known: &Known, held: &Held) -> Vec<(i64, i64)> {
     ranges
 }
 
-/// Every way through a step that starts where these tokens are held: no marking takes two of them, and each takes one.
+/// Every way through a step that starts where these tokens are held: no marking takes two of them,
+/// and each takes one.
 ///
 /// # Errors
 /// Those of the step; and when there are more than [`MOST_TRANSITIONS`] ways.

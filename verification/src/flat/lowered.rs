@@ -1,4 +1,5 @@
-//! Ways through a round as transitions with arcs: what is held at most is held at least by a complement.
+//! Ways through a round as transitions with arcs: what is held at most is held at least by a
+//! complement.
 
 use super::FlatError;
 use super::rounds::Rounds;
@@ -7,7 +8,8 @@ use cotama_core::net::{Place, PlaceId, Role};
 use std::collections::{BTreeMap, BTreeSet};
 
 impl Rounds {
-    /// The net. Its places are those of [`flat`](super::flat()), then those of the round, of observers, and complements.
+    /// The net. Its places are those of [`flat`](super::flat()), then those of the round, of
+    /// observers, and complements.
     ///
     /// # Errors
     /// When the absence of tokens in a place without a bound decides.
@@ -16,7 +18,8 @@ impl Rounds {
         let bound = |place: PlaceId| self.draft.places[place.0 as usize].bound;
         let held = self.paths.iter().flat_map(|it| &it.held);
         let from_above = held.filter(|it| it.1.1 < self.known.bound(*it.0)).map(|it| *it.0);
-        let wanted: BTreeSet<PlaceId> = from_above.filter(|it| !self.absent.contains_key(it)).collect();
+        let wanted: BTreeSet<PlaceId> =
+            from_above.filter(|it| !self.absent.contains_key(it)).collect();
         for place in wanted {
             let of = &self.draft.places[place.0 as usize];
             if of.bound == Place::UNBOUNDED {
@@ -44,7 +47,8 @@ impl Rounds {
                 }
             }
             let count = names.entry(&path.name).and_modify(|it| *it += 1).or_insert(1);
-            let name = if *count == 1 { path.name.clone() } else { format!("{} #{count}", path.name) };
+            let name =
+                if *count == 1 { path.name.clone() } else { format!("{} #{count}", path.name) };
             let mut it = OwnedTransition::new(&name).doc(&path.doc);
             (it.on, it.emits) = (path.on, path.emits.clone());
             let it = with_arcs(it, &needs, &changes);

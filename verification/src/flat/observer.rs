@@ -15,11 +15,12 @@ pub enum Looks {
     AtEnd,
 }
 
-/// Looks at the marking once a round, and counts. It changes nothing else, so that properties about rounds become
-/// properties about markings, for every engine.
+/// Looks at the marking once a round, and counts. It changes nothing else, so that properties about
+/// rounds become properties about markings, for every engine.
 ///
-/// Its state is a number from 0 on, the tokens of a place that has its name. Those that look at the same time do it one after
-/// the other, in the order in which they came, before `turn.outside` or `round` is marked.
+/// Its state is a number from 0 on, the tokens of a place that has its name. Those that look at the
+/// same time do it one after the other, in the order in which they came, before `turn.outside` or
+/// `round` is marked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Observer {
     /// Its name.
@@ -28,14 +29,15 @@ pub struct Observer {
     pub looks: Looks,
     /// The largest state.
     pub most: u32,
-    /// How it goes on: the first of these that is from its state and whose formula is true; without one it stays.
+    /// How it goes on: the first of these that is from its state and whose formula is true; without
+    /// one it stays.
     pub steps: Vec<(u32, Formula, u32)>,
 }
 
 impl Observer {
-    /// Counts in how many rounds something lasts, each time that it looks: a duty that the first formula begins and the second
-    /// one ends, but no sooner than a round later. It counts up to `most`, and a further beginning while one lasts counts
-    /// no second time.
+    /// Counts in how many rounds something lasts, each time that it looks: a duty that the first
+    /// formula begins and the second one ends, but no sooner than a round later. It counts up to
+    /// `most`, and a further beginning while one lasts counts no second time.
     ///
     /// So `bounds(name)` is the worst case in rounds, where it is less than `most`.
     pub fn lasting(name: &str, looks: Looks, begins: &Formula, ends: &Formula, most: u32) -> Self {
@@ -69,7 +71,8 @@ impl Rounds {
         }
     }
 
-    /// Adds an [`Observer`] that counts in how many rounds something [lasts](Observer::lasting), with its conditions as texts.
+    /// Adds an [`Observer`] that counts in how many rounds something [lasts](Observer::lasting),
+    /// with its conditions as texts.
     ///
     /// # Errors
     /// When a condition is no formula about one marking, or the net would be too large.
@@ -91,7 +94,8 @@ impl Rounds {
         most: u32,
     ) -> Result<(), FlatError> {
         let condition = |text| {
-            let error = |error| FlatError::Text { observer: name.to_owned(), error: Box::new(error) };
+            let error =
+                |error| FlatError::Text { observer: name.to_owned(), error: Box::new(error) };
             self.condition(text).map_err(error)
         };
         let observer = Observer::lasting(name, looks, &condition(begins)?, &condition(ends)?, most);
@@ -104,8 +108,9 @@ impl Rounds {
     /// When it looks at more than sums of tokens of bounded places, or the net would be too large.
     pub fn observe(&mut self, observer: &Observer) -> Result<(), FlatError> {
         let unsuited = || FlatError::Condition { observer: observer.name.clone() };
-        let is_sound =
-            |(from, when, to): &(u32, Formula, u32)| *from.max(to) <= observer.most && self.can_be_seen(when);
+        let is_sound = |(from, when, to): &(u32, Formula, u32)| {
+            *from.max(to) <= observer.most && self.can_be_seen(when)
+        };
         if !observer.steps.iter().all(is_sound) {
             return Err(unsuited());
         }
@@ -141,7 +146,8 @@ impl Rounds {
 
     /// Whether it is about one marking and compares sums of tokens of bounded places.
     fn can_be_seen(&self, formula: &Formula) -> bool {
-        let bounded = |sum: &Linear| sum.weights.iter().all(|&(place, _)| self.known.bound(place) < NO_BOUND);
+        let bounded =
+            |sum: &Linear| sum.weights.iter().all(|&(place, _)| self.known.bound(place) < NO_BOUND);
         let seen = |it: &Formula| !matches!(it, Formula::Atom(atom) if !matches!(atom, Atom::AtMost(sum) if bounded(sum)));
         formula.is_state() && !formula.any(&|it| !seen(it))
     }
@@ -160,7 +166,8 @@ fn holds(branch: &mut Branch<'_>, formula: &Formula) -> bool {
 
 fn at_most(branch: &mut Branch<'_>, sum: &Linear) -> bool {
     loop {
-        let (mut least, mut most, mut open) = (i128::from(sum.constant), i128::from(sum.constant), None);
+        let (mut least, mut most, mut open) =
+            (i128::from(sum.constant), i128::from(sum.constant), None);
         for &(place, weight) in &sum.weights {
             let (low, high) = branch.range(place);
             let [low_part, high_part] = [low, high].map(|it| i128::from(it) * i128::from(weight));

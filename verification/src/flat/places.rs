@@ -73,7 +73,8 @@ impl Flat<'_> {
                 Target::Place(of) => self.places[usize::from(of.component)][of.id.0 as usize],
                 Target::Mailbox(of) => self.mailboxes[&(of.component, of.id.0)].0,
             };
-            self.places[usize::from(binding.shared.component)][binding.shared.id.0 as usize] = target;
+            self.places[usize::from(binding.shared.component)][binding.shared.id.0 as usize] =
+                target;
         }
     }
 

@@ -1,13 +1,16 @@
-//! A system as one net that acts in rounds: the meaning that [`Player`](cotama_core::system::Player) gives it.
+//! A system as one net that acts in rounds: the meaning that
+//! [`Player`](cotama_core::system::Player) gives it.
 //!
-//! One token passes through the places of a round. It begins in `round`, where a round ends too; then it goes from mailbox to
-//! mailbox in the order of turns, `turn.net.event`, over those that are empty; at last it lies in `turn.outside`, where one event that no link leads
-//! to fires a transition of its net, or nothing happens, `idle`. A net with transitions that fire at once by themselves has a place
-//! `turn.net` before its mailboxes, where it settles.
+//! One token passes through the places of a round. It begins in `round`, where a round ends too;
+//! then it goes from mailbox to mailbox in the order of turns, `turn.net.event`, over those that
+//! are empty; at last it lies in `turn.outside`, where one event that no link leads to fires a
+//! transition of its net, or nothing happens, `idle`. A net with transitions that fire at once by
+//! themselves has a place `turn.net` before its mailboxes, where it settles.
 //!
-//! In each place one transition is enabled but in `turn.outside`. It is what a player does there, with all that follows from it, for the
-//! markings in which its tests find the same: which transition of each net is the first one that is enabled, which mailboxes are empty or
-//! full. So priorities and the order of transitions decide here too.
+//! In each place one transition is enabled but in `turn.outside`. It is what a player does there,
+//! with all that follows from it, for the markings in which its tests find the same: which
+//! transition of each net is the first one that is enabled, which mailboxes are empty or full. So
+//! priorities and the order of transitions decide here too.
 
 use super::branch::{Branch, Held, Known, branches};
 use super::turn::{Answer, Moves, Play};
@@ -41,7 +44,13 @@ pub(super) struct Path {
 }
 
 impl Path {
-    pub(super) fn new(part: Part, name: String, from: PlaceId, to: PlaceId, branch: &Branch<'_>) -> Self {
+    pub(super) fn new(
+        part: Part,
+        name: String,
+        from: PlaceId,
+        to: PlaceId,
+        branch: &Branch<'_>,
+    ) -> Self {
         let mut path = Self {
             part,
             name,
@@ -78,7 +87,8 @@ enum Item {
         at: PlaceId,
         component: u16,
     },
-    /// The mailbox, where the token lies while so many more are to be read, from one on, and where it lies afterwards.
+    /// The mailbox, where the token lies while so many more are to be read, from one on, and where
+    /// it lies afterwards.
     Read {
         event: Of<EventId>,
         waiting: PlaceId,
@@ -99,8 +109,8 @@ impl Item {
 /// Makes a system one net that acts in rounds.
 ///
 /// # Errors
-/// When it or one of its nets is not sound, when a transition has an interval, when a net does not settle, or when the net would
-/// be too large.
+/// When it or one of its nets is not sound, when a transition has an interval, when a net does not
+/// settle, or when the net would be too large.
 ///
 /// ```
 /// use cotama_models::cotama::decision;
@@ -126,8 +136,9 @@ pub fn rounds(system: &System<'_>) -> Result<Rounds, FlatError> {
     let flat = Flat::new(system, BTreeSet::new());
     let moves = Moves::new(&flat)?;
     let begun = Rounds::begin(&flat, &moves)?;
-    // What is the same at the start, and stays so in every way that there is where it is so, is always the same. Ways that there
-    // are not otherwise are left out: those of nets that meet in one step are many.
+    // What is the same at the start, and stays so in every way that there is where it is so, is
+    // always the same. Ways that there are not otherwise are left out: those of nets that meet in
+    // one step are many.
     let mut guesses = moves.guesses(&flat, &begun.draft.places);
     loop {
         let mut rounds = begun.clone();
@@ -171,14 +182,19 @@ impl Rounds {
             outside: PlaceId(0),
         };
         for (place, change) in change {
-            for (place, change) in
-                rounds.absent.get(&place).map(|&it| (it, -change)).into_iter().chain([(place, change)])
+            for (place, change) in rounds
+                .absent
+                .get(&place)
+                .map(|&it| (it, -change))
+                .into_iter()
+                .chain([(place, change)])
             {
                 let initial = &mut rounds.draft.places[place.0 as usize].initial;
                 *initial = u32::try_from(i64::from(*initial) + change).unwrap_or(*initial);
             }
         }
-        rounds.round = rounds.place("round", "One round has ended, and the next one has not begun.", 1, 1);
+        rounds.round =
+            rounds.place("round", "One round has ended, and the next one has not begun.", 1, 1);
         Ok(rounds)
     }
 
@@ -204,16 +220,20 @@ impl Rounds {
             }
             for (event, number) in net.events.iter().zip(0..) {
                 let event_of = Of { component, id: EventId(number) };
-                let Some(Delivery::Mail { capacity }) = flat.system.delivery(event_of) else { continue };
+                let Some(Delivery::Mail { capacity }) = flat.system.delivery(event_of) else {
+                    continue;
+                };
                 let (waiting, ..) = flat.mailboxes[&(component, number)];
                 let label = format!("{turn}.{name}.{}", event.name);
                 let doc = format!("{name} reads {}.", event.name);
-                let left = |left: u16| if left == 1 { label.clone() } else { format!("{label}.{left}") };
+                let left =
+                    |left: u16| if left == 1 { label.clone() } else { format!("{label}.{left}") };
                 let at = (1..=capacity).map(|it| self.place(&left(it), &doc, 0, 1)).collect();
                 items.push(Item::Read { event: event_of, waiting, at });
             }
         }
-        self.outside = self.place(&format!("{turn}.outside"), "What is outside may do one thing.", 0, 1);
+        self.outside =
+            self.place(&format!("{turn}.outside"), "What is outside may do one thing.", 0, 1);
         items
     }
 
@@ -226,7 +246,12 @@ impl Rounds {
                 Some(last) if at + 1 < items.len() => {
                     let name = self.label(last);
                     let name = name.replacen("turn", "after", 1);
-                    self.place(&name, "The token goes on to the next mailbox that is not empty.", 0, 1)
+                    self.place(
+                        &name,
+                        "The token goes on to the next mailbox that is not empty.",
+                        0,
+                        1,
+                    )
                 }
                 _ => self.outside,
             };
@@ -240,12 +265,15 @@ impl Rounds {
                     })?;
                     for (branch, (name, emits)) in ways {
                         let part = if name.is_empty() { Part::Between } else { Part::Turn };
-                        let name = if name.is_empty() { "settled".to_owned() } else { name.join(" + ") };
+                        let name =
+                            if name.is_empty() { "settled".to_owned() } else { name.join(" + ") };
                         let path = Path::new(part, name, *at, after, &branch);
                         self.push(Path { emits, ..path })?;
                     }
                 }
-                Item::Read { event, waiting, at } => self.read(moves, *event, *waiting, at, after)?,
+                Item::Read { event, waiting, at } => {
+                    self.read(moves, *event, *waiting, at, after)?
+                }
             }
             from = after;
         }
@@ -255,7 +283,8 @@ impl Rounds {
         Ok(())
     }
 
-    /// A net reads a mailbox: where the token lies while so many more are to be read, and where it lies afterwards.
+    /// A net reads a mailbox: where the token lies while so many more are to be read, and where it
+    /// lies afterwards.
     fn read(
         &mut self,
         moves: &Moves,
@@ -283,7 +312,9 @@ impl Rounds {
             for (branch, (answer, name, doc, emits)) in ways? {
                 let (part, name, to) = match answer {
                     None => (Part::Between, format!("{} is empty", self.label(waiting)), after),
-                    Some(Answer::Refused) => (Part::Turn, format!("{} goes on", self.label(waiting)), after),
+                    Some(Answer::Refused) => {
+                        (Part::Turn, format!("{} goes on", self.label(waiting)), after)
+                    }
                     Some(_) => (Part::Turn, name.join(" + "), next),
                 };
                 self.push(Path { doc, emits, ..Path::new(part, name, here, to, &branch) })?;
@@ -296,7 +327,8 @@ impl Rounds {
         &self.draft.places[waiting.0 as usize].name
     }
 
-    /// Over empty mailboxes to the first one that is not, to a net that settles, or to what is outside.
+    /// Over empty mailboxes to the first one that is not, to a net that settles, or to what is
+    /// outside.
     fn go_on(&mut self, from: PlaceId, items: &[Item]) {
         let known = self.known.clone();
         let mut empty = Held::new();
@@ -353,8 +385,13 @@ impl Rounds {
                     // What is ignored and changes nothing is as if it had not come.
                     let changes = branch.change.values().any(|&it| it != 0);
                     if answer == Answer::Fired || (answer == Answer::Ignored && changes) {
-                        let path =
-                            Path::new(Part::Outside, name.join(" + "), self.outside, self.round, &branch);
+                        let path = Path::new(
+                            Part::Outside,
+                            name.join(" + "),
+                            self.outside,
+                            self.round,
+                            &branch,
+                        );
                         self.push(Path { doc, on: Some(on), emits, ..path })?;
                     }
                 }

@@ -1,4 +1,5 @@
-//! How a system acts: the rules of [`Player`](cotama_core::system::Player), over markings that are known in part.
+//! How a system acts: the rules of [`Player`](cotama_core::system::Player), over markings that are
+//! known in part.
 
 use super::branch::{Branch, Sum};
 use super::{Flat, FlatError};
@@ -49,8 +50,9 @@ pub(super) struct Moves {
 impl Moves {
     pub(super) fn new(flat: &Flat<'_>) -> Result<Self, FlatError> {
         let clears = flat.system.clears.iter();
-        let clears =
-            clears.map(|it| (it.on, flat.mailboxes[&(it.on.component, it.mailbox.0)].0)).collect::<Vec<_>>();
+        let clears = clears
+            .map(|it| (it.on, flat.mailboxes[&(it.on.component, it.mailbox.0)].0))
+            .collect::<Vec<_>>();
         let (mut on, mut urgent, mut names, mut components) = (vec![], vec![], vec![], vec![]);
         let mut outputs = 0;
         for at in 0..flat.components() {
@@ -58,7 +60,9 @@ impl Moves {
             let row = |event: Option<EventId>| {
                 let mut row: Vec<_> = net.transitions.iter().filter(|it| it.on == event).collect();
                 row.sort_by_key(|it| Reverse(it.priority));
-                row.into_iter().map(|it| moved(flat, at, it, outputs)).collect::<Result<Vec<_>, _>>()
+                row.into_iter()
+                    .map(|it| moved(flat, at, it, outputs))
+                    .collect::<Result<Vec<_>, _>>()
             };
             let events = 0..net.events.len() as u32;
             on.push(events.map(|it| row(Some(EventId(it)))).collect::<Result<Vec<_>, _>>()?);
@@ -78,20 +82,24 @@ impl Moves {
         self.on.iter().flatten().chain(&self.urgent).flatten().all(|it| sum.stays(&it.changes))
     }
 
-    /// What may stay the same in each step: a place of a net whose every change makes something happen at once in another one,
-    /// and a place of that one that changes only then; one of them is marked at the start.
+    /// What may stay the same in each step: a place of a net whose every change makes something
+    /// happen at once in another one, and a place of that one that changes only then; one of them
+    /// is marked at the start.
     pub(super) fn guesses(&self, flat: &Flat<'_>, initial: &[OwnedPlace]) -> Vec<Sum> {
         let meets = |link: &&Link| link.delivery == Delivery::Now;
         let links: Vec<_> = flat.system.links.iter().filter(meets).collect();
-        let meetings: BTreeSet<_> = links.iter().map(|it| (it.from.component, it.to.component)).collect();
+        let meetings: BTreeSet<_> =
+            links.iter().map(|it| (it.from.component, it.to.component)).collect();
         let tokens = |place: PlaceId| initial[place.0 as usize].initial;
         let mut guesses = Vec::new();
         for (from, to) in meetings {
-            let tells =
-                |it: &Move| it.says.iter().any(|it| matches!(it, Said::Now(of) if of.component == to));
+            let tells = |it: &Move| {
+                it.says.iter().any(|it| matches!(it, Said::Now(of) if of.component == to))
+            };
             let told = |on: usize| {
                 links.iter().any(|it| {
-                    it.from.component == from && it.to == Of { component: to, id: EventId(on as u32) }
+                    it.from.component == from
+                        && it.to == Of { component: to, id: EventId(on as u32) }
                 })
             };
             let rows = |of: u16| {
@@ -141,7 +149,12 @@ fn place(flat: &Flat<'_>, component: u16, net: &Net<'_>, place: PlaceId) -> (Pla
     }
 }
 
-fn moved(flat: &Flat<'_>, component: u16, it: &Transition<'_>, outputs: u32) -> Result<Move, FlatError> {
+fn moved(
+    flat: &Flat<'_>,
+    component: u16,
+    it: &Transition<'_>,
+    outputs: u32,
+) -> Result<Move, FlatError> {
     let (name, net) = flat.component(component);
     let name = format!("{name}.{}", it.name);
     if it.within.is_some() {
@@ -150,7 +163,8 @@ fn moved(flat: &Flat<'_>, component: u16, it: &Transition<'_>, outputs: u32) -> 
     let bound = |place: PlaceId| i64::from(flat.net.places[place.0 as usize].bound);
     let mut tests = Vec::new();
     let mut changes: [BTreeMap<PlaceId, i64>; 2] = Default::default();
-    for (arc, sign) in it.take.iter().map(|arc| (arc, -1)).chain(it.read.iter().map(|arc| (arc, 0))) {
+    for (arc, sign) in it.take.iter().map(|arc| (arc, -1)).chain(it.read.iter().map(|arc| (arc, 0)))
+    {
         let (place, is_complement) = place(flat, component, net, arc.place);
         let weight = i64::from(arc.weight);
         *changes[usize::from(is_complement)].entry(place).or_default() += sign * weight;
@@ -168,7 +182,8 @@ fn moved(flat: &Flat<'_>, component: u16, it: &Transition<'_>, outputs: u32) -> 
     for (at, declared) in net.places.iter().enumerate() {
         let Role::Complement(of) = declared.role else { continue };
         let (place, _) = place(flat, component, net, PlaceId(at as u32));
-        let (change, mirror) = (changes.get(&place).unwrap_or(&0), mirrored.get(&place).unwrap_or(&0));
+        let (change, mirror) =
+            (changes.get(&place).unwrap_or(&0), mirrored.get(&place).unwrap_or(&0));
         // What shares a place without its complement leaves that to the system.
         let is_left = *mirror == 0 && net.places[of.0 as usize].role == Role::Shared;
         if *mirror != -change && !is_left {
@@ -186,10 +201,12 @@ fn moved(flat: &Flat<'_>, component: u16, it: &Transition<'_>, outputs: u32) -> 
         let from = Of { component, id: output };
         let links = flat.system.links.iter().filter(|link| link.from == from);
         let before = says.len();
-        says.extend(links.map(|link| match flat.mailboxes.get(&(link.to.component, link.to.id.0)) {
-            Some(&(waiting, _, capacity)) => Said::Mail(waiting, i64::from(capacity)),
-            None => Said::Now(link.to),
-        }));
+        says.extend(links.map(
+            |link| match flat.mailboxes.get(&(link.to.component, link.to.id.0)) {
+                Some(&(waiting, _, capacity)) => Said::Mail(waiting, i64::from(capacity)),
+                None => Said::Now(link.to),
+            },
+        ));
         if says.len() == before {
             says.push(Said::Aloud(OutputId(outputs + output.0)));
         }
@@ -206,7 +223,10 @@ fn sums(flat: &Flat<'_>, component: u16) -> Vec<Sum> {
         for arc in sum {
             let (place, is_complement) = place(flat, component, net, arc.place);
             let of = &flat.net.places[place.0 as usize];
-            if is_complement || of.role == Role::Mailbox || weights.iter().any(|it: &(_, _)| it.0 == place) {
+            if is_complement
+                || of.role == Role::Mailbox
+                || weights.iter().any(|it: &(_, _)| it.0 == place)
+            {
                 return None;
             }
             weights.push((place, i64::from(arc.weight)));
@@ -255,7 +275,9 @@ impl<'p, 'k> Play<'p, 'k> {
         self.whole(|play| {
             play.clear(event);
             let moves = play.moves;
-            if let Some(it) = play.enabled(&moves.on[usize::from(event.component)][event.id.0 as usize]) {
+            if let Some(it) =
+                play.enabled(&moves.on[usize::from(event.component)][event.id.0 as usize])
+            {
                 play.doc.clone_from(&it.doc);
                 return play.fire(event.component, it).map(|()| Answer::Fired);
             }
@@ -268,7 +290,9 @@ impl<'p, 'k> Play<'p, 'k> {
     pub(super) fn settle(&mut self, component: u16) -> Result<(), FlatError> {
         for _ in 0..SETTLE {
             let moves = self.moves;
-            let Some(it) = self.enabled(&moves.urgent[usize::from(component)]) else { return Ok(()) };
+            let Some(it) = self.enabled(&moves.urgent[usize::from(component)]) else {
+                return Ok(());
+            };
             let fired = self.whole(|play| play.fire(component, it).map(|()| Answer::Fired))?;
             if fired == Answer::Refused {
                 return Ok(());
@@ -282,7 +306,10 @@ impl<'p, 'k> Play<'p, 'k> {
     }
 
     /// Does all of it or nothing.
-    fn whole(&mut self, act: impl Fn(&mut Self) -> Result<Answer, Stop>) -> Result<Answer, FlatError> {
+    fn whole(
+        &mut self,
+        act: impl Fn(&mut Self) -> Result<Answer, Stop>,
+    ) -> Result<Answer, FlatError> {
         let before = (self.branch.change.clone(), self.name.clone(), self.emits.clone());
         self.settled = 0;
         match act(self) {
@@ -297,7 +324,9 @@ impl<'p, 'k> Play<'p, 'k> {
 
     fn enabled(&mut self, row: &'p [Move]) -> Option<&'p Move> {
         let branch = &mut *self.branch;
-        row.iter().find(|it| it.tests.iter().all(|&(place, tokens, is)| branch.holds(place, tokens) == is))
+        row.iter().find(|it| {
+            it.tests.iter().all(|&(place, tokens, is)| branch.holds(place, tokens) == is)
+        })
     }
 
     fn ignore(&mut self, event: Of<EventId>) {

@@ -10,7 +10,8 @@ use std::collections::VecDeque;
 pub struct Size {
     /// Markings between two rounds.
     pub states: u64,
-    /// Pairs of such a marking and what can come from outside in the round after it, nothing among it.
+    /// Pairs of such a marking and what can come from outside in the round after it, nothing among
+    /// it.
     pub edges: u64,
 }
 
@@ -62,7 +63,9 @@ impl Rounds {
                 way.reverse();
                 return Some(way);
             }
-            for (transition, &after) in graph.transitions(state).into_iter().zip(graph.successors(state)) {
+            for (transition, &after) in
+                graph.transitions(state).into_iter().zip(graph.successors(state))
+            {
                 let ends = self.part(transition) == Some(Part::Outside);
                 let rounds = far[state as usize] + u32::from(ends);
                 if rounds < far[after as usize] {

@@ -1,4 +1,5 @@
-//! The parts of a PNML file as they stand in it: nodes and arcs by their ids, before anything is looked up.
+//! The parts of a PNML file as they stand in it: nodes and arcs by their ids, before anything is
+//! looked up.
 
 use super::error::{Span, Spanned};
 use super::own::{OwnArc, OwnNet, OwnPlace, OwnTransition};

@@ -3,10 +3,11 @@
 use super::error::{Finding, Span, quoted};
 use std::borrow::Cow;
 
-/// The text of a file without its byte order mark; or as much of it as could be decoded, and why not more.
+/// The text of a file without its byte order mark; or as much of it as could be decoded, and why
+/// not more.
 ///
-/// UTF-8 and UTF-16 are known by their byte order marks or first characters, ISO-8859-1 and US-ASCII by the XML
-/// declaration. Every character of the text is one that XML 1.0 allows.
+/// UTF-8 and UTF-16 are known by their byte order marks or first characters, ISO-8859-1 and
+/// US-ASCII by the XML declaration. Every character of the text is one that XML 1.0 allows.
 pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, (String, Finding)> {
     let text = match bytes {
         [] => return Err(refused("the file is empty", "give the name of a PNML file")),
@@ -27,9 +28,11 @@ pub(super) fn decode(bytes: &[u8]) -> Result<Cow<'_, str>, (String, Finding)> {
         None => Ok(text),
         Some(span) => {
             let code = text[span.start..span.end].chars().next().map_or(0, u32::from);
-            let finding =
-                Finding::new(span, format!("the character U+{code:04X} cannot stand in an XML file"))
-                    .help("this is not a PNML file, or it is damaged");
+            let finding = Finding::new(
+                span,
+                format!("the character U+{code:04X} cannot stand in an XML file"),
+            )
+            .help("this is not a PNML file, or it is damaged");
             Err((text.into_owned(), finding))
         }
     }
@@ -51,9 +54,10 @@ fn declared_encoding(bytes: &[u8]) -> Result<Cow<'_, str>, (String, Finding)> {
         "us-ascii" | "ascii" => match bytes.iter().position(|byte| !byte.is_ascii()) {
             None => Ok(Cow::Borrowed(utf8(bytes)?)),
             Some(at) => {
-                let finding = Finding::new(Span { start: at, end: at + 1 }, "a byte that is not US-ASCII")
-                    .help("declare the encoding that the file has, such as UTF-8 or ISO-8859-1")
-                    .related(span);
+                let finding =
+                    Finding::new(Span { start: at, end: at + 1 }, "a byte that is not US-ASCII")
+                        .help("declare the encoding that the file has, such as UTF-8 or ISO-8859-1")
+                        .related(span);
                 Err((format!("{}\u{fffd}", String::from_utf8_lossy(&bytes[..at])), finding))
             }
         },
@@ -63,8 +67,11 @@ fn declared_encoding(bytes: &[u8]) -> Result<Cow<'_, str>, (String, Finding)> {
             Err((until_here(), finding))
         }
         _ => {
-            let finding = Finding::new(span, format!("the encoding {} is not known", quoted(&declared)))
-                .help("save the file as UTF-8; UTF-16, ISO-8859-1 and US-ASCII are read as well");
+            let finding =
+                Finding::new(span, format!("the encoding {} is not known", quoted(&declared)))
+                    .help(
+                        "save the file as UTF-8; UTF-16, ISO-8859-1 and US-ASCII are read as well",
+                    );
             Err((until_here(), finding))
         }
     }
@@ -124,7 +131,10 @@ fn forbidden(text: &str) -> Option<Span> {
     let bad = |start: &usize| match bytes[*start] {
         b'\t' | b'\n' | b'\r' => false,
         0..=0x1f => true,
-        0xef => bytes[*start..].starts_with(b"\xef\xbf\xbe") || bytes[*start..].starts_with(b"\xef\xbf\xbf"),
+        0xef => {
+            bytes[*start..].starts_with(b"\xef\xbf\xbe")
+                || bytes[*start..].starts_with(b"\xef\xbf\xbf")
+        }
         _ => false,
     };
     let start = (0..bytes.len()).find(bad)?;

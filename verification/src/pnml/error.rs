@@ -26,14 +26,16 @@ pub struct Diagnostic {
     pub message: String,
     /// What to do about it.
     pub help: Option<String>,
-    /// Another part of the file that has to do with it: the first use of an id, the start of an element.
+    /// Another part of the file that has to do with it: the first use of an id, the start of an
+    /// element.
     pub related: Option<Location>,
 }
 
-/// All errors of one file that were found before reading had to stop: at least one, sorted by place.
+/// All errors of one file that were found before reading had to stop: at least one, sorted by
+/// place.
 ///
-/// Its `Display` is plain text: a line `file:line:column: message` for each error, and lines of help and of the
-/// related place where there are some.
+/// Its `Display` is plain text: a line `file:line:column: message` for each error, and lines of
+/// help and of the related place where there are some.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PnmlErrors {
     source_name: String,
@@ -202,7 +204,8 @@ impl From<Finding> for Findings {
     }
 }
 
-/// A text of the file as a message shows it: in backticks, cut, and without characters that a terminal obeys.
+/// A text of the file as a message shows it: in backticks, cut, and without characters that a
+/// terminal obeys.
 pub(super) fn quoted(text: &str) -> String {
     const SHOWN: usize = 40;
     let obeyed = |c: char| {

@@ -5,8 +5,8 @@ use super::error::{Finding, Span, quoted};
 use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 
-/// The value of an attribute that this project defines: `\u{1b}` stands for a character that XML cannot hold,
-/// `\\` for a backslash.
+/// The value of an attribute that this project defines: `\u{1b}` stands for a character that XML
+/// cannot hold, `\\` for a backslash.
 pub(super) fn unescape(value: &str, span: Span) -> Result<String, Finding> {
     let mut text = String::with_capacity(value.len());
     let mut rest = value;
@@ -77,7 +77,8 @@ impl fmt::Display for Content<'_> {
     }
 }
 
-/// Whether the text of a `<name>` is read back as it was written; if not, the exact name stands elsewhere as well.
+/// Whether the text of a `<name>` is read back as it was written; if not, the exact name stands
+/// elsewhere as well.
 pub(super) fn survives(name: &str) -> bool {
     !name.is_empty() && trimmed(Cow::Borrowed(name)) == name && name.chars().all(is_xml)
 }

@@ -40,12 +40,16 @@ fn flow(arc: &RawArc<'_>, nodes: &Nodes<'_>, findings: &mut Findings) -> Option<
             return None;
         }
     };
-    let (weight, span) = arc.weight.as_ref().map_or((1, arc.span), |weight| (weight.value, weight.span));
+    let (weight, span) =
+        arc.weight.as_ref().map_or((1, arc.span), |weight| (weight.value, weight.span));
     let read = u64::from(arc.own.read);
     if read > weight {
         findings.push(
-            Finding::new(span, format!("an arc of weight {weight} of which {read} belong to a read arc"))
-                .help("correct `read` in its element `<toolspecific>`, or remove that"),
+            Finding::new(
+                span,
+                format!("an arc of weight {weight} of which {read} belong to a read arc"),
+            )
+            .help("correct `read` in its element `<toolspecific>`, or remove that"),
         );
     }
     if arc.test && !into_transition {
@@ -66,11 +70,18 @@ struct Sum {
     span: Span,
 }
 
-/// Gives the transitions of a net their arcs, in the order of the file; arcs between the same nodes become one.
-pub(super) fn add_arcs(net: &mut OwnedNet, nodes: &Nodes<'_>, arcs: &[RawArc<'_>], findings: &mut Findings) {
+/// Gives the transitions of a net their arcs, in the order of the file; arcs between the same nodes
+/// become one.
+pub(super) fn add_arcs(
+    net: &mut OwnedNet,
+    nodes: &Nodes<'_>,
+    arcs: &[RawArc<'_>],
+    findings: &mut Findings,
+) {
     let mut flows: Vec<Flow> = arcs.iter().filter_map(|arc| flow(arc, nodes, findings)).collect();
     flows.sort_by_key(|flow| flow.transition);
-    // Where the sum of a place and a direction stands in `sums`, if its flag says that it is of this transition.
+    // Where the sum of a place and a direction stands in `sums`, if its flag says that it is of
+    // this transition.
     let mut slots = vec![[(u32::MAX, 0); 2]; net.places.len()];
     for flows in flows.chunk_by(|a, b| a.transition == b.transition) {
         let transition = flows[0].transition;
@@ -81,7 +92,13 @@ pub(super) fn add_arcs(net: &mut OwnedNet, nodes: &Nodes<'_>, arcs: &[RawArc<'_>
             let slot = &mut slots[flow.place as usize][direction];
             if slot.0 != transition {
                 *slot = (transition, sums.len());
-                sums.push(Sum { place: flow.place, weight: 0, read: 0, tested: 0, span: flow.span });
+                sums.push(Sum {
+                    place: flow.place,
+                    weight: 0,
+                    read: 0,
+                    tested: 0,
+                    span: flow.span,
+                });
             }
             let sum = &mut sums[slot.1];
             sum.weight += flow.weight;

@@ -87,10 +87,11 @@ impl<'a> Parser<'a> {
             "test" | "read" => true,
             _ => {
                 self.findings.push(
-                    Finding::new(kind.span, format!("an arc of the type {}", quoted(&kind.value))).help(
-                        "only ordinary arcs and read arcs (`test`) are read; \
+                    Finding::new(kind.span, format!("an arc of the type {}", quoted(&kind.value)))
+                        .help(
+                            "only ordinary arcs and read arcs (`test`) are read; \
                          an inhibitor arc can be replaced by a read arc from a complement place",
-                    ),
+                        ),
                 );
                 false
             }
@@ -103,8 +104,9 @@ impl<'a> Parser<'a> {
             return Err(Finding::new(span, "an interval has two bounds")
                 .help("write them as in `<cn>4</cn><cn>9</cn>`, no limit as `<ci>infty</ci>`"));
         };
-        let bound =
-            |text: &Text<'_>| number(text).and_then(|ms| u32::try_from(ms).map_err(|_| too_large(text)));
+        let bound = |text: &Text<'_>| {
+            number(text).and_then(|ms| u32::try_from(ms).map_err(|_| too_large(text)))
+        };
         let infinite = matches!(&*latest.value, "infty" | "w" | "inf" | "infinity");
         match (&*self.closure, infinite) {
             ("closed", _) | ("closed-open", true) => {}
@@ -118,17 +120,23 @@ impl<'a> Parser<'a> {
                 ));
             }
         }
-        let within =
-            Within { earliest: bound(earliest)?, latest: if infinite { None } else { Some(bound(latest)?) } };
+        let within = Within {
+            earliest: bound(earliest)?,
+            latest: if infinite { None } else { Some(bound(latest)?) },
+        };
         match within.latest {
             Some(end) if end < within.earliest => {
-                Err(Finding::new(span, "an interval that ends before it begins").help("swap its bounds"))
+                Err(Finding::new(span, "an interval that ends before it begins")
+                    .help("swap its bounds"))
             }
-            Some(end) if !within.is_sound() => Err(Finding::new(
-                span,
-                format!("an interval that ends after {end} ms"),
-            )
-            .help(format!("the largest end is {}; no limit is written `<ci>infty</ci>`", Within::LATEST))),
+            Some(end) if !within.is_sound() => {
+                Err(Finding::new(span, format!("an interval that ends after {end} ms")).help(
+                    format!(
+                        "the largest end is {}; no limit is written `<ci>infty</ci>`",
+                        Within::LATEST
+                    ),
+                ))
+            }
             _ => Ok(within),
         }
     }
@@ -140,7 +148,11 @@ fn number(text: &Text<'_>) -> Result<u64, Finding> {
     let digits = digits.strip_prefix("Default,").unwrap_or(digits);
     let is_digits = |text: &str| !text.is_empty() && text.bytes().all(|byte| byte.is_ascii_digit());
     if is_digits(digits) {
-        digits.parse().ok().filter(|&number| number <= 2 * u64::from(u32::MAX)).ok_or_else(|| too_large(text))
+        digits
+            .parse()
+            .ok()
+            .filter(|&number| number <= 2 * u64::from(u32::MAX))
+            .ok_or_else(|| too_large(text))
     } else if digits.strip_prefix('-').is_some_and(is_digits) {
         Err(Finding::new(text.span, format!("{} is negative", quoted(&text.value)))
             .help("write a whole number from 0"))

@@ -14,33 +14,39 @@
 //!
 //! # What is read
 //!
-//! One place/transition net: nodes on any number of pages, pages in pages, references to nodes of other pages, names,
-//! initial markings and inscriptions. Node by node the order of the file is kept. Graphics, unknown labels and the
-//! parts of other tools are skipped. The nets of the Model Checking Contest are such files. Also read are older files
-//! with other net types or without pages, and `<value>` in place of `<text>`, as PIPE writes it.
+//! One place/transition net: nodes on any number of pages, pages in pages, references to nodes of
+//! other pages, names, initial markings and inscriptions. Node by node the order of the file is
+//! kept. Graphics, unknown labels and the parts of other tools are skipped. The nets of the Model
+//! Checking Contest are such files. Also read are older files with other net types or without
+//! pages, and `<value>` in place of `<text>`, as PIPE writes it.
 //!
-//! - A name is the `<text>` of `<name>` without white space around it; without one it is the id. Names become unique:
-//!   of nodes with the same name the first keeps it, the others are named `name (id)`.
-//! - Several arcs between the same two nodes in one direction are one arc with the sum of their weights.
-//! - An arc of the type `test` or `read` is a read arc. Arcs of any other type, such as inhibitor arcs, are refused,
-//!   and so are capacities and random delays: without them the net would mean something else.
-//! - Coloured (high-level) nets are refused, and files with several P/T nets. A coloured net beside the only P/T net
-//!   is skipped. A net without places, transitions or both is a net.
+//! - A name is the `<text>` of `<name>` without white space around it; without one it is the id.
+//!   Names become unique: of nodes with the same name the first keeps it, the others are named
+//!   `name (id)`.
+//! - Several arcs between the same two nodes in one direction are one arc with the sum of their
+//!   weights.
+//! - An arc of the type `test` or `read` is a read arc. Arcs of any other type, such as inhibitor
+//!   arcs, are refused, and so are capacities and random delays: without them the net would mean
+//!   something else.
+//! - Coloured (high-level) nets are refused, and files with several P/T nets. A coloured net beside
+//!   the only P/T net is skipped. A net without places, transitions or both is a net.
 //! - Encodings: UTF-8, UTF-16, ISO-8859-1, US-ASCII.
 //! - Namespaces are not told apart: elements are known by their local names.
-//! - A transition may have a `<delay>` as TINA writes it: a closed `MathML` interval, in milliseconds here. In a file
-//!   that has such intervals a transition without one has the interval from 0 without limit, as in TINA. In other
-//!   files transitions have no interval; then time is not part of the net.
+//! - A transition may have a `<delay>` as TINA writes it: a closed `MathML` interval, in
+//!   milliseconds here. In a file that has such intervals a transition without one has the interval
+//!   from 0 without limit, as in TINA. In other files transitions have no interval; then time is
+//!   not part of the net.
 //! - The line of a transition is its position.
 //!
-//! Numbers are at most [`u32::MAX`]. [`Limits`] bound what a file may ask for. Time and memory grow with the length
-//! of the file and no faster; there is no recursion, and entities are never expanded.
+//! Numbers are at most [`u32::MAX`]. [`Limits`] bound what a file may ask for. Time and memory grow
+//! with the length of the file and no faster; there is no recursion, and entities are never
+//! expanded.
 //!
 //! # What is written
 //!
-//! A P/T net of the standard on one page, with the ids `p0`, `t0`, `a0` and so on. A read arc is an arc from the place
-//! and one back to it. What the standard cannot say stands in elements `<toolspecific tool="cotama" version="1">`,
-//! which other tools skip:
+//! A P/T net of the standard on one page, with the ids `p0`, `t0`, `a0` and so on. A read arc is an
+//! arc from the place and one back to it. What the standard cannot say stands in elements
+//! `<toolspecific tool="cotama" version="1">`, which other tools skip:
 //!
 //! | in | element | attributes |
 //! | --- | --- | --- |
@@ -56,12 +62,13 @@
 //! | transition | `transition` | `name`, `doc`, `line`, `on` (an event), `emits` (outputs), `earliest`, `latest` (milliseconds), `priority` |
 //! | arc | `arc` | `read`: how many of its tokens belong to a read arc |
 //!
-//! Places, events and outputs are named by their ids. What is not there has its default: no documentation, no bound,
-//! no event, priority 0, the line of its position. The attribute `name` is there when `<name>` cannot hold the exact
-//! name: when it is empty, has white space around it, or a character that XML 1.0 has not; for such a character
-//! `<name>` has U+FFFD. In the attributes `name` and `doc` a backslash is written `\\`, and a character that XML 1.0
-//! has not is written `\u{1b}`. So every net that [`Net::defect`](cotama_core::net::Net::defect) finds nothing in and whose names are unique is read
-//! back exactly as it was.
+//! Places, events and outputs are named by their ids. What is not there has its default: no
+//! documentation, no bound, no event, priority 0, the line of its position. The attribute `name` is
+//! there when `<name>` cannot hold the exact name: when it is empty, has white space around it, or
+//! a character that XML 1.0 has not; for such a character `<name>` has U+FFFD. In the attributes
+//! `name` and `doc` a backslash is written `\\`, and a character that XML 1.0 has not is written
+//! `\u{1b}`. So every net that [`Net::defect`](cotama_core::net::Net::defect) finds nothing in and
+//! whose names are unique is read back exactly as it was.
 
 mod document;
 mod encoding;
@@ -99,13 +106,15 @@ pub struct Limits {
 }
 
 impl Default for Limits {
-    /// A file of 1 GiB, 256 elements deep, 64 attributes in an element, texts of 1 MiB, 2²⁸ objects.
+    /// A file of 1 GiB, 256 elements deep, 64 attributes in an element, texts of 1 MiB, 2²⁸
+    /// objects.
     fn default() -> Self {
         Self { bytes: 1 << 30, depth: 256, attributes: 64, text: 1 << 20, objects: 1 << 28 }
     }
 }
 
-/// A net from a file, with the ids that it had there: property files of the Model Checking Contest use them.
+/// A net from a file, with the ids that it had there: property files of the Model Checking Contest
+/// use them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Imported {
     /// The net.
@@ -118,7 +127,8 @@ pub struct Imported {
 
 /// Reads the net of a PNML file. `name` is the name of the file in messages.
 ///
-/// [`Net::defect`](cotama_core::net::Net::defect) finds nothing in the net, and the names of its places and of its transitions are unique.
+/// [`Net::defect`](cotama_core::net::Net::defect) finds nothing in the net, and the names of its
+/// places and of its transitions are unique.
 ///
 /// # Errors
 /// What is wrong with the file; after an error in its XML nothing further is looked for.
@@ -134,11 +144,12 @@ pub fn read_within(name: &str, bytes: &[u8], limits: Limits) -> Result<Imported,
     let limits = Limits { objects: limits.objects.min(u32::MAX as usize), ..limits };
     if bytes.len() > limits.bytes {
         let message = format!("the file has {} bytes, more than {}", bytes.len(), limits.bytes);
-        let finding = Finding::new(Span::default(), message).help("raise the limit, or make the net smaller");
+        let finding =
+            Finding::new(Span::default(), message).help("raise the limit, or make the net smaller");
         return Err(PnmlErrors::new(name, String::new(), finding.into()));
     }
-    let text =
-        encoding::decode(bytes).map_err(|(text, finding)| PnmlErrors::new(name, text, finding.into()))?;
+    let text = encoding::decode(bytes)
+        .map_err(|(text, finding)| PnmlErrors::new(name, text, finding.into()))?;
     let (document, mut findings): (_, Findings) = parser::parse(&text, limits);
     let imported = document.map(|document| resolve::resolve(document, &mut findings));
     match imported {

@@ -42,7 +42,8 @@ impl<'a> Nodes<'a> {
                     State::Done(node) => break node,
                     State::OnPath => {
                         let of = &references[at];
-                        let message = format!("the reference {} leads back to itself", quoted(&of.id.value));
+                        let message =
+                            format!("the reference {} leads back to itself", quoted(&of.id.value));
                         findings.push(
                             Finding::new(of.to.span, message)
                                 .help("let one of the circle refer to a place or transition"),
@@ -56,8 +57,12 @@ impl<'a> Nodes<'a> {
                 let of = &references[at];
                 match ids.get(&of.to.value) {
                     Some(&(Object::Reference(next), _)) => at = next as usize,
-                    Some(&(Object::Place(place), _)) if of.to_place => break Some(Node::Place(place)),
-                    Some(&(Object::Transition(it), _)) if !of.to_place => break Some(Node::Transition(it)),
+                    Some(&(Object::Place(place), _)) if of.to_place => {
+                        break Some(Node::Place(place));
+                    }
+                    Some(&(Object::Transition(it), _)) if !of.to_place => {
+                        break Some(Node::Transition(it));
+                    }
                     Some(&(object, span)) => {
                         let noun = if of.to_place { "a place" } else { "a transition" };
                         let message = format!(
@@ -66,7 +71,9 @@ impl<'a> Nodes<'a> {
                             object.noun()
                         );
                         findings.push(
-                            Finding::new(of.to.span, message).help(format!("refer to {noun}")).related(span),
+                            Finding::new(of.to.span, message)
+                                .help(format!("refer to {noun}"))
+                                .related(span),
                         );
                         break None;
                     }
@@ -77,11 +84,14 @@ impl<'a> Nodes<'a> {
                 }
             };
             for at in path.drain(..) {
-                let fits = end.is_none_or(|node| matches!(node, Node::Place(_)) == references[at].to_place);
+                let fits = end
+                    .is_none_or(|node| matches!(node, Node::Place(_)) == references[at].to_place);
                 if !fits {
-                    let message = "a reference to a place and one to a transition lead to the same node";
+                    let message =
+                        "a reference to a place and one to a transition lead to the same node";
                     findings.push(
-                        Finding::new(references[at].to.span, message).help("make both of the same kind"),
+                        Finding::new(references[at].to.span, message)
+                            .help("make both of the same kind"),
                     );
                 }
                 states[at] = State::Done(end.filter(|_| fits));
@@ -101,10 +111,16 @@ impl<'a> Nodes<'a> {
                 self.references.get(reference as usize).copied().flatten()
             }
             Some(&(object, span)) => {
-                let message =
-                    format!("{} is {}, not a place or a transition", quoted(&id.value), object.noun());
-                findings
-                    .push(Finding::new(id.span, message).help("name a place or a transition").related(span));
+                let message = format!(
+                    "{} is {}, not a place or a transition",
+                    quoted(&id.value),
+                    object.noun()
+                );
+                findings.push(
+                    Finding::new(id.span, message)
+                        .help("name a place or a transition")
+                        .related(span),
+                );
                 None
             }
             None => {

@@ -89,7 +89,8 @@ impl<'a> Parser<'a> {
             }
             (OwnTransition, "transition") => {
                 let read = self.findings.keep(transition(tag));
-                if let (Some(own), Some(transition)) = (read, self.document.transitions.last_mut()) {
+                if let (Some(own), Some(transition)) = (read, self.document.transitions.last_mut())
+                {
                     transition.own = Some(Box::new(own));
                 }
                 Own
@@ -114,7 +115,8 @@ fn element<'a>(own: &mut OwnNet<'a>, tag: &Tag<'a>) -> Result<(), Finding> {
     match tag.name {
         "net" => {
             let fields = Fields::of(tag, &["name", "doc"])?;
-            (own.name, own.doc) = (fields.string("name")?, fields.string("doc")?.unwrap_or_default());
+            (own.name, own.doc) =
+                (fields.string("name")?, fields.string("doc")?.unwrap_or_default());
         }
         "event" => own.events.push(signal(tag)?),
         "output" => own.outputs.push(signal(tag)?),
@@ -161,7 +163,9 @@ fn term<'a>(own: &mut OwnNet<'a>, tag: &Tag<'a>, findings: &mut Findings) {
         }
         Ok((fields.id("place")?, weight))
     };
-    if let (Some(term), Some(RawLaw::Invariant { sum, .. })) = (findings.keep(read()), own.laws.last_mut()) {
+    if let (Some(term), Some(RawLaw::Invariant { sum, .. })) =
+        (findings.keep(read()), own.laws.last_mut())
+    {
         sum.push(term);
     }
 }
@@ -207,11 +211,14 @@ fn transition<'a>(tag: &Tag<'a>) -> Result<OwnTransition<'a>, Finding> {
         }
         (None, None) => None,
         _ => {
-            return Err(Finding::new(tag.span, "the interval of a transition does not begin before it ends")
-                .help(format!(
-                    "give `earliest`, and no smaller `latest` up to {}, or none",
-                    Within::LATEST
-                )));
+            return Err(Finding::new(
+                tag.span,
+                "the interval of a transition does not begin before it ends",
+            )
+            .help(format!(
+                "give `earliest`, and no smaller `latest` up to {}, or none",
+                Within::LATEST
+            )));
         }
     };
     Ok(OwnTransition {
@@ -230,8 +237,9 @@ fn arc(tag: &Tag<'_>) -> Result<OwnArc, Finding> {
 }
 
 fn unknown(tag: &Tag<'_>) -> Finding {
-    Finding::new(tag.span, format!("cotama writes no {} here", shown(tag.name)))
-        .help("this part is read by cotama alone: repair it, or remove the element `<toolspecific>`")
+    Finding::new(tag.span, format!("cotama writes no {} here", shown(tag.name))).help(
+        "this part is read by cotama alone: repair it, or remove the element `<toolspecific>`",
+    )
 }
 
 /// The attributes of an element that this project defines.

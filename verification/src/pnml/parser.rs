@@ -60,7 +60,8 @@ pub(super) struct Parser<'a> {
     incomplete: bool,
 }
 
-/// Reads the parts of the one P/T net of a file. With findings there is a document only if no part is missing.
+/// Reads the parts of the one P/T net of a file. With findings there is a document only if no part
+/// is missing.
 pub(super) fn parse(text: &str, limits: Limits) -> (Option<Document<'_>>, Findings) {
     let mut parser = Parser {
         xml: Xml::new(text, limits),
@@ -112,8 +113,8 @@ impl<'a> Parser<'a> {
 
     fn start(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
         use Context::{
-            Arc, Bound, Delay, Interval, Net, Own, OwnArc, OwnInvariant, OwnNet, OwnPlace, OwnTransition,
-            Page, Place, Pnml, Skipped, Transition,
+            Arc, Bound, Delay, Interval, Net, Own, OwnArc, OwnInvariant, OwnNet, OwnPlace,
+            OwnTransition, Page, Place, Pnml, Skipped, Transition,
         };
         let Some(&context) = self.contexts.last() else { return root(tag) };
         Ok(match (context, tag.name) {
@@ -135,7 +136,9 @@ impl<'a> Parser<'a> {
                 self.text = tag.get("value").cloned();
                 context
             }
-            (Place, "hlinitialMarking" | "type") | (Transition, "condition") | (Arc, "hlinscription") => {
+            (Place, "hlinitialMarking" | "type")
+            | (Transition, "condition")
+            | (Arc, "hlinscription") => {
                 return Err(coloured(tag.span));
             }
             (Net | Place | Transition | Arc, "toolspecific") => toolspecific(context, tag)?,
@@ -153,8 +156,9 @@ impl<'a> Parser<'a> {
             }
             (Delay, "interval") => {
                 self.bounds.clear();
-                self.closure =
-                    tag.get("closure").map_or(Cow::Borrowed("closed"), |closure| closure.value.clone());
+                self.closure = tag
+                    .get("closure")
+                    .map_or(Cow::Borrowed("closed"), |closure| closure.value.clone());
                 Interval(tag.span)
             }
             (Interval(_), "cn" | "ci") => {
@@ -165,13 +169,24 @@ impl<'a> Parser<'a> {
                 self.bounds.push(Spanned { value: Cow::Borrowed("infty"), span: tag.span });
                 Skipped
             }
-            (OwnNet | OwnPlace | OwnTransition | OwnArc | OwnInvariant | Own, _) => self.own(context, tag),
+            (OwnNet | OwnPlace | OwnTransition | OwnArc | OwnInvariant | Own, _) => {
+                self.own(context, tag)
+            }
             (
                 _,
-                "place" | "transition" | "arc" | "page" | "referencePlace" | "referenceTransition" | "net",
+                "place"
+                | "transition"
+                | "arc"
+                | "page"
+                | "referencePlace"
+                | "referenceTransition"
+                | "net",
             ) => {
-                return Err(Finding::new(tag.span, format!("{} cannot stand in here", shown(tag.name)))
-                    .help("close the element that is open before it"));
+                return Err(Finding::new(
+                    tag.span,
+                    format!("{} cannot stand in here", shown(tag.name)),
+                )
+                .help("close the element that is open before it"));
             }
             _ => Skipped,
         })
@@ -208,8 +223,15 @@ impl<'a> Parser<'a> {
     }
 
     fn transition(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
-        if let Some(id) = self.node(tag, Object::Transition(self.document.transitions.len() as u32))? {
-            self.document.transitions.push(RawTransition { id, name: None, delay: None, own: None });
+        if let Some(id) =
+            self.node(tag, Object::Transition(self.document.transitions.len() as u32))?
+        {
+            self.document.transitions.push(RawTransition {
+                id,
+                name: None,
+                delay: None,
+                own: None,
+            });
         }
         Ok(Context::Transition)
     }
@@ -230,9 +252,18 @@ impl<'a> Parser<'a> {
         }
         self.object(tag, Object::Arc)?;
         let test = tag.get("type").is_some_and(|kind| self.is_test(kind));
-        if let (Some(source), Some(target)) = (self.required(tag, "source"), self.required(tag, "target")) {
+        if let (Some(source), Some(target)) =
+            (self.required(tag, "source"), self.required(tag, "target"))
+        {
             let own = own::OwnArc::default();
-            self.document.arcs.push(RawArc { span: tag.span, source, target, weight: None, test, own });
+            self.document.arcs.push(RawArc {
+                span: tag.span,
+                source,
+                target,
+                weight: None,
+                test,
+                own,
+            });
         }
         Ok(Context::Arc)
     }
@@ -240,7 +271,8 @@ impl<'a> Parser<'a> {
     /// Attributes with which TAPAAL says in its own format what PNML says in labels.
     fn refuse_foreign(&mut self, tag: &Tag<'a>, name: &str) {
         if let Some(value) = tag.get(name) {
-            let message = format!("{} has an attribute `{name}`, which PNML does not know", shown(tag.name));
+            let message =
+                format!("{} has an attribute `{name}`, which PNML does not know", shown(tag.name));
             self.findings.push(
                 Finding::new(value.span, message)
                     .help("if this is the format of another tool, export the net as PNML"),
@@ -272,7 +304,8 @@ impl<'a> Parser<'a> {
             }
             Entry::Occupied(entry) => {
                 let (first, span) = *entry.get();
-                let message = format!("the id {} is that of {} already", quoted(&id.value), first.noun());
+                let message =
+                    format!("the id {} is that of {} already", quoted(&id.value), first.noun());
                 self.findings.push(
                     Finding::new(id.span, message)
                         .help("give every part of the net an id of its own")
@@ -305,7 +338,8 @@ impl<'a> Parser<'a> {
     }
 
     fn append(&mut self, piece: Text<'a>) -> Result<(), Finding> {
-        let (Some(Context::Text | Context::Bound), Some(text)) = (self.contexts.last(), &mut self.text)
+        let (Some(Context::Text | Context::Bound), Some(text)) =
+            (self.contexts.last(), &mut self.text)
         else {
             return Ok(());
         };
@@ -324,8 +358,10 @@ impl<'a> Parser<'a> {
     fn end(&mut self, closed: Option<Context>) {
         match closed {
             Some(Context::Label(label, span)) => {
-                let text =
-                    self.text.take().map(|text| Spanned { value: trimmed(text.value), span: text.span });
+                let text = self
+                    .text
+                    .take()
+                    .map(|text| Spanned { value: trimmed(text.value), span: text.span });
                 self.labelled(label, text, span);
             }
             Some(Context::Bound) => {
@@ -349,10 +385,11 @@ fn root(tag: &Tag<'_>) -> Result<Context, Finding> {
         "pnml" => Ok(Context::Pnml),
         "html" => Err(Finding::new(tag.span, "this is a web page, not a PNML file")
             .help("save the file that it shows or links to")),
-        other => {
-            Err(Finding::new(tag.span, format!("the element of the file is {}, not `<pnml>`", shown(other)))
-                .help("this is a file of another format; export the net as PNML"))
-        }
+        other => Err(Finding::new(
+            tag.span,
+            format!("the element of the file is {}, not `<pnml>`", shown(other)),
+        )
+        .help("this is a file of another format; export the net as PNML")),
     }
 }
 

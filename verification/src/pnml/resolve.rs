@@ -16,11 +16,15 @@ use std::collections::{HashMap, HashSet};
 pub(super) fn resolve(document: Document<'_>, findings: &mut Findings) -> Imported {
     let Document { id, name, own, places, transitions, references, arcs, ids } = document;
     let nodes = Nodes::new(ids, &references, findings);
-    let signals =
-        Signals { events: positions(&own.events, findings), outputs: positions(&own.outputs, findings) };
+    let signals = Signals {
+        events: positions(&own.events, findings),
+        outputs: positions(&own.outputs, findings),
+    };
 
-    let mut net =
-        OwnedNet { name: own.name.unwrap_or_else(|| name.unwrap_or(id).into_owned()), ..OwnedNet::default() };
+    let mut net = OwnedNet {
+        name: own.name.unwrap_or_else(|| name.unwrap_or(id).into_owned()),
+        ..OwnedNet::default()
+    };
     net.doc = own.doc;
     net.events = own.events.into_iter().map(|(_, signal)| signal).collect();
     net.outputs = own.outputs.into_iter().map(|(_, signal)| signal).collect();
@@ -31,7 +35,8 @@ pub(super) fn resolve(document: Document<'_>, findings: &mut Findings) -> Import
     }));
     let place_ids = places.iter().map(|place| place.id.value.clone().into_owned()).collect();
     let complements = complements(&places);
-    net.places = places.into_iter().zip(names).map(|(it, name)| place(it, name, &nodes, findings)).collect();
+    net.places =
+        places.into_iter().zip(names).map(|(it, name)| place(it, name, &nodes, findings)).collect();
     check_complements(&net.places, &complements, findings);
 
     let names = unique(transitions.iter().map(|it| {
@@ -40,11 +45,13 @@ pub(super) fn resolve(document: Document<'_>, findings: &mut Findings) -> Import
     }));
     let transition_ids =
         transitions.iter().map(|transition| transition.id.value.clone().into_owned()).collect();
-    // In a file with intervals of TINA a transition without one may wait for ever; elsewhere time does not count.
+    // In a file with intervals of TINA a transition without one may wait for ever; elsewhere time
+    // does not count.
     let timed = transitions.iter().any(|it| it.own.is_none() && it.delay.is_some());
     let default = timed.then_some(Within { earliest: 0, latest: None });
     for (index, (it, name)) in transitions.into_iter().zip(names).enumerate() {
-        let mut transition = OwnedTransition { name, line: index as u32, ..OwnedTransition::default() };
+        let mut transition =
+            OwnedTransition { name, line: index as u32, ..OwnedTransition::default() };
         match it.own {
             Some(own) => signals.transition(*own, &mut transition, findings),
             None => transition.within = it.delay.or(default),
@@ -69,13 +76,17 @@ struct Signals<'a> {
     outputs: HashMap<Cow<'a, str>, u32>,
 }
 
-fn positions<'a>(list: &[(Text<'a>, OwnedSignal)], findings: &mut Findings) -> HashMap<Cow<'a, str>, u32> {
+fn positions<'a>(
+    list: &[(Text<'a>, OwnedSignal)],
+    findings: &mut Findings,
+) -> HashMap<Cow<'a, str>, u32> {
     let mut positions = HashMap::new();
     for (index, (id, _)) in list.iter().enumerate() {
         if positions.insert(id.value.clone(), index as u32).is_some() {
             let message = format!("the id {} is used twice", quoted(&id.value));
             findings.push(
-                Finding::new(id.span, message).help("give every event and every output an id of its own"),
+                Finding::new(id.span, message)
+                    .help("give every event and every output an id of its own"),
             );
         }
     }
@@ -87,13 +98,20 @@ impl Signals<'_> {
         let event = self.events.get(&id.value).copied().map(EventId);
         if event.is_none() {
             let message = format!("no event has the id {}", quoted(&id.value));
-            findings
-                .push(Finding::new(id.span, message).help("declare it with `<event id=\"…\" name=\"…\"/>`"));
+            findings.push(
+                Finding::new(id.span, message)
+                    .help("declare it with `<event id=\"…\" name=\"…\"/>`"),
+            );
         }
         event
     }
 
-    fn transition(&self, own: OwnTransition<'_>, transition: &mut OwnedTransition, findings: &mut Findings) {
+    fn transition(
+        &self,
+        own: OwnTransition<'_>,
+        transition: &mut OwnedTransition,
+        findings: &mut Findings,
+    ) {
         transition.doc = own.doc;
         transition.line = own.line.unwrap_or(transition.line);
         transition.on = own.on.and_then(|id| self.event(&id, findings));
@@ -112,7 +130,12 @@ impl Signals<'_> {
     }
 }
 
-fn place(raw: RawPlace<'_>, name: String, nodes: &Nodes<'_>, findings: &mut Findings) -> OwnedPlace {
+fn place(
+    raw: RawPlace<'_>,
+    name: String,
+    nodes: &Nodes<'_>,
+    findings: &mut Findings,
+) -> OwnedPlace {
     let mut place = OwnedPlace { name, ..OwnedPlace::new("", raw.initial) };
     let Some(own) = raw.own else { return place };
     let OwnPlace { span, name: _, doc, bound, role } = *own;
@@ -126,9 +149,13 @@ fn place(raw: RawPlace<'_>, name: String, nodes: &Nodes<'_>, findings: &mut Find
         RawRole::Mailbox => Role::Mailbox,
     };
     if place.initial > place.bound {
-        let message =
-            format!("{} tokens at the start in a place with the bound {}", place.initial, place.bound);
-        findings.push(Finding::new(span, message).help("raise the bound or lower the number of tokens"));
+        let message = format!(
+            "{} tokens at the start in a place with the bound {}",
+            place.initial, place.bound
+        );
+        findings.push(
+            Finding::new(span, message).help("raise the bound or lower the number of tokens"),
+        );
     }
     place
 }
@@ -142,7 +169,11 @@ fn complements(places: &[RawPlace<'_>]) -> Vec<(usize, Span)> {
     places.iter().enumerate().filter_map(complement).collect()
 }
 
-fn check_complements(places: &[OwnedPlace], complements: &[(usize, Span)], findings: &mut Findings) {
+fn check_complements(
+    places: &[OwnedPlace],
+    complements: &[(usize, Span)],
+    findings: &mut Findings,
+) {
     for &(index, span) in complements {
         let Role::Complement(PlaceId(of)) = places[index].role else { continue };
         let (place, of) = (&places[index], &places[of as usize]);
@@ -163,9 +194,11 @@ fn law(raw: RawLaw<'_>, nodes: &Nodes<'_>, findings: &mut Findings) -> Option<Ow
             for (id, weight) in terms {
                 let Some(place) = nodes.place(&id, findings) else { continue };
                 if !seen.insert(place) {
-                    let message = format!("the place {} stands twice in one sum", quoted(&id.value));
+                    let message =
+                        format!("the place {} stands twice in one sum", quoted(&id.value));
                     findings.push(
-                        Finding::new(id.span, message).help("write one term with the sum of both weights"),
+                        Finding::new(id.span, message)
+                            .help("write one term with the sum of both weights"),
                     );
                 }
                 sum.push(Arc { place, weight });

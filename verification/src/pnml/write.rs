@@ -7,18 +7,20 @@ use std::fmt::{self, Display, Formatter};
 
 /// A net as PNML, in the form that the [module](super) describes.
 ///
-/// The result is valid PNML of a P/T net. [`read`](super::read) gives the same net back if [`Net::defect`] finds
-/// nothing in it and names are unique; if not, it refuses the file or gives another net.
+/// The result is valid PNML of a P/T net. [`read`](super::read) gives the same net back if
+/// [`Net::defect`] finds nothing in it and names are unique; if not, it refuses the file or gives
+/// another net.
 pub fn write(net: &Net<'_>) -> String {
     File { net, for_tina: false }.to_string()
 }
 
 /// The same with an interval `<delay>` in every transition, as TINA writes and reads it.
 ///
-/// The standard does not know this element, a strict checker of PNML will object. The times are milliseconds. A
-/// transition that fires at once has the interval \[0, 0\]. A transition with an event may be left out for ever in a
-/// supervisor and not in TINA, so its interval has no end there: TINA then knows more executions than the supervisor
-/// has. TINA does not learn of priorities.
+/// The standard does not know this element, a strict checker of PNML will object. The times are
+/// milliseconds. A transition that fires at once has the interval \[0, 0\]. A transition with an
+/// event may be left out for ever in a supervisor and not in TINA, so its interval has no end
+/// there: TINA then knows more executions than the supervisor has. TINA does not learn of
+/// priorities.
 pub fn write_for_tina(net: &Net<'_>) -> String {
     File { net, for_tina: true }.to_string()
 }
@@ -218,17 +220,30 @@ impl Arcs {
             self.arc(f, &format!("p{}", arc.place.0), &format!("t{index}"), arc.weight.into(), 0)?;
         }
         for arc in it.read {
-            self.arc(f, &format!("p{}", arc.place.0), &format!("t{index}"), arc.weight.into(), arc.weight)?;
+            self.arc(
+                f,
+                &format!("p{}", arc.place.0),
+                &format!("t{index}"),
+                arc.weight.into(),
+                arc.weight,
+            )?;
         }
         // What is read comes back on the same arc as what is added to the same place.
-        let mut read: HashMap<PlaceId, u32> = it.read.iter().map(|arc| (arc.place, arc.weight)).collect();
+        let mut read: HashMap<PlaceId, u32> =
+            it.read.iter().map(|arc| (arc.place, arc.weight)).collect();
         for arc in it.give {
             let read = read.remove(&arc.place).unwrap_or_default();
             let weight = u64::from(arc.weight) + u64::from(read);
             self.arc(f, &format!("t{index}"), &format!("p{}", arc.place.0), weight, read)?;
         }
         for arc in it.read.iter().filter(|arc| read.contains_key(&arc.place)) {
-            self.arc(f, &format!("t{index}"), &format!("p{}", arc.place.0), arc.weight.into(), arc.weight)?;
+            self.arc(
+                f,
+                &format!("t{index}"),
+                &format!("p{}", arc.place.0),
+                arc.weight.into(),
+                arc.weight,
+            )?;
         }
         Ok(())
     }

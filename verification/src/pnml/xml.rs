@@ -1,8 +1,10 @@
-//! The XML of a file as a stream of tags and texts: checked, bounded, and each with its place in the file.
+//! The XML of a file as a stream of tags and texts: checked, bounded, and each with its place in
+//! the file.
 //!
-//! quick-xml finds where each piece of markup begins and ends; what XML demands beyond that is checked here, so that
-//! every error has a place and a message of its own. Namespaces are not told apart: names are compared without their
-//! prefixes. Entities other than the five of XML are refused, so nothing grows.
+//! quick-xml finds where each piece of markup begins and ends; what XML demands beyond that is
+//! checked here, so that every error has a place and a message of its own. Namespaces are not told
+//! apart: names are compared without their prefixes. Entities other than the five of XML are
+//! refused, so nothing grows.
 
 use super::Limits;
 use super::encoding::is_xml;
@@ -37,7 +39,10 @@ pub(super) struct Attribute<'a> {
 
 impl<'a> Tag<'a> {
     pub(super) fn get(&self, name: &str) -> Option<&Spanned<Cow<'a, str>>> {
-        self.attributes.iter().find(|attribute| attribute.name == name).map(|attribute| &attribute.value)
+        self.attributes
+            .iter()
+            .find(|attribute| attribute.name == name)
+            .map(|attribute| &attribute.value)
     }
 }
 
@@ -90,8 +95,11 @@ impl<'a> Xml<'a> {
                     }
                 }
                 Event::Decl(_) if span.start > 0 => {
-                    return Err(Finding::new(span, "the XML declaration is not at the start of the file")
-                        .help("remove what stands before it"));
+                    return Err(Finding::new(
+                        span,
+                        "the XML declaration is not at the start of the file",
+                    )
+                    .help("remove what stands before it"));
                 }
                 Event::DocType(_) => doctype(raw, span)?,
                 Event::Comment(_) | Event::PI(_) | Event::Decl(_) => {}
@@ -105,7 +113,9 @@ impl<'a> Xml<'a> {
         let span = Span { start: span.start + lead, ..span };
         let place = if self.rooted { "after" } else { "before" };
         let finding = Finding::new(span, format!("text {place} the element of the file"));
-        finding.help("a PNML file has nothing but one `<pnml>` element; this is not one, or it is damaged")
+        finding.help(
+            "a PNML file has nothing but one `<pnml>` element; this is not one, or it is damaged",
+        )
     }
 
     fn eof(&self) -> Result<(), Finding> {
@@ -117,9 +127,8 @@ impl<'a> Xml<'a> {
                     .related(span))
             }
             None if self.rooted => Ok(()),
-            None => {
-                Err(Finding::new(end, "the file has no element").help("a PNML file has one `<pnml>` element"))
-            }
+            None => Err(Finding::new(end, "the file has no element")
+                .help("a PNML file has one `<pnml>` element")),
         }
     }
 
@@ -138,9 +147,12 @@ impl<'a> Xml<'a> {
         }
         if let Some(at) = content.find('<').filter(|&at| !in_quotes(&content[..at])) {
             let at = span.start + 1 + at;
-            return Err(Finding::new(span, format!("the tag {} is not closed with `>`", tag(full)))
-                .help("write `>` at its end")
-                .related(Span { start: at, end: at + 1 }));
+            return Err(Finding::new(
+                span,
+                format!("the tag {} is not closed with `>`", tag(full)),
+            )
+            .help("write `>` at its end")
+            .related(Span { start: at, end: at + 1 }));
         }
         if self.open.is_empty() && std::mem::replace(&mut self.rooted, true) {
             return Err(Finding::new(span, format!("a second element {} in the file", tag(full)))
@@ -160,7 +172,12 @@ impl<'a> Xml<'a> {
         Ok(Token::Start(Tag { name: local(full), span, attributes }))
     }
 
-    fn attributes(&self, content: &'a str, length: usize, span: Span) -> Result<Vec<Attribute<'a>>, Finding> {
+    fn attributes(
+        &self,
+        content: &'a str,
+        length: usize,
+        span: Span,
+    ) -> Result<Vec<Attribute<'a>>, Finding> {
         let base = span.start + 1;
         let mut attributes = Vec::new();
         for attribute in Attributes::new(content, length) {
@@ -168,8 +185,11 @@ impl<'a> Xml<'a> {
             let (name, Cow::Borrowed(value)) = (attribute.key.0, attribute.value) else { continue };
             let key = position(self.text, name);
             if !is_name(name) {
-                return Err(Finding::new(key, format!("{} is not the name of an attribute", quoted(name)))
-                    .help("write attributes as in `id=\"p1\"`"));
+                return Err(Finding::new(
+                    key,
+                    format!("{} is not the name of an attribute", quoted(name)),
+                )
+                .help("write attributes as in `id=\"p1\"`"));
             }
             if attributes.len() >= self.limits.attributes {
                 return Err(Finding::new(
@@ -204,8 +224,11 @@ impl<'a> Xml<'a> {
                 value.push(reference(&after[..length], Span { start, end: start + length + 2 })?);
                 length + 2
             } else if special.starts_with('<') {
-                return Err(Finding::new(Span { start, end: start + 1 }, "`<` inside of an attribute")
-                    .help("a quote is missing before, or write `&lt;`"));
+                return Err(Finding::new(
+                    Span { start, end: start + 1 },
+                    "`<` inside of an attribute",
+                )
+                .help("a quote is missing before, or write `&lt;`"));
             } else {
                 value.push(' ');
                 if special.starts_with("\r\n") { 2 } else { 1 }
@@ -222,10 +245,13 @@ impl<'a> Xml<'a> {
             Some((open, _)) if open == name => Ok(Token::End),
             Some((open, start)) => {
                 let message = format!("{} closes {}", tag(&format!("/{name}")), tag(open));
-                Err(Finding::new(span, message).help(format!("write `</{open}>` first")).related(start))
+                Err(Finding::new(span, message)
+                    .help(format!("write `</{open}>` first"))
+                    .related(start))
             }
             None => {
-                let finding = Finding::new(span, format!("{} closes nothing", tag(&format!("/{name}"))));
+                let finding =
+                    Finding::new(span, format!("{} closes nothing", tag(&format!("/{name}"))));
                 Err(finding.help("remove it"))
             }
         }
@@ -246,8 +272,12 @@ impl<'a> Xml<'a> {
                 SyntaxError::UnclosedDoctype => unclosed("the DOCTYPE", ">"),
                 SyntaxError::UnclosedCData => unclosed("`<![CDATA[`", "]]>"),
                 SyntaxError::UnclosedTag => unclosed("this tag", ">"),
-                SyntaxError::UnclosedSingleQuotedAttributeValue => unclosed("an attribute in this tag", "'"),
-                SyntaxError::UnclosedDoubleQuotedAttributeValue => unclosed("an attribute in this tag", "\""),
+                SyntaxError::UnclosedSingleQuotedAttributeValue => {
+                    unclosed("an attribute in this tag", "'")
+                }
+                SyntaxError::UnclosedDoubleQuotedAttributeValue => {
+                    unclosed("an attribute in this tag", "\"")
+                }
                 SyntaxError::InvalidBangMarkup => {
                     Finding::new(at, "`<!` starts neither a comment nor a DOCTYPE")
                         .help("write `&lt;` where `<` is meant as a character")
@@ -280,8 +310,11 @@ fn doctype(raw: &str, span: Span) -> Result<(), Finding> {
         .help("replace `&name;` in the file by what it stands for, and remove the DOCTYPE"));
     }
     if raw.contains("<!") && raw[2..].contains("<!") {
-        return Err(Finding::new(span, "the DOCTYPE makes declarations of its own, which are not read")
-            .help("remove the DOCTYPE; PNML needs none"));
+        return Err(Finding::new(
+            span,
+            "the DOCTYPE makes declarations of its own, which are not read",
+        )
+        .help("remove the DOCTYPE; PNML needs none"));
     }
     Ok(())
 }
@@ -322,7 +355,10 @@ fn reference(name: &str, span: Span) -> Result<char, Finding> {
 }
 
 fn malformed(error: &AttrError, content: &str, base: usize) -> Finding {
-    let at = |position: usize| Span { start: base + position, end: base + (position + 1).min(content.len()) };
+    let at = |position: usize| Span {
+        start: base + position,
+        end: base + (position + 1).min(content.len()),
+    };
     let example = "write attributes as in `id=\"p1\"`";
     match *error {
         AttrError::ExpectedEq(position) => {
@@ -334,15 +370,19 @@ fn malformed(error: &AttrError, content: &str, base: usize) -> Finding {
         AttrError::UnquotedValue(position) => {
             Finding::new(at(position), "the value of an attribute is not in quotes").help(example)
         }
-        AttrError::ExpectedQuote(position, quote) => {
-            Finding::new(at(position), format!("a quote `{}` is missing before this", char::from(quote)))
-                .help(example)
-        }
+        AttrError::ExpectedQuote(position, quote) => Finding::new(
+            at(position),
+            format!("a quote `{}` is missing before this", char::from(quote)),
+        )
+        .help(example),
         AttrError::Duplicated(position, first) => {
             let name = content[position..].split(['=', ' ', '\t', '\r', '\n']).next().unwrap_or("");
-            Finding::new(at(position), format!("the attribute {} stands twice in one tag", quoted(name)))
-                .help("remove one of the two")
-                .related(at(first))
+            Finding::new(
+                at(position),
+                format!("the attribute {} stands twice in one tag", quoted(name)),
+            )
+            .help("remove one of the two")
+            .related(at(first))
         }
     }
 }

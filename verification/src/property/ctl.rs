@@ -3,8 +3,8 @@
 use super::Formula;
 use std::collections::HashMap;
 
-/// A formula of CTL as nodes that share what is equal. A node speaks of nodes before it only, so that one pass in their
-/// order finds where each of them holds.
+/// A formula of CTL as nodes that share what is equal. A node speaks of nodes before it only, so
+/// that one pass in their order finds where each of them holds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ctl {
     nodes: Vec<CtlNode>,

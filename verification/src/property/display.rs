@@ -7,10 +7,10 @@ use cotama_core::net::{PlaceId, TransitionId};
 use std::fmt::{self, Display, Formatter};
 
 impl Formula {
-    /// This formula as a text of the language, with the names of a net. Reading it gives this formula back if
-    /// conjunctions and disjunctions have no or several parts, lists of transitions are not empty, and temporal
-    /// operators stand inside of quantifiers, as in every formula that was read; and if its text is nested no deeper
-    /// than [`MAX_DEPTH`](super::MAX_DEPTH).
+    /// This formula as a text of the language, with the names of a net. Reading it gives this
+    /// formula back if conjunctions and disjunctions have no or several parts, lists of transitions
+    /// are not empty, and temporal operators stand inside of quantifiers, as in every formula that
+    /// was read; and if its text is nested no deeper than [`MAX_DEPTH`](super::MAX_DEPTH).
     pub fn display<'a>(&'a self, net: &'a Pt) -> impl Display + 'a {
         Written { net, what: self }
     }
@@ -58,7 +58,11 @@ impl Display for Written<'_, Question> {
                 write!(f, "{} {}", formula.display(self.net), assumed.display(self.net))
             }
             Question::Bound(places) => {
-                write!(f, "bounds({})", Self::names(&self.net.places, places.iter().map(|it| it.0), " + "))
+                write!(
+                    f,
+                    "bounds({})",
+                    Self::names(&self.net.places, places.iter().map(|it| it.0), " + ")
+                )
             }
             Question::Response { from, to } => {
                 write!(f, "bound({} -> {})", name(&self.net.transitions, from.0), self.place(*to))
@@ -125,7 +129,8 @@ impl Written<'_, Formula> {
         match formula {
             Formula::Atom(Atom::AtMost(linear)) => self.linear(f, linear, "<="),
             Formula::Atom(Atom::Fireable(transitions)) => {
-                let names = Self::names(&self.net.transitions, transitions.iter().map(|it| it.0), ", ");
+                let names =
+                    Self::names(&self.net.transitions, transitions.iter().map(|it| it.0), ", ");
                 write!(f, "fireable({names})")
             }
             Formula::Atom(Atom::Deadlock) => f.write_str("deadlock"),
@@ -183,7 +188,13 @@ impl Written<'_, Formula> {
         self.formula(f, inner, Level::Unary)
     }
 
-    fn joined(&self, f: &mut Formatter<'_>, all: &[Formula], separator: &str, loosest: Level) -> fmt::Result {
+    fn joined(
+        &self,
+        f: &mut Formatter<'_>,
+        all: &[Formula],
+        separator: &str,
+        loosest: Level,
+    ) -> fmt::Result {
         for (index, part) in all.iter().enumerate() {
             if index > 0 {
                 f.write_str(separator)?;
@@ -193,7 +204,8 @@ impl Written<'_, Formula> {
         Ok(())
     }
 
-    /// A comparison with 0, written without negative numbers: what is positive on the left, the rest on the right.
+    /// A comparison with 0, written without negative numbers: what is positive on the left, the
+    /// rest on the right.
     fn linear(&self, f: &mut Formatter<'_>, linear: &Linear, comparison: &str) -> fmt::Result {
         if let ([(place, -1)], 1, "<=") = (linear.weights.as_slice(), linear.constant, comparison) {
             return f.write_str(&self.place(*place));
@@ -251,12 +263,17 @@ fn level(formula: &Formula) -> Level {
 /// What is 0, if that is what a formula says: an inequality and the one of its negative.
 fn equality(formula: &Formula) -> Option<&Linear> {
     let Formula::And(all) = formula else { return None };
-    let [Formula::Atom(Atom::AtMost(first)), Formula::Atom(Atom::AtMost(second))] = all.as_slice() else {
+    let [Formula::Atom(Atom::AtMost(first)), Formula::Atom(Atom::AtMost(second))] = all.as_slice()
+    else {
         return None;
     };
     let negative = |(a, b): (i64, i64)| a.checked_neg() == Some(b);
     let same = first.weights.len() == second.weights.len()
         && negative((first.constant, second.constant))
-        && first.weights.iter().zip(&second.weights).all(|(a, b)| a.0 == b.0 && negative((a.1, b.1)));
+        && first
+            .weights
+            .iter()
+            .zip(&second.weights)
+            .all(|(a, b)| a.0 == b.0 && negative((a.1, b.1)));
     same.then_some(first)
 }

@@ -6,7 +6,8 @@ use std::ops::Range;
 
 /// A property that cannot be read.
 ///
-/// Its `Display` is plain text: `source:line:column: message`, and a line of help where there is some.
+/// Its `Display` is plain text: `source:line:column: message`, and a line of help where there is
+/// some.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PropertyError {
     /// The name of the file; `property` for a text.
@@ -54,7 +55,12 @@ impl Fault {
             column: 1 + before[line_start..].chars().count(),
             span: self.span,
         };
-        PropertyError { source_name: source_name.to_owned(), at, message: self.message, help: self.help }
+        PropertyError {
+            source_name: source_name.to_owned(),
+            at,
+            message: self.message,
+            help: self.help,
+        }
     }
 }
 

@@ -26,7 +26,8 @@ impl Marking for [u64] {
     }
 }
 
-/// A formula about one marking, made to be evaluated fast: a chain of tests, each of which says where to go on.
+/// A formula about one marking, made to be evaluated fast: a chain of tests, each of which says
+/// where to go on.
 ///
 /// ```
 /// # use cotama_core::net::owned::{OwnedNet, OwnedPlace};
@@ -62,7 +63,8 @@ enum Test {
 }
 
 impl<'n> Condition<'n> {
-    /// `None` when the formula has temporal operators or quantifiers. Its transitions are those of the net.
+    /// `None` when the formula has temporal operators or quantifiers. Its transitions are those of
+    /// the net.
     pub fn new(formula: &Formula, net: &'n Pt) -> Option<Self> {
         let mut condition = Self { net, tests: Vec::new(), first: 0 };
         condition.first = formula.is_state().then(|| condition.add(formula, ENDS))?;
@@ -78,7 +80,9 @@ impl<'n> Condition<'n> {
                 Test::AtLeast(place, tokens) => marking.tokens(*place) >= *tokens,
                 Test::AtMostZero(linear) => linear.holds(marking),
                 Test::Fireable(transition) => self.enabled(marking, *transition),
-                Test::Deadlock => (0..self.net.transitions.len() as u32).all(|it| !self.enabled(marking, it)),
+                Test::Deadlock => {
+                    (0..self.net.transitions.len() as u32).all(|it| !self.enabled(marking, it))
+                }
             };
             at = next[usize::from(holds)];
         }
@@ -90,16 +94,20 @@ impl<'n> Condition<'n> {
         needs.iter().all(|&(place, tokens)| marking.tokens(PlaceId(place)) >= u64::from(tokens))
     }
 
-    /// Adds the tests of a formula that lead to one of two tests that are there; where the first of them is.
+    /// Adds the tests of a formula that lead to one of two tests that are there; where the first of
+    /// them is.
     fn add(&mut self, formula: &Formula, [no, yes]: [u32; 2]) -> u32 {
         match formula {
             Formula::Not(inner) => self.add(inner, [yes, no]),
-            Formula::And(all) => all.iter().rev().fold(yes, |next, part| self.add(part, [no, next])),
+            Formula::And(all) => {
+                all.iter().rev().fold(yes, |next, part| self.add(part, [no, next]))
+            }
             Formula::Or(all) => all.iter().rev().fold(no, |next, part| self.add(part, [next, yes])),
             Formula::Atom(Atom::AtMost(linear)) => self.compare(linear, [no, yes]),
-            Formula::Atom(Atom::Fireable(transitions)) => {
-                transitions.iter().rev().fold(no, |next, it| self.push(Test::Fireable(it.0), [next, yes]))
-            }
+            Formula::Atom(Atom::Fireable(transitions)) => transitions
+                .iter()
+                .rev()
+                .fold(no, |next, it| self.push(Test::Fireable(it.0), [next, yes])),
             Formula::Atom(Atom::Deadlock) => self.push(Test::Deadlock, [no, yes]),
             // `new` lets no other formula pass.
             _ => no,
@@ -116,10 +124,12 @@ impl<'n> Condition<'n> {
         match linear.weights.as_slice() {
             [] => [no, yes][usize::from(constant <= 0)],
             // constant + weight * tokens <= 0: fewer tokens than the first number that is too large
-            &[(place, weight @ 1..)] => match u64::try_from((-constant).div_euclid(i128::from(weight)) + 1) {
-                Ok(tokens) => self.push(Test::AtLeast(place, tokens), [yes, no]),
-                Err(_) => no,
-            },
+            &[(place, weight @ 1..)] => {
+                match u64::try_from((-constant).div_euclid(i128::from(weight)) + 1) {
+                    Ok(tokens) => self.push(Test::AtLeast(place, tokens), [yes, no]),
+                    Err(_) => no,
+                }
+            }
             // constant <= -weight * tokens: at least the quotient, rounded up
             &[(place, weight @ ..=-1)] => {
                 let tokens = -(-constant).div_euclid(-i128::from(weight));

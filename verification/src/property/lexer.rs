@@ -22,8 +22,8 @@ pub(super) struct Lexeme<'a> {
 
 /// A symbol stands before those that it starts with.
 const SYMBOLS: [&str; 22] = [
-    "<->", "->", "<=", ">=", "==", "!=", "||", "&&", "<", ">", "=", "|", "&", "!", "(", ")", "[", "]", "+",
-    "-", "*", ",",
+    "<->", "->", "<=", ">=", "==", "!=", "||", "&&", "<", ">", "=", "|", "&", "!", "(", ")", "[",
+    "]", "+", "-", "*", ",",
 ];
 
 /// Words that a place of the same name needs quotes for.
@@ -115,8 +115,11 @@ fn number(text: &str, at: usize) -> Result<(Token<'_>, usize), Fault> {
 /// The name in quotes or braces that a text starts with.
 fn name(text: &str, start: usize) -> Result<(Token<'_>, usize), Fault> {
     let quotes = text.starts_with('"');
-    let (close, escapes) =
-        if quotes { ('"', "`\\\"`, `\\\\` and `\\u{1b}`") } else { ('}', "`\\{`, `\\}` and `\\\\`") };
+    let (close, escapes) = if quotes {
+        ('"', "`\\\"`, `\\\\` and `\\u{1b}`")
+    } else {
+        ('}', "`\\{`, `\\}` and `\\\\`")
+    };
     let mut name = String::new();
     let mut characters = text.char_indices().skip(1);
     while let Some((at, character)) = characters.next() {
@@ -129,10 +132,14 @@ fn name(text: &str, start: usize) -> Result<(Token<'_>, usize), Fault> {
                     '"' if quotes => name.push('"'),
                     '{' | '}' if !quotes => name.push(escaped),
                     'u' if quotes => {
-                        let code = text[at + 2..].strip_prefix('{').and_then(|rest| rest.split_once('}'));
-                        let code = code.map(|(code, _)| code).filter(|code| (1..=6).contains(&code.len()));
-                        let character = code.filter(|code| code.bytes().all(|byte| byte.is_ascii_hexdigit()));
-                        let character = character.and_then(|code| u32::from_str_radix(code, 16).ok());
+                        let code =
+                            text[at + 2..].strip_prefix('{').and_then(|rest| rest.split_once('}'));
+                        let code =
+                            code.map(|(code, _)| code).filter(|code| (1..=6).contains(&code.len()));
+                        let character =
+                            code.filter(|code| code.bytes().all(|byte| byte.is_ascii_hexdigit()));
+                        let character =
+                            character.and_then(|code| u32::from_str_radix(code, 16).ok());
                         let Some(character) = character.and_then(char::from_u32) else {
                             return Err(Fault::new(
                                 start + at..start + at + 2,
@@ -145,8 +152,11 @@ fn name(text: &str, start: usize) -> Result<(Token<'_>, usize), Fault> {
                         characters.nth(code.map_or(0, str::len) + 1);
                     }
                     _ => {
-                        return Err(Fault::new(start + at..start + at + 1, "this `\\` escapes nothing")
-                            .help(format!("in such names there are {escapes}")));
+                        return Err(Fault::new(
+                            start + at..start + at + 1,
+                            "this `\\` escapes nothing",
+                        )
+                        .help(format!("in such names there are {escapes}")));
                     }
                 }
             }

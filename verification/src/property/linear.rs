@@ -64,10 +64,13 @@ impl Sum {
         let difference = self.plus(-1, other)?;
         let at_most = |factor: i128, more: i128| {
             let sum = Self::constant(more).plus(factor, &difference)?;
-            let weight = |(&place, &weight): (&PlaceId, &i128)| Some((place, i64::try_from(weight).ok()?));
+            let weight =
+                |(&place, &weight): (&PlaceId, &i128)| Some((place, i64::try_from(weight).ok()?));
             let weights = sum.weights.iter().filter(|&(_, &weight)| weight != 0).map(weight);
-            let linear =
-                Linear { constant: sum.constant.try_into().ok()?, weights: weights.collect::<Option<_>>()? };
+            let linear = Linear {
+                constant: sum.constant.try_into().ok()?,
+                weights: weights.collect::<Option<_>>()?,
+            };
             Some(Formula::Atom(Atom::AtMost(linear)))
         };
         let equal = || Some(Formula::And(vec![at_most(1, 0)?, at_most(-1, 0)?]));
@@ -88,7 +91,8 @@ impl Linear {
         Self { constant: 1, weights: vec![(place, -1)] }
     }
 
-    /// The inequality that holds exactly when this one does not; `None` when its numbers would be too large.
+    /// The inequality that holds exactly when this one does not; `None` when its numbers would be
+    /// too large.
     pub fn negated(&self) -> Option<Self> {
         let weight = |&(place, weight): &(PlaceId, i64)| Some((place, weight.checked_neg()?));
         Some(Self {
@@ -102,10 +106,12 @@ impl Formula {
     /// The most parts that the equivalences of one property may add.
     pub(super) const MAX_PARTS: usize = 1 << 20;
 
-    /// Both or neither; `None` when that is too long to write. `budget` is how many parts may still be added.
+    /// Both or neither; `None` when that is too long to write. `budget` is how many parts may still
+    /// be added.
     pub(super) fn equivalence(a: Self, b: Self, budget: &mut usize) -> Option<Self> {
         *budget = budget.checked_sub(a.parts() + b.parts())?;
-        let neither = Self::And(vec![Self::Not(Box::new(a.clone())), Self::Not(Box::new(b.clone()))]);
+        let neither =
+            Self::And(vec![Self::Not(Box::new(a.clone())), Self::Not(Box::new(b.clone()))]);
         Some(Self::Or(vec![Self::And(vec![a, b]), neither]))
     }
 

@@ -3,8 +3,9 @@
 use super::Formula;
 use std::collections::HashMap;
 
-/// A formula about one run as nodes that share what is equal, with negations in what is said of one marking only. A
-/// node speaks of nodes before it only. Runs are infinite: the last marking before a deadlock lasts.
+/// A formula about one run as nodes that share what is equal, with negations in what is said of one
+/// marking only. A node speaks of nodes before it only. Runs are infinite: the last marking before
+/// a deadlock lasts.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ltl {
     nodes: Vec<LtlNode>,
@@ -29,12 +30,14 @@ pub enum LtlNode {
 }
 
 impl Ltl {
-    /// The formula that stands after a quantifier. `None` when it has quantifiers, or speaks of time.
+    /// The formula that stands after a quantifier. `None` when it has quantifiers, or speaks of
+    /// time.
     pub fn new(path: &Formula) -> Option<Self> {
         Self::of(path, true)
     }
 
-    /// What is true of a run exactly when the formula is not: what a counterexample to `A` has to meet.
+    /// What is true of a run exactly when the formula is not: what a counterexample to `A` has to
+    /// meet.
     pub fn negation_of(path: &Formula) -> Option<Self> {
         Self::of(path, false)
     }
@@ -82,7 +85,8 @@ impl Builder {
         let node = match formula {
             Formula::Not(inner) => return self.add(inner, !positive),
             Formula::And(all) | Formula::Or(all) => {
-                let mut parts = all.iter().map(|it| self.add(it, positive)).collect::<Option<Vec<_>>>()?;
+                let mut parts =
+                    all.iter().map(|it| self.add(it, positive)).collect::<Option<Vec<_>>>()?;
                 parts.sort_unstable();
                 parts.dedup();
                 let conjunction = matches!(formula, Formula::And(_)) == positive;

@@ -28,12 +28,17 @@ use cotama_core::net::PlaceId;
 use std::collections::HashSet;
 use std::ops::Range;
 
-/// Reads a file of properties: any of reachability, CTL, LTL and upper bounds. `name` is the name of the file in
-/// messages. Nodes are called by id; where there is none, by name.
+/// Reads a file of properties: any of reachability, CTL, LTL and upper bounds. `name` is the name
+/// of the file in messages. Nodes are called by id; where there is none, by name.
 ///
 /// # Errors
 /// The first thing that is wrong with the file, and where.
-pub fn read(name: &str, bytes: &[u8], net: &Pt, ids: Ids<'_>) -> Result<Vec<Property>, PropertyError> {
+pub fn read(
+    name: &str,
+    bytes: &[u8],
+    net: &Pt,
+    ids: Ids<'_>,
+) -> Result<Vec<Property>, PropertyError> {
     let text = decode(bytes).map_err(|(fault, text)| fault.located(name, &text))?;
     let mut file = File {
         xml: Xml::new(text),
@@ -45,8 +50,8 @@ pub fn read(name: &str, bytes: &[u8], net: &Pt, ids: Ids<'_>) -> Result<Vec<Prop
     file.properties().map_err(|fault| fault.located(name, text))
 }
 
-/// The question of an examination that has no file, named after it: `ReachabilityDeadlock`, `Liveness`,
-/// `QuasiLiveness`, `StableMarking`, `OneSafe`. `None` for any other.
+/// The question of an examination that has no file, named after it: `ReachabilityDeadlock`,
+/// `Liveness`, `QuasiLiveness`, `StableMarking`, `OneSafe`. `None` for any other.
 pub fn examination(name: &str) -> Option<Property> {
     let question = match name {
         "ReachabilityDeadlock" => {
@@ -73,7 +78,8 @@ pub enum Answer {
     Unknown,
 }
 
-/// The line, without its end, that tells the contest the answer to a property, and how it was found.
+/// The line, without its end, that tells the contest the answer to a property, and how it was
+/// found.
 pub fn answer(property: &str, answer: Answer, techniques: &[&str]) -> String {
     let techniques = techniques.join(" ");
     match answer {
@@ -111,7 +117,8 @@ impl<'a> File<'a> {
             }
             let (property, span) = self.property(&element)?;
             if !names.insert(property.name.clone()) {
-                let fault = Fault::new(span, format!("a second property {}", quoted(&property.name)));
+                let fault =
+                    Fault::new(span, format!("a second property {}", quoted(&property.name)));
                 return Err(fault.help("give each an id of its own"));
             }
             properties.push(property);
@@ -151,7 +158,8 @@ impl<'a> File<'a> {
             let places = self.list(&element, "place", Names::place)?;
             let mut seen = HashSet::new();
             if !places.iter().all(|place| seen.insert(*place)) {
-                return Err(Fault::new(element.span, "a place stands twice in one sum").help("name it once"));
+                return Err(Fault::new(element.span, "a place stands twice in one sum")
+                    .help("name it once"));
             }
             Question::Bound(places)
         } else {
@@ -199,8 +207,10 @@ impl<'a> File<'a> {
     /// The formula that an element is, up to its end.
     fn formula(&mut self, element: &Element<'a>) -> Result<Formula, Fault> {
         if self.depth == MAX_DEPTH {
-            let fault =
-                Fault::new(element.span.clone(), format!("formulas are nested more than {MAX_DEPTH} deep"));
+            let fault = Fault::new(
+                element.span.clone(),
+                format!("formulas are nested more than {MAX_DEPTH} deep"),
+            );
             return Err(fault.help("the file is damaged or made to do harm"));
         }
         self.depth += 1;
@@ -211,7 +221,8 @@ impl<'a> File<'a> {
 
     fn operator(&mut self, element: &Element<'a>) -> Result<Formula, Fault> {
         if matches!(element.name, "finally" | "globally" | "next" | "until") && !self.quantified {
-            let message = format!("the temporal operator {} stands outside of a quantifier", element.shown());
+            let message =
+                format!("the temporal operator {} stands outside of a quantifier", element.shown());
             return Err(Fault::new(element.span.clone(), message)
                 .help("put `<all-paths>` or `<exists-path>` around it"));
         }
@@ -304,7 +315,8 @@ impl<'a> File<'a> {
 
     fn compared(&mut self, of: &Element<'a>, comparison: Comparison) -> Result<Formula, Fault> {
         let [left, right] = <[Sum; 2]>::try_from(self.numbers(of)?).map_err(|all| {
-            Fault::new(of.span.clone(), format!("{} of {} numbers", of.shown(), all.len())).help("it has two")
+            Fault::new(of.span.clone(), format!("{} of {} numbers", of.shown(), all.len()))
+                .help("it has two")
         })?;
         left.compare(comparison, &right).ok_or_else(|| too_large(of.span.clone()))
     }
@@ -321,8 +333,10 @@ impl<'a> File<'a> {
     /// The number that an element is, up to its end.
     fn number(&mut self, element: &Element<'a>) -> Result<Sum, Fault> {
         if self.depth == MAX_DEPTH {
-            let fault =
-                Fault::new(element.span.clone(), format!("formulas are nested more than {MAX_DEPTH} deep"));
+            let fault = Fault::new(
+                element.span.clone(),
+                format!("formulas are nested more than {MAX_DEPTH} deep"),
+            );
             return Err(fault.help("the file is damaged or made to do harm"));
         }
         self.depth += 1;

@@ -1,4 +1,5 @@
-//! What is asked of a net: the questions, a language to write them in, and the forms in which engines read them.
+//! What is asked of a net: the questions, a language to write them in, and the forms in which
+//! engines read them.
 //!
 //! ```
 //! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -44,20 +45,22 @@
 //! | `+`, `-` | sum, difference |
 //! | `*` | product, of which one factor is a number |
 //!
-//! What takes one operand takes a comparison, a negation or the like: `AG p <= 3` is `AG (p <= 3)`, and `AG p & q` is
-//! `(AG p) & q`. A quantifier may have brackets: `E[a U b]`. A temporal operator stands inside of a quantifier; one `A`
-//! in front of a formula makes it one of LTL: `A (G F a -> G F b)`. After `F`, `AF` and `EF` may stand a limit of time:
-//! `AF<=200ms p`, in `ms` or `s`. Atoms are `true`, `false`, `deadlock`, `fireable(t1, t2)` (one of them is enabled),
-//! comparisons, and names of places: `p` says that it is marked.
+//! What takes one operand takes a comparison, a negation or the like: `AG p <= 3` is `AG (p <= 3)`,
+//! and `AG p & q` is `(AG p) & q`. A quantifier may have brackets: `E[a U b]`. A temporal operator
+//! stands inside of a quantifier; one `A` in front of a formula makes it one of LTL: `A (G F a -> G
+//! F b)`. After `F`, `AF` and `EF` may stand a limit of time: `AF<=200ms p`, in `ms` or `s`. Atoms
+//! are `true`, `false`, `deadlock`, `fireable(t1, t2)` (one of them is enabled), comparisons, and
+//! names of places: `p` says that it is marked.
 //!
-//! A loop that nobody would stay in is no reason for "never": what is assumed of runs stands behind a formula,
-//! `AG (asked -> AF done) assuming weak(work), strong(grant), often(idle)`. A weakly fair transition is not enabled for ever without
-//! firing, a strongly fair one fires again and again if it is enabled again and again, and `often` holds again and again;
-//! there may be any number of each.
+//! A loop that nobody would stay in is no reason for "never": what is assumed of runs stands behind
+//! a formula, `AG (asked -> AF done) assuming weak(work), strong(grant), often(idle)`. A weakly
+//! fair transition is not enabled for ever without firing, a strongly fair one fires again and
+//! again if it is enabled again and again, and `often` holds again and again; there may be any
+//! number of each.
 //!
-//! A name is written as it is when it is made of letters, digits, `_`, `'`, and dots inside of it, does not start with
-//! a digit, and is no word of the language. Other names stand in quotes, `"a b"` with `\"`, `\\` and `\u{1b}`, or in
-//! braces as in TINA, `{a b}` with `\{`, `\}` and `\\`.
+//! A name is written as it is when it is made of letters, digits, `_`, `'`, and dots inside of it,
+//! does not start with a digit, and is no word of the language. Other names stand in quotes, `"a
+//! b"` with `\"`, `\\` and `\u{1b}`, or in braces as in TINA, `{a b}` with `\{`, `\}` and `\\`.
 
 mod ctl;
 mod display;
@@ -102,7 +105,8 @@ pub enum Question {
     Fair(Formula, Assumptions),
     /// The most tokens that these places ever hold together.
     Bound(Vec<PlaceId>),
-    /// The least and the most time from a firing of a transition to the first later instant at which a place is marked.
+    /// The least and the most time from a firing of a transition to the first later instant at
+    /// which a place is marked.
     Response {
         /// The transition.
         from: TransitionId,
@@ -129,7 +133,8 @@ impl Question {
     }
 }
 
-/// What is assumed of runs: one that does not meet all of it does not count. One that ends in a deadlock stays there for ever.
+/// What is assumed of runs: one that does not meet all of it does not count. One that ends in a
+/// deadlock stays there for ever.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Assumptions {
     /// None of these is enabled for ever from some time on without firing.
@@ -140,8 +145,9 @@ pub struct Assumptions {
     pub often: Vec<Formula>,
 }
 
-/// A formula of CTL, of LTL (one `All` in front), or bounded response. `Exists` and `All` quantify over maximal runs: those that
-/// go on for ever, and those that end in a deadlock, in which the last marking lasts.
+/// A formula of CTL, of LTL (one `All` in front), or bounded response. `Exists` and `All` quantify
+/// over maximal runs: those that go on for ever, and those that end in a deadlock, in which the
+/// last marking lasts.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub enum Formula {
     /// Something about the marking.
@@ -156,8 +162,9 @@ pub enum Formula {
     Exists(Box<Formula>),
     /// On all runs from here.
     All(Box<Formula>),
-    /// In the next marking. Right after a quantifier, of something that needs no run: in some or in every successor; after a
-    /// deadlock there is none, so that `EX` is false and `AX` true there. Elsewhere: after a deadlock in the marking that lasts.
+    /// In the next marking. Right after a quantifier, of something that needs no run: in some or in
+    /// every successor; after a deadlock there is none, so that `EX` is false and `AX` true there.
+    /// Elsewhere: after a deadlock in the marking that lasts.
     Next(Box<Formula>),
     /// At some time.
     Finally(Box<Formula>),
@@ -225,7 +232,9 @@ impl Formula {
                 Kind::Reachability
             }
             _ if self.is_ctl() => Kind::Ctl,
-            Self::All(path) if !path.any(&|it| matches!(it, Self::Exists(_) | Self::All(_))) => Kind::Ltl,
+            Self::All(path) if !path.any(&|it| matches!(it, Self::Exists(_) | Self::All(_))) => {
+                Kind::Ltl
+            }
             _ => Kind::Other,
         }
     }
@@ -241,7 +250,11 @@ impl Formula {
             Self::Atom(_) | Self::Exists(_) | Self::All(_) => false,
             Self::Not(inner) => inner.needs_run(),
             Self::And(all) | Self::Or(all) => all.iter().any(Self::needs_run),
-            Self::Next(_) | Self::Finally(_) | Self::Globally(_) | Self::Until(..) | Self::Within(..) => true,
+            Self::Next(_)
+            | Self::Finally(_)
+            | Self::Globally(_)
+            | Self::Until(..)
+            | Self::Within(..) => true,
         }
     }
 
@@ -259,7 +272,8 @@ impl Formula {
         }
     }
 
-    /// The same formula with other formulas in place of its atoms; `None` when there is none for one of them.
+    /// The same formula with other formulas in place of its atoms; `None` when there is none for
+    /// one of them.
     pub fn with_atoms(&self, other: &mut impl FnMut(&Atom) -> Option<Self>) -> Option<Self> {
         let mut boxed = |it: &Self| it.with_atoms(other).map(Box::new);
         Some(match self {
@@ -272,8 +286,12 @@ impl Formula {
             Self::Until(a, b) => Self::Until(boxed(a)?, boxed(b)?),
             Self::Within(time, a) => Self::Within(*time, boxed(a)?),
             Self::Atom(atom) => other(atom)?,
-            Self::And(all) => Self::And(all.iter().map(|it| it.with_atoms(other)).collect::<Option<_>>()?),
-            Self::Or(all) => Self::Or(all.iter().map(|it| it.with_atoms(other)).collect::<Option<_>>()?),
+            Self::And(all) => {
+                Self::And(all.iter().map(|it| it.with_atoms(other)).collect::<Option<_>>()?)
+            }
+            Self::Or(all) => {
+                Self::Or(all.iter().map(|it| it.with_atoms(other)).collect::<Option<_>>()?)
+            }
         })
     }
 

@@ -8,7 +8,8 @@ use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// The ids that the nodes of a net had in its file. Property files call nodes by id; where there is none, by name.
+/// The ids that the nodes of a net had in its file. Property files call nodes by id; where there is
+/// none, by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Ids<'a> {
     /// Those of places.
@@ -84,10 +85,11 @@ impl<'a> Names<'a> {
     pub(super) fn place(&self, name: &str, span: Range<usize>) -> Result<PlaceId, Fault> {
         match self.places.positions.get(name) {
             Some(&at) => Ok(PlaceId(at)),
-            None if self.transitions.positions.contains_key(name) => {
-                Err(Fault::new(span, format!("{} is a transition, and a place is expected", quoted(name)))
-                    .help(format!("whether it is enabled says `fireable({})`", written(name))))
-            }
+            None if self.transitions.positions.contains_key(name) => Err(Fault::new(
+                span,
+                format!("{} is a transition, and a place is expected", quoted(name)),
+            )
+            .help(format!("whether it is enabled says `fireable({})`", written(name)))),
             None => Err(self.places.missing("place", name, span)),
         }
     }
@@ -95,10 +97,11 @@ impl<'a> Names<'a> {
     pub(super) fn transition(&self, name: &str, span: Range<usize>) -> Result<TransitionId, Fault> {
         match self.transitions.positions.get(name) {
             Some(&at) => Ok(TransitionId(at)),
-            None if self.is_place(name) => {
-                Err(Fault::new(span, format!("{} is a place, and a transition is expected", quoted(name)))
-                    .help("give the name of a transition"))
-            }
+            None if self.is_place(name) => Err(Fault::new(
+                span,
+                format!("{} is a place, and a transition is expected", quoted(name)),
+            )
+            .help("give the name of a transition")),
             None => Err(self.transitions.missing("transition", name, span)),
         }
     }

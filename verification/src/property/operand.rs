@@ -88,7 +88,8 @@ impl Parser<'_> {
         Ok(inner)
     }
 
-    /// What nothing is nested in. Kept out of the way of what nests, which a deep text puts on the stack many times.
+    /// What nothing is nested in. Kept out of the way of what nests, which a deep text puts on the
+    /// stack many times.
     #[inline(never)]
     fn simple(&mut self) -> Result<Value, Fault> {
         let span = self.span();
@@ -102,26 +103,38 @@ impl Parser<'_> {
             Token::Word("false") => self.statement(Formula::FALSE),
             Token::Word("deadlock") => self.statement(Formula::Atom(Atom::Deadlock)),
             Token::Word("fireable") => self.fireable()?,
-            Token::Word(question @ ("bounds" | "bound" | "live" | "quasi_live" | "stable" | "one_safe")) => {
-                let fault =
-                    Fault::new(span, format!("`{question}` is a question of its own, not a statement"));
+            Token::Word(
+                question @ ("bounds" | "bound" | "live" | "quasi_live" | "stable" | "one_safe"),
+            ) => {
+                let fault = Fault::new(
+                    span,
+                    format!("`{question}` is a question of its own, not a statement"),
+                );
                 return Err(fault.help("ask for it alone"));
             }
             Token::Word(word) if next == Some(&Token::Symbol("(")) && !is_reserved(word) => {
                 let known = ["fireable", "bounds", "bound"];
                 let meant = known.into_iter().find(|known| strsim::osa_distance(word, known) <= 2);
-                let fault =
-                    Fault::new(span, format!("{} is not something that is said of names", quoted(word)));
+                let fault = Fault::new(
+                    span,
+                    format!("{} is not something that is said of names", quoted(word)),
+                );
                 return Err(match meant {
                     Some(meant) => fault.help(format!("did you mean `{meant}`?")),
-                    None => fault.help("there are `fireable(t1, t2)`, `bounds(p1 + p2)` and `bound(t -> p)`"),
+                    None => fault.help(
+                        "there are `fireable(t1, t2)`, `bounds(p1 + p2)` and `bound(t -> p)`",
+                    ),
                 });
             }
             Token::Word(_) | Token::Quoted(_) => {
                 let (name, span) = self.name("a place")?;
                 What::Sum(Sum::tokens(self.names.place(name, span)?))
             }
-            _ => return Err(self.unexpected("a statement, a number or the name of a place is expected")),
+            _ => {
+                return Err(
+                    self.unexpected("a statement, a number or the name of a place is expected")
+                );
+            }
         };
         Ok(Value::new(what, span.start..self.end()))
     }

@@ -143,7 +143,11 @@ impl<'t> Parser<'t> {
     }
 
     pub(super) fn expect(&mut self, symbol: &str) -> Result<(), Fault> {
-        if self.take(&[symbol]) { Ok(()) } else { Err(self.unexpected(&format!("`{symbol}` is expected"))) }
+        if self.take(&[symbol]) {
+            Ok(())
+        } else {
+            Err(self.unexpected(&format!("`{symbol}` is expected")))
+        }
     }
 
     #[cold]
@@ -212,13 +216,16 @@ impl<'t> Parser<'t> {
                 let start = self.span().start;
                 let formula = self.expression(Join::Equivalence)?.formula()?;
                 if !formula.is_state() {
-                    let fault = Fault::new(start..self.end(), "this speaks of more than one marking");
+                    let fault =
+                        Fault::new(start..self.end(), "this speaks of more than one marking");
                     return Err(fault.help("what holds again and again has no temporal operators"));
                 }
                 self.expect(")")?;
                 assumed.often.push(formula);
             } else {
-                return Err(self.unexpected("what is assumed is `weak(t)`, `strong(t)` or `often(p)`"));
+                return Err(
+                    self.unexpected("what is assumed is `weak(t)`, `strong(t)` or `often(p)`")
+                );
             }
             if !self.take(&[","]) {
                 return Ok(assumed);
@@ -233,7 +240,8 @@ impl<'t> Parser<'t> {
             let (name, span) = self.name("a place")?;
             let place = self.names.place(name, span.clone())?;
             if places.contains(&place) {
-                let fault = Fault::new(span, format!("the place {} stands twice in one sum", quoted(name)));
+                let fault =
+                    Fault::new(span, format!("the place {} stands twice in one sum", quoted(name)));
                 return Err(fault.help("name it once"));
             }
             places.push(place);
@@ -252,7 +260,9 @@ impl<'t> Parser<'t> {
             Token::Word(word) if !is_reserved(word) => *word,
             Token::Quoted(name) => name,
             Token::Word(_) => {
-                return Err(self.unexpected("it is a word of the language; put a name like it in quotes"));
+                return Err(
+                    self.unexpected("it is a word of the language; put a name like it in quotes")
+                );
             }
             _ => return Err(self.unexpected(&format!("the name of {expected} is expected"))),
         };
@@ -262,7 +272,10 @@ impl<'t> Parser<'t> {
     }
 
     /// What is nested in the next thing: counts how deep.
-    pub(super) fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Result<T, Fault>) -> Result<T, Fault> {
+    pub(super) fn nested<T>(
+        &mut self,
+        read: impl FnOnce(&mut Self) -> Result<T, Fault>,
+    ) -> Result<T, Fault> {
         if self.depth == MAX_DEPTH {
             let message = format!("operators are nested more than {MAX_DEPTH} deep");
             return Err(Fault::new(self.span(), message).help("ask for its parts one by one"));
@@ -335,7 +348,10 @@ impl<'t> Parser<'t> {
 
     /// Where the last word that was passed ends.
     pub(super) fn end(&self) -> usize {
-        self.at.checked_sub(1).and_then(|at| self.lexemes.get(at)).map_or(0, |lexeme| lexeme.span.end)
+        self.at
+            .checked_sub(1)
+            .and_then(|at| self.lexemes.get(at))
+            .map_or(0, |lexeme| lexeme.span.end)
     }
 
     /// Negations, quantifiers and temporal operators with what they are said of.
@@ -357,8 +373,11 @@ impl<'t> Parser<'t> {
         if let (Some(temporal), false) = (temporal, self.quantified) {
             return Err(outside(temporal, span));
         }
-        let limit =
-            if temporal == Some("F") && self.take(&["<="]) { Some(self.milliseconds()?) } else { None };
+        let limit = if temporal == Some("F") && self.take(&["<="]) {
+            Some(self.milliseconds()?)
+        } else {
+            None
+        };
         let inner = if quantifier.is_some() && temporal.is_none() && self.take(&["["]) {
             let inner = self.nested(|it| it.expression(Join::Equivalence))?.formula()?;
             self.expect("]")?;
@@ -408,5 +427,6 @@ fn outside(operator: &str, span: Range<usize>) -> Fault {
         "U" => "write `A[a U b]` or `E[a U b]`".to_owned(),
         _ => format!("write `A{operator}` or `E{operator}`, or `A (...)` around a formula of LTL"),
     };
-    Fault::new(span, format!("the temporal operator `{operator}` stands outside of a quantifier")).help(help)
+    Fault::new(span, format!("the temporal operator `{operator}` stands outside of a quantifier"))
+        .help(help)
 }

@@ -2,8 +2,8 @@
 
 use super::Formula;
 
-/// What a formula asks of reachable markings: it holds exactly when whether some reachable marking meets the goal is
-/// as `expected`.
+/// What a formula asks of reachable markings: it holds exactly when whether some reachable marking
+/// meets the goal is as `expected`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reachability {
     /// What is looked for: a formula about one marking.

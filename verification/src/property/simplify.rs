@@ -4,8 +4,9 @@ use super::{Atom, Formula, Linear};
 use std::collections::HashSet;
 
 impl Formula {
-    /// A formula that holds in the same markings (on the same runs) of every net, with constants folded, nested
-    /// operators merged where one of them suffices, and as one of CTL where that is known to be possible.
+    /// A formula that holds in the same markings (on the same runs) of every net, with constants
+    /// folded, nested operators merged where one of them suffices, and as one of CTL where that is
+    /// known to be possible.
     #[must_use]
     pub fn simplified(&self) -> Self {
         match self {
@@ -14,7 +15,11 @@ impl Formula {
                 let mut transitions = transitions.clone();
                 transitions.sort_unstable();
                 transitions.dedup();
-                if transitions.is_empty() { Self::FALSE } else { Self::Atom(Atom::Fireable(transitions)) }
+                if transitions.is_empty() {
+                    Self::FALSE
+                } else {
+                    Self::Atom(Atom::Fireable(transitions))
+                }
             }
             Self::Atom(Atom::Deadlock) => self.clone(),
             Self::Not(inner) => inner.simplified().negated(),
@@ -30,7 +35,9 @@ impl Formula {
                 inner => temporal(inner, Self::Globally),
             },
             Self::Until(a, b) => until(a.simplified(), b.simplified()),
-            Self::Within(limit, inner) => temporal(inner.simplified(), |inner| Self::Within(*limit, inner)),
+            Self::Within(limit, inner) => {
+                temporal(inner.simplified(), |inner| Self::Within(*limit, inner))
+            }
         }
     }
 
@@ -137,7 +144,8 @@ fn successor(exists: bool, inner: Formula) -> Formula {
     }
 }
 
-/// A simple path under a quantifier; its next markings are those of a run, which a last marking follows itself.
+/// A simple path under a quantifier; its next markings are those of a run, which a last marking
+/// follows itself.
 fn quantified(exists: bool, path: Formula) -> Formula {
     if !path.needs_run() {
         return path;
@@ -156,7 +164,8 @@ fn quantified(exists: bool, path: Formula) -> Formula {
 
 fn next_of_a_run(exists: bool, inner: Formula) -> Formula {
     if !inner.is_state() {
-        // Here it would stand twice, and in others like it four times. Right after a quantifier it would mean successors.
+        // Here it would stand twice, and in others like it four times. Right after a quantifier it
+        // would mean successors.
         let never = Formula::Not(Formula::Next(inner.into()).into());
         return Formula::Not(after(!exists, never).into());
     }
@@ -239,21 +248,25 @@ fn branching(exists: bool, path: &Formula) -> Option<Formula> {
 impl Linear {
     /// The shortest inequality for numbers of tokens, which are whole and not negative.
     fn simplified(&self) -> Formula {
-        let weights = || self.weights.iter().map(|&(_, weight)| weight).filter(|&weight| weight != 0);
+        let weights =
+            || self.weights.iter().map(|&(_, weight)| weight).filter(|&weight| weight != 0);
         if self.constant > 0 && weights().all(|weight| weight > 0) {
             return Formula::FALSE;
         }
         if self.constant <= 0 && weights().all(|weight| weight < 0) {
             return Formula::TRUE;
         }
-        let divisor =
-            i128::from(weights().fold(0, |divisor, weight| gcd(divisor, weight.unsigned_abs())).max(1));
+        let divisor = i128::from(
+            weights().fold(0, |divisor, weight| gcd(divisor, weight.unsigned_abs())).max(1),
+        );
         // A quotient is no larger than what is divided.
         let constant = -(-i128::from(self.constant)).div_euclid(divisor);
         let weights = self.weights.iter().filter(|&&(_, weight)| weight != 0);
         Formula::Atom(Atom::AtMost(Self {
             constant: constant as i64,
-            weights: weights.map(|&(place, weight)| (place, (i128::from(weight) / divisor) as i64)).collect(),
+            weights: weights
+                .map(|&(place, weight)| (place, (i128::from(weight) / divisor) as i64))
+                .collect(),
         }))
     }
 }

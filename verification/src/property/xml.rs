@@ -1,5 +1,5 @@
-//! The elements and texts of an XML file, bounded, each with its place in the file. Entities other than the five of
-//! XML are refused, so nothing grows. Attributes and namespaces mean nothing here.
+//! The elements and texts of an XML file, bounded, each with its place in the file. Entities other
+//! than the five of XML are refused, so nothing grows. Attributes and namespaces mean nothing here.
 
 use super::error::{Fault, quoted};
 use quick_xml::errors::{Error, IllFormedError};
@@ -42,7 +42,8 @@ enum Piece<'a> {
 /// The text of a file without its byte order mark.
 pub(super) fn decode(bytes: &[u8]) -> Result<&str, (Fault, String)> {
     if bytes.len() > MAX_FILE {
-        let fault = Fault::new(0..0, format!("the file has {} bytes, more than {MAX_FILE}", bytes.len()));
+        let fault =
+            Fault::new(0..0, format!("the file has {} bytes, more than {MAX_FILE}", bytes.len()));
         return Err((fault.help("split it"), String::new()));
     }
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
@@ -63,20 +64,21 @@ impl<'a> Xml<'a> {
         Self { text, reader, open: Vec::new(), rooted: false }
     }
 
-    /// The next element inside of the one that is open; `None` when that one ends, which closes it. At first: the
-    /// element of the file.
+    /// The next element inside of the one that is open; `None` when that one ends, which closes it.
+    /// At first: the element of the file.
     pub(super) fn child(&mut self) -> Result<Option<Element<'a>>, Fault> {
         loop {
             match self.next()? {
                 Piece::Start(element) => return Ok(Some(element)),
                 Piece::End | Piece::Eof => return Ok(None),
                 Piece::Text(text, span) if !text.trim().is_empty() => {
-                    let lead =
-                        self.text.get(span.clone()).map_or(0, |raw| raw.len() - raw.trim_start().len());
+                    let lead = self
+                        .text
+                        .get(span.clone())
+                        .map_or(0, |raw| raw.len() - raw.trim_start().len());
                     let message = format!("the text {} is not expected here", quoted(text.trim()));
-                    return Err(
-                        Fault::new(span.start + lead..span.end, message).help("an element is expected")
-                    );
+                    return Err(Fault::new(span.start + lead..span.end, message)
+                        .help("an element is expected"));
                 }
                 Piece::Text(..) => {}
             }
@@ -92,7 +94,8 @@ impl<'a> Xml<'a> {
                     text.push_str(&part);
                     span.end = place.end;
                     if text.len() > MAX_TEXT {
-                        let fault = Fault::new(span, format!("a text is longer than {MAX_TEXT} bytes"));
+                        let fault =
+                            Fault::new(span, format!("a text is longer than {MAX_TEXT} bytes"));
                         return Err(fault.help("the file is damaged or made to do harm"));
                     }
                 }
@@ -130,8 +133,9 @@ impl<'a> Xml<'a> {
             match event.map_err(|error| self.syntax(&error, span.clone()))? {
                 Event::Start(tag) => {
                     for attribute in tag.attributes() {
-                        attribute
-                            .map_err(|error| Fault::new(span.clone(), format!("this is not XML: {error}")))?;
+                        attribute.map_err(|error| {
+                            Fault::new(span.clone(), format!("this is not XML: {error}"))
+                        })?;
                     }
                     return self.start(span).map(Piece::Start);
                 }
@@ -179,11 +183,14 @@ impl<'a> Xml<'a> {
     fn eof(&self) -> Result<Piece<'a>, Fault> {
         let end = self.text.len()..self.text.len();
         match self.open.last() {
-            Some((name, _)) => Err(Fault::new(end, format!("the file ends before {} is closed", tag(name)))
-                .help("the file is cut off")),
+            Some((name, _)) => {
+                Err(Fault::new(end, format!("the file ends before {} is closed", tag(name)))
+                    .help("the file is cut off"))
+            }
             None if self.rooted => Ok(Piece::Eof),
-            None => Err(Fault::new(end, "the file has no element")
-                .help("a property file of the Model Checking Contest has one `<property-set>` element")),
+            None => Err(Fault::new(end, "the file has no element").help(
+                "a property file of the Model Checking Contest has one `<property-set>` element",
+            )),
         }
     }
 
@@ -195,7 +202,8 @@ impl<'a> Xml<'a> {
             return Err(fault.help("put its properties into the first"));
         }
         if self.open.len() >= MAX_ELEMENTS {
-            let fault = Fault::new(span, format!("elements are nested more than {MAX_ELEMENTS} deep"));
+            let fault =
+                Fault::new(span, format!("elements are nested more than {MAX_ELEMENTS} deep"));
             return Err(fault.help("the file is damaged or made to do harm"));
         }
         self.open.push((full, span.clone()));
@@ -213,14 +221,16 @@ impl<'a> Xml<'a> {
             }
             (Some(_), _) => Ok(()),
             (None, _) => {
-                let message = format!("{} closes nothing", tag(&format!("/{}", name.unwrap_or(""))));
+                let message =
+                    format!("{} closes nothing", tag(&format!("/{}", name.unwrap_or(""))));
                 Err(Fault::new(span, message).help("remove it"))
             }
         }
     }
 
     fn syntax(&self, error: &Error, span: Range<usize>) -> Fault {
-        let mut start = (self.reader.error_position() as usize).clamp(span.start, span.end.max(span.start));
+        let mut start =
+            (self.reader.error_position() as usize).clamp(span.start, span.end.max(span.start));
         while !self.text.is_char_boundary(start) {
             start -= 1;
         }

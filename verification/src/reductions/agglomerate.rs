@@ -37,13 +37,16 @@ impl Around {
         let mut takers = Self::moves(draft, &self.takers);
         let alone = self.takers.len() == 1;
         takers.all(|it| it.needs == [(place, 1)] && !draft.is_visible(it))
-            && (alone || draft.initial[place as usize] == 0 && self.givers.iter().all(|it| it.1 == 1))
+            && (alone
+                || draft.initial[place as usize] == 0 && self.givers.iter().all(|it| it.1 == 1))
     }
 
-    /// Whether what gives can fire right before what takes: always if it may lose its tokens to others before (`free`).
+    /// Whether what gives can fire right before what takes: always if it may lose its tokens to
+    /// others before (`free`).
     fn pre(&self, draft: &Draft, place: u32, free: bool) -> bool {
         let mut givers = Self::moves(draft, &self.givers);
-        let alone = |from: u32| draft.users(from).filter(|(_, it)| it.need(from) > 0).nth(1).is_none();
+        let alone =
+            |from: u32| draft.users(from).filter(|(_, it)| it.need(from) > 0).nth(1).is_none();
         draft.initial[place as usize] == 0
             && !self.givers.is_empty()
             && (self.givers.len() == 1 || self.takers.iter().all(|it| it.1 == 1))
@@ -94,7 +97,8 @@ impl Around {
     /// Lets the only taker take what the place has at the start.
     fn emptied(&self, draft: &mut Draft, place: u32) -> bool {
         let tokens = draft.initial[place as usize];
-        let Some(taker) = Self::moves(draft, &self.takers).next().filter(|_| tokens > 0).cloned() else {
+        let Some(taker) = Self::moves(draft, &self.takers).next().filter(|_| tokens > 0).cloned()
+        else {
             return true;
         };
         let Some(marking) = taker.times(tokens).and_then(|all| {

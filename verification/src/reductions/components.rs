@@ -4,7 +4,8 @@
 pub(super) fn components(edges: &[Vec<u32>]) -> Vec<u32> {
     const NONE: u32 = u32::MAX;
     let count = edges.len();
-    let (mut component, mut low, mut number) = (vec![NONE; count], vec![0; count], vec![NONE; count]);
+    let (mut component, mut low, mut number) =
+        (vec![NONE; count], vec![0; count], vec![NONE; count]);
     let (mut open, mut calls, mut numbered, mut found) = (Vec::new(), Vec::new(), 0, 0);
     for root in 0..count {
         if number[root] != NONE {

@@ -28,7 +28,8 @@ impl Move {
     /// What it needs to fire so many times, at least once, in a row.
     pub(super) fn needs_of_times(&self, times: u32) -> Option<Vec<(u32, u32)>> {
         let need = |&(place, need): &(u32, u32)| {
-            let lost = self.effect(place).min(0).unsigned_abs().checked_mul(u64::from(times) - 1)?;
+            let lost =
+                self.effect(place).min(0).unsigned_abs().checked_mul(u64::from(times) - 1)?;
             Some((place, u32::try_from(lost.checked_add(need.into())?).ok()?))
         };
         self.needs.iter().map(need).collect()
@@ -130,7 +131,9 @@ impl Draft {
 
     /// The transitions that need or change a place.
     pub(super) fn users(&self, place: u32) -> impl Iterator<Item = (u32, &Move)> {
-        self.users[place as usize].iter().filter_map(|&at| Some((at, self.moves[at as usize].as_ref()?)))
+        self.users[place as usize]
+            .iter()
+            .filter_map(|&at| Some((at, self.moves[at as usize].as_ref()?)))
     }
 
     /// How transitions change a place.

@@ -8,7 +8,8 @@ const WIDTH: usize = 64;
 /// The most places that are summed up.
 const TERMS: usize = 64;
 
-/// Places that hold a constant more or less than others together, and never hold anything up beside those.
+/// Places that hold a constant more or less than others together, and never hold anything up beside
+/// those.
 pub(super) fn implied(draft: &mut Draft) -> usize {
     let mut count = 0;
     for place in draft.places() {
@@ -23,7 +24,8 @@ pub(super) fn implied(draft: &mut Draft) -> usize {
     count
 }
 
-/// A sum of places that changes like this one, found step by step: the place is chosen that leaves the least.
+/// A sum of places that changes like this one, found step by step: the place is chosen that leaves
+/// the least.
 fn summed(draft: &mut Draft, place: u32) -> Option<(i64, Row)> {
     let row = draft.row(place);
     if row.is_empty() || row.len() > WIDTH {
@@ -39,7 +41,9 @@ fn summed(draft: &mut Draft, place: u32) -> Option<(i64, Row)> {
             return None;
         }
         let fitting = |term: &&(u32, i64)| {
-            term.0 != place && term.1.signum() == by.signum() && term.1.unsigned_abs() <= by.unsigned_abs()
+            term.0 != place
+                && term.1.signum() == by.signum()
+                && term.1.unsigned_abs() <= by.unsigned_abs()
         };
         let candidates: Vec<u32> = it.effects.iter().filter(fitting).map(|it| it.0).collect();
         let mut best: Option<(u64, u32, Row)> = None;
@@ -74,11 +78,12 @@ fn summed(draft: &mut Draft, place: u32) -> Option<(i64, Row)> {
     }
     let sum: Row = sum.into_iter().collect();
     let tokens = |place: u32| i64::from(draft.initial[place as usize]);
-    let constant = sum
-        .iter()
-        .try_fold(tokens(place), |all, &(term, weight)| all.checked_sub(weight.checked_mul(tokens(term))?))?;
+    let constant = sum.iter().try_fold(tokens(place), |all, &(term, weight)| {
+        all.checked_sub(weight.checked_mul(tokens(term))?)
+    })?;
     let enough = draft.users(place).all(|(_, it)| {
-        let given = sum.iter().map(|&(term, weight)| i128::from(weight) * i128::from(it.need(term)));
+        let given =
+            sum.iter().map(|&(term, weight)| i128::from(weight) * i128::from(it.need(term)));
         let need = it.need(place);
         need == 0 || i128::from(need) <= i128::from(constant) + given.sum::<i128>()
     });

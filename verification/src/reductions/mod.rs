@@ -1,8 +1,9 @@
 //! Smaller nets with the same answer.
 //!
-//! [`reduce`] takes places and transitions away from a net, and puts transitions together, as long as what is asked has the
-//! same answer. A [`Trail`] leads back: [`Trail::place`] tells tokens of the original net from those of the reduced one,
-//! and [`Trail::lift`] makes a run of the original net of one of the reduced net.
+//! [`reduce`] takes places and transitions away from a net, and puts transitions together, as long
+//! as what is asked has the same answer. A [`Trail`] leads back: [`Trail::place`] tells tokens of
+//! the original net from those of the reduced one, and [`Trail::lift`] makes a run of the original
+//! net of one of the reduced net.
 //!
 //! ```
 //! use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -52,10 +53,11 @@ use std::collections::BTreeMap;
 pub enum Goal {
     /// Which markings of the visible places can be reached.
     Reachability,
-    /// Which markings of the visible places can be reached in a deadlock; without visible places, whether there is one.
+    /// Which markings of the visible places can be reached in a deadlock; without visible places,
+    /// whether there is one.
     Deadlock,
-    /// Which sequences of markings the visible places pass through on maximal runs, where it does not count how long a
-    /// marking lasts: formulas of LTL without a next operator.
+    /// Which sequences of markings the visible places pass through on maximal runs, where it does
+    /// not count how long a marking lasts: formulas of LTL without a next operator.
     StutterInvariantLtl,
     /// Everything that CTL tells of the visible places, step by step, and of deadlocks.
     Ctl,
@@ -68,7 +70,8 @@ pub enum Goal {
 pub struct Keep {
     /// The places that are visible.
     pub places: Vec<PlaceId>,
-    /// Transitions of which it must be seen whether they are enabled: the places that they need are visible.
+    /// Transitions of which it must be seen whether they are enabled: the places that they need are
+    /// visible.
     pub transitions: Vec<TransitionId>,
     /// What is asked of them.
     pub goal: Goal,
@@ -97,7 +100,8 @@ impl Keep {
 pub struct Limits {
     /// The rules that may be used; those that do not keep the goal are not.
     pub rules: Vec<Rule>,
-    /// How many arcs may be looked at, roughly. When they have been, the net is left as far as it is reduced.
+    /// How many arcs may be looked at, roughly. When they have been, the net is left as far as it
+    /// is reduced.
     pub work: u64,
 }
 
@@ -110,12 +114,13 @@ impl Default for Limits {
 /// A reduced net.
 #[derive(Clone, Debug)]
 pub struct Reduced {
-    /// The net. Places have the names that they had; a transition that stands for several has theirs.
+    /// The net. Places have the names that they had; a transition that stands for several has
+    /// theirs.
     pub net: Pt,
     /// The way back.
     pub trail: Trail,
-    /// Of each rule, in the order of [`Rule::ALL`], how many places and transitions it changed or took away; rules that
-    /// did nothing are not listed.
+    /// Of each rule, in the order of [`Rule::ALL`], how many places and transitions it changed or
+    /// took away; rules that did nothing are not listed.
     pub counts: Vec<(Rule, usize)>,
 }
 
@@ -129,13 +134,18 @@ pub fn reduce_within(pt: &Pt, keep: &Keep, limits: &Limits) -> Reduced {
     let mut draft = Draft::new(pt, keep.visible(pt), keep.goal, limits.work);
     let mut names = pt.transitions.clone();
     let mut counts: BTreeMap<Rule, usize> = BTreeMap::new();
-    let usable: Vec<Rule> =
-        Rule::ALL.into_iter().filter(|it| it.keeps(keep.goal) && limits.rules.contains(it)).collect();
+    let usable: Vec<Rule> = Rule::ALL
+        .into_iter()
+        .filter(|it| it.keeps(keep.goal) && limits.rules.contains(it))
+        .collect();
     let mut changed = true;
     while std::mem::take(&mut changed) {
         for &rule in &usable {
-            // The search for implied places is the dearest; it waits until nothing else is left to do.
-            if !draft.spend(draft.arcs + draft.present.len()) || (rule == Rule::ImpliedPlace && changed) {
+            // The search for implied places is the dearest; it waits until nothing else is left to
+            // do.
+            if !draft.spend(draft.arcs + draft.present.len())
+                || (rule == Rule::ImpliedPlace && changed)
+            {
                 continue;
             }
             let count = apply(rule, &mut draft, &mut names);

@@ -42,7 +42,8 @@ pub(super) fn unlimited(draft: &mut Draft) -> usize {
     let mut count = 0;
     for place in draft.places() {
         let tokens = draft.initial[place as usize];
-        let harmless = draft.users(place).all(|(_, it)| it.effect(place) >= 0 && it.need(place) <= tokens);
+        let harmless =
+            draft.users(place).all(|(_, it)| it.effect(place) >= 0 && it.need(place) <= tokens);
         if harmless && !draft.visible[place as usize] {
             draft.drop_place(place);
             count += 1;
@@ -112,8 +113,8 @@ pub(super) fn proportional(draft: &mut Draft) -> usize {
     count
 }
 
-/// Whether the first place need not be there beside the second: `b * m0 + a * (m2 - m2 at the start)` are its tokens
-/// times b, and where the second has what is needed, so has it.
+/// Whether the first place need not be there beside the second: `b * m0 + a * (m2 - m2 at the
+/// start)` are its tokens times b, and where the second has what is needed, so has it.
 fn follows(draft: &Draft, (a, place): (i64, u32), (b, by): (i64, u32)) -> bool {
     let (a_wide, b_wide) = (i128::from(a), i128::from(b));
     let [tokens, start] = [place, by].map(|it| i128::from(draft.initial[it as usize]));

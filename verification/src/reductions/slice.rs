@@ -10,7 +10,8 @@ struct Matter {
 }
 
 impl Matter {
-    /// A transition matters when it changes a place that matters in a way that `counts`, and then also what it needs.
+    /// A transition matters when it changes a place that matters in a way that `counts`, and then
+    /// also what it needs.
     fn of(
         draft: &Draft,
         places: Vec<bool>,
@@ -18,7 +19,8 @@ impl Matter {
         counts: impl Fn(&Draft, u32, i64) -> bool,
     ) -> Self {
         let mut all = Self { transitions: vec![false; draft.moves.len()], places };
-        let mut open: Vec<u32> = draft.places().into_iter().filter(|&it| all.places[it as usize]).collect();
+        let mut open: Vec<u32> =
+            draft.places().into_iter().filter(|&it| all.places[it as usize]).collect();
         let mut users = transitions.to_vec();
         loop {
             for at in users.drain(..) {
@@ -32,17 +34,22 @@ impl Matter {
                 }
             }
             let Some(place) = open.pop() else { return all };
-            let matters = draft.users(place).filter(|(_, it)| counts(draft, place, it.effect(place)));
+            let matters =
+                draft.users(place).filter(|(_, it)| counts(draft, place, it.effect(place)));
             users.extend(matters.map(|it| it.0));
         }
     }
 
     /// Takes away what does not matter; gives the steps of transitions that went.
     fn keep(&self, draft: &mut Draft) -> (usize, Vec<u32>) {
-        let lost: Vec<u32> =
-            draft.transitions().map(|it| it.0).filter(|&it| !self.transitions[it as usize]).collect();
+        let lost: Vec<u32> = draft
+            .transitions()
+            .map(|it| it.0)
+            .filter(|&it| !self.transitions[it as usize])
+            .collect();
         let steps: Vec<u32> = lost.iter().filter_map(|&it| Some(draft.remove(it)?.step)).collect();
-        let places: Vec<u32> = draft.places().into_iter().filter(|&it| !self.places[it as usize]).collect();
+        let places: Vec<u32> =
+            draft.places().into_iter().filter(|&it| !self.places[it as usize]).collect();
         for &place in &places {
             draft.drop_place(place);
         }
@@ -52,7 +59,8 @@ impl Matter {
 
 /// What cannot matter to the visible places.
 pub(super) fn slice(draft: &mut Draft) -> usize {
-    let counts = |draft: &Draft, place: u32, by: i64| by > 0 || (by < 0 && draft.visible[place as usize]);
+    let counts =
+        |draft: &Draft, place: u32, by: i64| by > 0 || (by < 0 && draft.visible[place as usize]);
     Matter::of(draft, draft.visible.clone(), &[], counts).keep(draft).0
 }
 
@@ -77,8 +85,12 @@ pub(super) fn suffix(draft: &mut Draft) -> usize {
     for &it in &component {
         sizes[it as usize] += 1;
     }
-    let core =
-        draft.visible.iter().zip(&component).map(|(&seen, &it)| seen || sizes[it as usize] > 1).collect();
+    let core = draft
+        .visible
+        .iter()
+        .zip(&component)
+        .map(|(&seen, &it)| seen || sizes[it as usize] > 1)
+        .collect();
     let (count, steps) = Matter::of(draft, core, &lasting, |_, _, by| by != 0).keep(draft);
     if !steps.is_empty() {
         draft.record.at_rest(steps);

@@ -12,7 +12,8 @@ pub(super) struct Supply {
     initial: Vec<u32>,
     needs: Lists<u32>,
     effects: Lists<i64>,
-    /// For each place that is filled the transitions that fill it, and from where they move a token if from somewhere.
+    /// For each place that is filled the transitions that fill it, and from where they move a token
+    /// if from somewhere.
     fills: BTreeMap<u32, Vec<(u32, Option<u32>)>>,
 }
 
@@ -41,7 +42,12 @@ impl Supply {
         Ok(all)
     }
 
-    fn fire(&self, marking: &mut [u32], transition: u32, all: &mut Vec<u32>) -> Result<(), LiftError> {
+    fn fire(
+        &self,
+        marking: &mut [u32],
+        transition: u32,
+        all: &mut Vec<u32>,
+    ) -> Result<(), LiftError> {
         for &(place, by) in self.effects.of(transition) {
             let tokens = &mut marking[place as usize];
             *tokens = u32::try_from(i64::from(*tokens) + by).map_err(|_| LiftError::NotARun)?;
@@ -110,7 +116,8 @@ pub(super) fn sources(draft: &mut Draft, names: &mut Vec<String>) -> usize {
 
 /// From where to where a transition moves one token, if that is all it does, out of sight.
 fn free_move(draft: &Draft, transition: &Move) -> Option<(u32, u32)> {
-    let (&[(from, 1)], &[a, b]) = (transition.needs.as_slice(), transition.effects.as_slice()) else {
+    let (&[(from, 1)], &[a, b]) = (transition.needs.as_slice(), transition.effects.as_slice())
+    else {
         return None;
     };
     let (from, to) = match (a, b) {
@@ -141,7 +148,8 @@ pub(super) fn free_cycles(draft: &mut Draft, names: &mut Vec<String>) -> usize {
     }
     let mut supply = Supply::new(draft);
     for &(at, from, to) in &moves {
-        if component[from as usize] == component[to as usize] && members.contains_key(&component[to as usize])
+        if component[from as usize] == component[to as usize]
+            && members.contains_key(&component[to as usize])
         {
             supply.fills.entry(to).or_default().push((at, Some(from)));
         }
@@ -163,7 +171,8 @@ fn fits(draft: &Draft, places: &[u32]) -> bool {
     let mut needs: BTreeMap<u32, u64> = BTreeMap::new();
     for &place in places {
         for (at, it) in draft.users(place) {
-            *needs.entry(at).or_default() += u64::from(it.need(place)) + it.effect(place).unsigned_abs();
+            *needs.entry(at).or_default() +=
+                u64::from(it.need(place)) + it.effect(place).unsigned_abs();
         }
     }
     needs.values().chain([&tokens]).all(|&it| u32::try_from(it).is_ok())

@@ -112,14 +112,14 @@ impl Trail {
     /// The most firings of a lifted run.
     pub const MAX_LENGTH: usize = 1 << 24;
 
-    /// The tokens of a place of the original net, told from the places of the reduced one; `None` when they cannot be.
-    /// They can for every place that was to be kept visible.
+    /// The tokens of a place of the original net, told from the places of the reduced one; `None`
+    /// when they cannot be. They can for every place that was to be kept visible.
     pub fn place(&self, place: PlaceId) -> Option<&Tokens> {
         self.values.get(place.0 as usize)?.as_ref()
     }
 
-    /// A sum over places of the original net as one over places of the reduced one; `None` when it cannot be told, or
-    /// beyond 64 bits.
+    /// A sum over places of the original net as one over places of the reduced one; `None` when it
+    /// cannot be told, or beyond 64 bits.
     pub fn tokens(&self, sum: &Tokens) -> Option<Tokens> {
         let mut constant = sum.constant;
         let mut weights = BTreeMap::new();
@@ -134,15 +134,20 @@ impl Trail {
         Some(Tokens { constant, weights: weights.into_iter().filter(|it| it.1 != 0).collect() })
     }
 
-    /// The run of the original net for one of the reduced net, from its start. The visible places hold the same in the end, and
-    /// where the one is dead in the end, so is the other.
+    /// The run of the original net for one of the reduced net, from its start. The visible places
+    /// hold the same in the end, and where the one is dead in the end, so is the other.
     ///
     /// # Errors
     ///
     /// When it is no run of the reduced net, or becomes too long.
-    pub fn lift(&self, original: &Pt, run: &[TransitionId]) -> Result<Vec<TransitionId>, LiftError> {
+    pub fn lift(
+        &self,
+        original: &Pt,
+        run: &[TransitionId],
+    ) -> Result<Vec<TransitionId>, LiftError> {
         let mut lifted = self.lowered(run)?;
-        let mut marking = replayed(original, original.initial.clone(), &lifted).ok_or(LiftError::NotARun)?;
+        let mut marking =
+            replayed(original, original.initial.clone(), &lifted).ok_or(LiftError::NotARun)?;
         for layer in self.layers.iter().rev() {
             for rests in layer.rests.iter().rev() {
                 rest(original, layer, rests, &mut marking, &mut lifted)?;
@@ -151,7 +156,8 @@ impl Trail {
         Ok(lifted.into_iter().map(TransitionId).collect())
     }
 
-    /// As [`lift`](Self::lift) for a run that goes on for ever: a stem and a cycle, which is not empty.
+    /// As [`lift`](Self::lift) for a run that goes on for ever: a stem and a cycle, which is not
+    /// empty.
     ///
     /// # Errors
     ///
@@ -165,7 +171,8 @@ impl Trail {
         let whole = self.lowered(&[stem, cycle].concat())?;
         let stem = self.lowered(stem)?;
         let (before, after) = whole.split_at_checked(stem.len()).ok_or(LiftError::NotARun)?;
-        let start = replayed(original, original.initial.clone(), before).ok_or(LiftError::NotARun)?;
+        let start =
+            replayed(original, original.initial.clone(), before).ok_or(LiftError::NotARun)?;
         if before != stem
             || after.is_empty()
             || replayed(original, start.clone(), after).as_ref() != Some(&start)
@@ -311,16 +318,19 @@ impl Draft {
         let mut id = vec![0; self.present.len()];
         for (at, &place) in places.iter().enumerate() {
             id[place as usize] = at as u32;
-            values[place as usize] = Some(Tokens { constant: 0, weights: vec![(PlaceId(at as u32), 1)] });
+            values[place as usize] =
+                Some(Tokens { constant: 0, weights: vec![(PlaceId(at as u32), 1)] });
         }
-        let lowered = |row: &[(u32, i64)]| row.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>();
+        let lowered =
+            |row: &[(u32, i64)]| row.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>();
         let needs = self
             .transitions()
             .map(|(_, it)| it.needs.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>());
         let (needs, effects) =
             (Lists::new(needs), Lists::new(self.transitions().map(|(_, it)| lowered(&it.effects))));
         let given = |(_, it): (u32, &super::draft::Move)| {
-            let gives = it.effects.iter().filter(|&&(place, by)| by + i64::from(it.need(place)) > 0);
+            let gives =
+                it.effects.iter().filter(|&&(place, by)| by + i64::from(it.need(place)) > 0);
             let reads = it.needs.iter().filter(|&&(place, _)| it.effect(place) == 0);
             it.needs.len() + gives.count() + reads.count()
         };

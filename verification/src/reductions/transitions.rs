@@ -34,14 +34,16 @@ pub(super) fn dead(draft: &mut Draft) -> usize {
             }
         }
     }
-    let dead: Vec<u32> = draft.transitions().map(|it| it.0).filter(|&it| !fires[it as usize]).collect();
+    let dead: Vec<u32> =
+        draft.transitions().map(|it| it.0).filter(|&it| !fires[it as usize]).collect();
     for &transition in &dead {
         draft.remove(transition);
     }
     dead.len()
 }
 
-/// Transitions that another does the work of: at once if not `repeated`, else firing at least twice.
+/// Transitions that another does the work of: at once if not `repeated`, else firing at least
+/// twice.
 pub(super) fn equal(draft: &mut Draft, repeated: bool) -> usize {
     let mut groups: BTreeMap<Row, Vec<(i64, u64, u32)>> = BTreeMap::new();
     for (at, it) in draft.transitions() {
@@ -54,14 +56,16 @@ pub(super) fn equal(draft: &mut Draft, repeated: bool) -> usize {
         group.sort_unstable();
         let mut kept: Vec<(i64, u32)> = Vec::new();
         for (factor, _, at) in group {
-            let covered =
-                |&(times, by): &(i64, u32)| match (&draft.moves[by as usize], &draft.moves[at as usize]) {
-                    (Some(by), Some(it)) => {
-                        let times = if times == 0 { 1 } else { divided(factor, times) };
-                        (times > 1) == repeated && covers(draft, by, times, it)
-                    }
-                    _ => false,
-                };
+            let covered = |&(times, by): &(i64, u32)| match (
+                &draft.moves[by as usize],
+                &draft.moves[at as usize],
+            ) {
+                (Some(by), Some(it)) => {
+                    let times = if times == 0 { 1 } else { divided(factor, times) };
+                    (times > 1) == repeated && covers(draft, by, times, it)
+                }
+                _ => false,
+            };
             if kept[kept.len().saturating_sub(COMPARED)..].iter().any(covered) {
                 draft.remove(at);
                 count += 1;
@@ -87,7 +91,8 @@ fn covers(draft: &Draft, by: &Move, times: i64, it: &Move) -> bool {
 
 /// A transition that needs nothing, alone.
 pub(super) fn always_enabled(draft: &mut Draft) -> usize {
-    let Some(always) = draft.transitions().find(|(_, it)| it.needs.is_empty()).map(|it| it.0) else {
+    let Some(always) = draft.transitions().find(|(_, it)| it.needs.is_empty()).map(|it| it.0)
+    else {
         return 0;
     };
     let all: Vec<u32> = draft.transitions().map(|it| it.0).filter(|&it| it != always).collect();

@@ -1,17 +1,19 @@
-//! What the structure of a net proves, written down so that anybody can check it again with integers alone.
+//! What the structure of a net proves, written down so that anybody can check it again with
+//! integers alone.
 //!
-//! Every proof has the same core, a [`Sum`]: inequalities that hold in a marking, each times a factor of at least
-//! zero, add up to `something that is not negative + a positive number <= 0`. So the marking does not exist. Around it
-//! stand case distinctions ([`Refutation`]) and a list of transitions that can never fire ([`DeadTransitions`]), whose
-//! proof may lean on itself: the first of them to fire would have fired in a marking that only the others have reached.
+//! Every proof has the same core, a [`Sum`]: inequalities that hold in a marking, each times a
+//! factor of at least zero, add up to `something that is not negative + a positive number <= 0`. So
+//! the marking does not exist. Around it stand case distinctions ([`Refutation`]) and a list of
+//! transitions that can never fire ([`DeadTransitions`]), whose proof may lean on itself: the first
+//! of them to fire would have fired in a marking that only the others have reached.
 
 use crate::property::Linear;
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::BTreeMap;
 
-/// `sum of weight * tokens <= constant` in every reachable marking: it holds at the start, and no transition that can
-/// fire increases the sum.
+/// `sum of weight * tokens <= constant` in every reachable marking: it holds at the start, and no
+/// transition that can fire increases the sum.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LinearInvariant {
     /// Weights of places, sorted by place, none of them zero.
@@ -20,16 +22,16 @@ pub struct LinearInvariant {
     pub constant: i128,
 }
 
-/// Places that are marked at the start and never lose their last token: a transition that takes tokens from one of them
-/// leaves at least one token in one of them.
+/// Places that are marked at the start and never lose their last token: a transition that takes
+/// tokens from one of them leaves at least one token in one of them.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Trap {
     /// The places, sorted.
     pub places: Vec<PlaceId>,
 }
 
-/// Inequalities, each of the form `constant + sum of weight * tokens <= 0`, that add up to a contradiction: every
-/// weight of the sum is at least zero, and its constant is positive.
+/// Inequalities, each of the form `constant + sum of weight * tokens <= 0`, that add up to a
+/// contradiction: every weight of the sum is at least zero, and its constant is positive.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sum {
     /// Which assumptions take part, by position, and how often.
@@ -45,8 +47,8 @@ pub struct Sum {
 pub enum Refutation {
     /// They add up to a contradiction.
     Sum(Sum),
-    /// A place has either at most so many tokens or more; each case is refuted with `tokens <= at` or `tokens > at` as
-    /// one more assumption.
+    /// A place has either at most so many tokens or more; each case is refuted with `tokens <= at`
+    /// or `tokens > at` as one more assumption.
     Tokens {
         /// The place.
         place: PlaceId,
@@ -57,8 +59,9 @@ pub enum Refutation {
         /// Why there are not more.
         above: Box<Self>,
     },
-    /// In a dead marking some place holds fewer tokens than this transition needs; each of its needs, in the order of
-    /// [`Pt::needs`], is refuted with `tokens < need` as one more assumption.
+    /// In a dead marking some place holds fewer tokens than this transition needs; each of its
+    /// needs, in the order of [`Pt::needs`], is refuted with `tokens < need` as one more
+    /// assumption.
     Disabled {
         /// The transition.
         transition: TransitionId,
@@ -70,11 +73,11 @@ pub enum Refutation {
 /// Transitions that never fire.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DeadTransitions {
-    /// All of them, sorted. One without a refutation needs more tokens of a place than this has at the start, and none
-    /// but dead transitions add tokens to the place.
+    /// All of them, sorted. One without a refutation needs more tokens of a place than this has at
+    /// the start, and none but dead transitions add tokens to the place.
     pub transitions: Vec<TransitionId>,
-    /// Why no reachable marking satisfies the needs of a transition; the assumptions are `tokens >= need`, in the order
-    /// of [`Pt::needs`].
+    /// Why no reachable marking satisfies the needs of a transition; the assumptions are `tokens >=
+    /// need`, in the order of [`Pt::needs`].
     pub refutations: Vec<(TransitionId, Refutation)>,
 }
 
@@ -94,18 +97,23 @@ pub struct Bound {
 pub struct DeadlockFree {
     /// Bounds of single places that `disabled` relies on.
     pub bounds: Vec<Bound>,
-    /// The assumptions: for each of these transitions what [`disabled`] says of a marking in which it is not enabled.
+    /// The assumptions: for each of these transitions what [`disabled`] says of a marking in which
+    /// it is not enabled.
     pub disabled: Vec<TransitionId>,
     /// Why they do not hold together.
     pub refutation: Refutation,
 }
 
-/// One inequality that holds, within bounds of places, exactly in the markings in which a transition is not enabled;
-/// `None` when there is no such inequality or its numbers are too large.
+/// One inequality that holds, within bounds of places, exactly in the markings in which a
+/// transition is not enabled; `None` when there is no such inequality or its numbers are too large.
 ///
-/// Places that hold at most what is needed all hold exactly that when the transition is enabled. At most one place may
-/// be able to hold more. `bound` is the most tokens that a place can hold.
-pub fn disabled(pt: &Pt, transition: TransitionId, bound: impl Fn(PlaceId) -> Option<i64>) -> Option<Linear> {
+/// Places that hold at most what is needed all hold exactly that when the transition is enabled. At
+/// most one place may be able to hold more. `bound` is the most tokens that a place can hold.
+pub fn disabled(
+    pt: &Pt,
+    transition: TransitionId,
+    bound: impl Fn(PlaceId) -> Option<i64>,
+) -> Option<Linear> {
     let needs = pt.needs.of(transition.0);
     if let &[(place, need)] = needs {
         return Some(Linear { constant: 1 - i64::from(need), weights: vec![(PlaceId(place), 1)] });
@@ -120,7 +128,9 @@ pub fn disabled(pt: &Pt, transition: TransitionId, bound: impl Fn(PlaceId) -> Op
     }
     let factor = match spare {
         None => 1,
-        Some((place, need)) => bound(PlaceId(place))?.checked_sub(i64::from(need))?.checked_add(1)?,
+        Some((place, need)) => {
+            bound(PlaceId(place))?.checked_sub(i64::from(need))?.checked_add(1)?
+        }
     };
     let mut linear = Linear { constant: 1, weights: Vec::with_capacity(needs.len()) };
     for &(place, need) in needs {
@@ -133,8 +143,10 @@ pub fn disabled(pt: &Pt, transition: TransitionId, bound: impl Fn(PlaceId) -> Op
 
 impl Linear {
     fn holds_at_start(&self, pt: &Pt) -> bool {
-        let tokens =
-            self.weights.iter().map(|&(place, weight)| initial(pt, place).checked_mul(weight.into()));
+        let tokens = self
+            .weights
+            .iter()
+            .map(|&(place, weight)| initial(pt, place).checked_mul(weight.into()));
         sum(tokens).and_then(|it| it.checked_add(self.constant.into())).is_some_and(|it| it <= 0)
     }
 }
@@ -152,15 +164,18 @@ impl LinearInvariant {
     pub fn holds(&self, pt: &Pt, can_fire: impl Fn(TransitionId) -> bool) -> bool {
         let weights: BTreeMap<u32, i128> =
             self.weights.iter().map(|&(place, weight)| (place.0, weight)).collect();
-        let start = sum(weights.iter().map(|(&place, it)| it.checked_mul(initial(pt, PlaceId(place)))));
+        let start =
+            sum(weights.iter().map(|(&place, it)| it.checked_mul(initial(pt, PlaceId(place)))));
         weights.len() == self.weights.len()
             && start.is_some_and(|it| it <= self.constant)
-            && (0..pt.transitions.len() as u32).filter(|&it| can_fire(TransitionId(it))).all(|transition| {
-                let change = pt.effects.of(transition).iter().filter_map(|&(place, by)| {
-                    weights.get(&place).map(|weight| weight.checked_mul(by.into()))
-                });
-                sum(change).is_some_and(|it| it <= 0)
-            })
+            && (0..pt.transitions.len() as u32).filter(|&it| can_fire(TransitionId(it))).all(
+                |transition| {
+                    let change = pt.effects.of(transition).iter().filter_map(|&(place, by)| {
+                        weights.get(&place).map(|weight| weight.checked_mul(by.into()))
+                    });
+                    sum(change).is_some_and(|it| it <= 0)
+                },
+            )
     }
 }
 
@@ -169,22 +184,33 @@ impl Trap {
     pub fn holds(&self, pt: &Pt, can_fire: impl Fn(TransitionId) -> bool) -> bool {
         let within = |place: u32| self.places.contains(&PlaceId(place));
         self.places.iter().any(|&it| initial(pt, it) > 0)
-            && (0..pt.transitions.len() as u32).filter(|&it| can_fire(TransitionId(it))).all(|transition| {
-                let effects = pt.effects.of(transition);
-                let change = |place| effects.iter().find(|it| it.0 == place).map_or(0, |it| it.1);
-                let needs = pt.needs.of(transition);
-                effects.iter().all(|&(place, by)| by > 0 || !within(place))
-                    || effects.iter().any(|&(place, by)| by > 0 && within(place))
-                    || needs.iter().any(|&(place, need)| within(place) && i64::from(need) + change(place) > 0)
-            })
+            && (0..pt.transitions.len() as u32).filter(|&it| can_fire(TransitionId(it))).all(
+                |transition| {
+                    let effects = pt.effects.of(transition);
+                    let change =
+                        |place| effects.iter().find(|it| it.0 == place).map_or(0, |it| it.1);
+                    let needs = pt.needs.of(transition);
+                    effects.iter().all(|&(place, by)| by > 0 || !within(place))
+                        || effects.iter().any(|&(place, by)| by > 0 && within(place))
+                        || needs.iter().any(|&(place, need)| {
+                            within(place) && i64::from(need) + change(place) > 0
+                        })
+                },
+            )
     }
 }
 
 impl Sum {
-    fn refutes(&self, pt: &Pt, can_fire: &impl Fn(TransitionId) -> bool, premises: &[Linear]) -> bool {
+    fn refutes(
+        &self,
+        pt: &Pt,
+        can_fire: &impl Fn(TransitionId) -> bool,
+        premises: &[Linear],
+    ) -> bool {
         let add = || {
             let mut constant = self.invariant.constant.checked_neg()?;
-            let mut weights: BTreeMap<PlaceId, i128> = self.invariant.weights.iter().copied().collect();
+            let mut weights: BTreeMap<PlaceId, i128> =
+                self.invariant.weights.iter().copied().collect();
             let mut term = |place, weight: i128, factor: i128| {
                 let sum = weights.entry(place).or_insert(0);
                 *sum = sum.checked_add(weight.checked_mul(factor)?)?;
@@ -213,8 +239,8 @@ impl Sum {
 }
 
 impl Refutation {
-    /// Whether it refutes these assumptions, when only these transitions can fire; `dead` when one of the assumptions
-    /// is that the marking is dead.
+    /// Whether it refutes these assumptions, when only these transitions can fire; `dead` when one
+    /// of the assumptions is that the marking is dead.
     pub fn refutes(
         &self,
         pt: &Pt,
@@ -231,13 +257,17 @@ impl Refutation {
         match self {
             Self::Sum(sum) => sum.refutes(pt, can_fire, premises),
             Self::Tokens { place, at, below, above } => {
-                case(below, at_most(*place, *at)) && case(above, at_least(*place, i64::from(*at) + 1))
+                case(below, at_most(*place, *at))
+                    && case(above, at_least(*place, i64::from(*at) + 1))
             }
             Self::Disabled { transition, cases } => {
                 let needs = pt.needs.of(transition.0);
                 dead && (transition.0 as usize) < pt.transitions.len()
                     && cases.len() == needs.len()
-                    && needs.iter().zip(cases).all(|(&(place, need), it)| case(it, fewer(place, need)))
+                    && needs
+                        .iter()
+                        .zip(cases)
+                        .all(|(&(place, need), it)| case(it, fewer(place, need)))
             }
         }
     }
@@ -260,7 +290,11 @@ pub(super) fn fewer(place: u32, need: u32) -> Linear {
 
 /// `tokens >= need` for all needs of a transition.
 pub(super) fn needs(pt: &Pt, transition: TransitionId) -> Vec<Linear> {
-    pt.needs.of(transition.0).iter().map(|&(place, need)| at_least(PlaceId(place), need.into())).collect()
+    pt.needs
+        .of(transition.0)
+        .iter()
+        .map(|&(place, need)| at_least(PlaceId(place), need.into()))
+        .collect()
 }
 
 impl DeadTransitions {
@@ -279,13 +313,13 @@ impl DeadTransitions {
                 .all(|&(transition, by)| by < 0 || !can_fire(TransitionId(transition)))
         };
         self.transitions.is_sorted()
-            && self.transitions.iter().all(|&dead| match self.refutations.iter().find(|it| it.0 == dead) {
-                Some((_, it)) => it.refutes(pt, &can_fire, &mut needs(pt, dead), false),
-                None => pt
-                    .needs
-                    .of(dead.0)
-                    .iter()
-                    .any(|&(place, need)| initial(pt, PlaceId(place)) < need.into() && full(place)),
+            && self.transitions.iter().all(|&dead| {
+                match self.refutations.iter().find(|it| it.0 == dead) {
+                    Some((_, it)) => it.refutes(pt, &can_fire, &mut needs(pt, dead), false),
+                    None => pt.needs.of(dead.0).iter().any(|&(place, need)| {
+                        initial(pt, PlaceId(place)) < need.into() && full(place)
+                    }),
+                }
             })
     }
 }
@@ -294,7 +328,8 @@ impl Bound {
     /// Whether it is one, when these transitions never fire.
     pub fn holds(&self, pt: &Pt, dead: &DeadTransitions) -> bool {
         let Some(premise) = above(&self.weights, self.at_most) else { return false };
-        dead.holds(pt) && self.refutation.refutes(pt, &|it| dead.can_fire(it), &mut vec![premise], false)
+        dead.holds(pt)
+            && self.refutation.refutes(pt, &|it| dead.can_fire(it), &mut vec![premise], false)
     }
 }
 
@@ -312,17 +347,24 @@ impl DeadlockFree {
             let of_place = |it: &&Bound| it.weights == [(place, 1)];
             self.bounds.iter().find(of_place).map(|it| it.at_most)
         };
-        let premises = self.disabled.iter().map(|&it| disabled(pt, it, bound)).collect::<Option<Vec<_>>>();
+        let premises =
+            self.disabled.iter().map(|&it| disabled(pt, it, bound)).collect::<Option<Vec<_>>>();
         self.bounds.iter().all(|it| it.holds(pt, dead))
             && dead.holds(pt)
-            && premises
-                .is_some_and(|mut it| self.refutation.refutes(pt, &|it| dead.can_fire(it), &mut it, true))
+            && premises.is_some_and(|mut it| {
+                self.refutation.refutes(pt, &|it| dead.can_fire(it), &mut it, true)
+            })
     }
 }
 
-/// Whether no reachable marking satisfies all of these inequalities, by this refutation, when these transitions never
-/// fire.
-pub fn unreachable(pt: &Pt, dead: &DeadTransitions, goal: &[Linear], refutation: &Refutation) -> bool {
+/// Whether no reachable marking satisfies all of these inequalities, by this refutation, when these
+/// transitions never fire.
+pub fn unreachable(
+    pt: &Pt,
+    dead: &DeadTransitions,
+    goal: &[Linear],
+    refutation: &Refutation,
+) -> bool {
     dead.holds(pt) && refutation.refutes(pt, &|it| dead.can_fire(it), &mut goal.to_vec(), false)
 }
 

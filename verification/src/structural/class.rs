@@ -16,7 +16,8 @@ pub struct Class {
     pub free_choice: bool,
     /// If two transitions share a place that they take tokens from, they share all.
     pub extended_free_choice: bool,
-    /// If two places share a transition that takes from them, all those of one also take from the other.
+    /// If two places share a transition that takes from them, all those of one also take from the
+    /// other.
     pub asymmetric_choice: bool,
 }
 
@@ -40,13 +41,19 @@ pub fn class(pt: &Pt) -> Class {
     let needs = |transition| pt.needs.of(transition);
     // The tokens that a transition puts into a place: those it needs of it and the change.
     let gives = |transition: u32| {
-        let needed =
-            move |place| needs(transition).iter().find(|it| it.0 == place).map_or(0, |it| i64::from(it.1));
+        let needed = move |place| {
+            needs(transition).iter().find(|it| it.0 == place).map_or(0, |it| i64::from(it.1))
+        };
         let changed = move |place: u32| pt.effects.of(transition).iter().any(|it| it.0 == place);
-        let kept =
-            needs(transition).iter().filter(move |it| !changed(it.0)).map(|it| (it.0, i64::from(it.1)));
+        let kept = needs(transition)
+            .iter()
+            .filter(move |it| !changed(it.0))
+            .map(|it| (it.0, i64::from(it.1)));
         let effects = pt.effects.of(transition).iter();
-        effects.map(move |&(place, by)| (place, needed(place) + by)).chain(kept).filter(|it| it.1 > 0)
+        effects
+            .map(move |&(place, by)| (place, needed(place) + by))
+            .chain(kept)
+            .filter(|it| it.1 > 0)
     };
     let ordinary = transitions
         .clone()
@@ -59,16 +66,20 @@ pub fn class(pt: &Pt) -> Class {
         givers[place as usize] += 1;
     }
     let choices = || places.clone().map(|it| pt.consumers.of(it)).filter(|it| it.len() > 1);
-    let same = |a: &[(u32, u32)], b: &[(u32, u32)]| a.iter().map(|it| it.0).eq(b.iter().map(|it| it.0));
+    let same =
+        |a: &[(u32, u32)], b: &[(u32, u32)]| a.iter().map(|it| it.0).eq(b.iter().map(|it| it.0));
     let within = |a: &[(u32, u32)], b: &[(u32, u32)]| {
         a.iter().all(|it| b.binary_search_by_key(&it.0, |it| it.0).is_ok())
     };
     Class {
         ordinary,
         state_machine: transitions.clone().all(|it| needs(it).len() == 1 && gives(it).count() == 1),
-        marked_graph: places.clone().all(|it| pt.consumers.of(it).len() == 1 && givers[it as usize] == 1),
+        marked_graph: places
+            .clone()
+            .all(|it| pt.consumers.of(it).len() == 1 && givers[it as usize] == 1),
         free_choice: choices().all(|them| them.iter().all(|it| needs(it.0).len() == 1)),
-        extended_free_choice: choices().all(|them| them.iter().all(|it| same(needs(it.0), needs(them[0].0)))),
+        extended_free_choice: choices()
+            .all(|them| them.iter().all(|it| same(needs(it.0), needs(them[0].0)))),
         asymmetric_choice: transitions.clone().all(|it| {
             let mut sets: Vec<_> = needs(it).iter().map(|arc| pt.consumers.of(arc.0)).collect();
             sets.sort_by_key(|it| it.len());

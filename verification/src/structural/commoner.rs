@@ -15,9 +15,10 @@ pub struct Commoner {
 
 /// Applies Commoner's theorem.
 ///
-/// If no arc asks for more than one token, the empty places of a dead marking are a siphon. So a net in which every
-/// siphon contains a marked trap is free of deadlocks. If it is also an asymmetric-choice net, it is live. An extended
-/// free-choice net is live only if every siphon contains a marked trap.
+/// If no arc asks for more than one token, the empty places of a dead marking are a siphon. So a
+/// net in which every siphon contains a marked trap is free of deadlocks. If it is also an
+/// asymmetric-choice net, it is live. An extended free-choice net is live only if every siphon
+/// contains a marked trap.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -36,12 +37,12 @@ pub struct Commoner {
 pub fn commoner(pt: &Pt, siphons: &Siphons) -> Commoner {
     let class = class(pt);
     let controlled = siphons.controlled() == Some(true);
-    let single = (0..pt.transitions.len() as u32).all(|it| pt.needs.of(it).iter().all(|arc| arc.1 == 1));
+    let single =
+        (0..pt.transitions.len() as u32).all(|it| pt.needs.of(it).iter().all(|arc| arc.1 == 1));
     // An isolated place is a siphon that no transition waits for.
-    let starves = siphons
-        .siphons
-        .iter()
-        .any(|it| it.trap.is_none() && it.places.iter().any(|place| !pt.consumers.of(place.0).is_empty()));
+    let starves = siphons.siphons.iter().any(|it| {
+        it.trap.is_none() && it.places.iter().any(|place| !pt.consumers.of(place.0).is_empty())
+    });
     let live = if class.asymmetric_choice && controlled {
         Some(true)
     } else if class.extended_free_choice && starves {
@@ -49,5 +50,8 @@ pub fn commoner(pt: &Pt, siphons: &Siphons) -> Commoner {
     } else {
         None
     };
-    Commoner { deadlock_free: (controlled && single && !pt.transitions.is_empty()).then_some(true), live }
+    Commoner {
+        deadlock_free: (controlled && single && !pt.transitions.is_empty()).then_some(true),
+        live,
+    }
 }

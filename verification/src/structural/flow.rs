@@ -9,7 +9,8 @@ const WORK: usize = 5_000_000;
 
 /// Weights of places or of transitions, sorted by id, without a common divisor.
 ///
-/// Of places: the weighted sum of tokens never changes. Of transitions: firing each so often changes nothing.
+/// Of places: the weighted sum of tokens never changes. Of transitions: firing each so often
+/// changes nothing.
 pub type Flow = Vec<(u32, i64)>;
 
 /// Flows without negative weights whose places (or transitions) contain those of no other one.
@@ -21,7 +22,8 @@ pub struct Semiflows {
     pub complete: bool,
 }
 
-/// A basis of all place invariants: each is a rational combination of these. `None` when a number passes 63 bits.
+/// A basis of all place invariants: each is a rational combination of these. `None` when a number
+/// passes 63 bits.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -39,7 +41,8 @@ pub fn place_invariants(pt: &Pt) -> Option<Vec<Flow>> {
     basis(&pt.changers, pt.transitions.len() as u32)
 }
 
-/// A basis of all transition invariants: each is a rational combination of these. `None` when a number passes 63 bits.
+/// A basis of all transition invariants: each is a rational combination of these. `None` when a
+/// number passes 63 bits.
 pub fn transition_invariants(pt: &Pt) -> Option<Vec<Flow>> {
     basis(&pt.effects, pt.places.len() as u32)
 }
@@ -49,7 +52,8 @@ pub fn place_semiflows(pt: &Pt, limit: usize) -> Semiflows {
     semiflows(&pt.changers, pt.transitions.len() as u32, limit)
 }
 
-/// The minimal semiflows of transitions, by the method of Farkas with at most `limit` rows at a time.
+/// The minimal semiflows of transitions, by the method of Farkas with at most `limit` rows at a
+/// time.
 pub fn transition_semiflows(pt: &Pt, limit: usize) -> Semiflows {
     semiflows(&pt.effects, pt.places.len() as u32, limit)
 }
@@ -117,13 +121,14 @@ fn semiflows(matrix: &Lists<i64>, width: u32, limit: usize) -> Semiflows {
         }) else {
             break;
         };
-        let (touched, mut kept): (Vec<_>, Vec<_>) = rows.into_iter().partition(|it| at(it, column) != 0);
+        let (touched, mut kept): (Vec<_>, Vec<_>) =
+            rows.into_iter().partition(|it| at(it, column) != 0);
         let (up, down): (Vec<_>, Vec<_>) = touched.iter().partition(|it| at(it, column) > 0);
         let mut new = Vec::new();
         'pairs: for (up, down) in up.iter().flat_map(|up| down.iter().map(move |down| (up, down))) {
             // The signs differ, so that both factors are positive.
-            let sum =
-                cancelling(at(up, column), at(down, column)).and_then(|(a, b)| combined(up, a, down, b));
+            let sum = cancelling(at(up, column), at(down, column))
+                .and_then(|(a, b)| combined(up, a, down, b));
             match sum {
                 Some(row) if new.len() < limit.saturating_mul(4) && work >= row.len() => {
                     work -= row.len();

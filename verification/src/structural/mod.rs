@@ -1,12 +1,13 @@
 //! The engine that looks at the structure of a net and visits no marking.
 //!
-//! It proves that markings are not reachable, whatever their number is, and never claims more than it proves: what it
-//! cannot prove is [`Answer::Unknown`]. Sometimes a marking that it finds possible is also reached in a straight way;
-//! then the answer is the way there. Every proof is plain data of [`certificate`] that is easy to check again.
+//! It proves that markings are not reachable, whatever their number is, and never claims more than
+//! it proves: what it cannot prove is [`Answer::Unknown`]. Sometimes a marking that it finds
+//! possible is also reached in a straight way; then the answer is the way there. Every proof is
+//! plain data of [`certificate`] that is easy to check again.
 //!
-//! How: the marking is the initial one plus what firings change (the state equation), solved in exact integers by the
-//! simplex method; traps that would lose their tokens are added as constraints until there are none; what is left of
-//! fractions is split in cases.
+//! How: the marking is the initial one plus what firings change (the state equation), solved in
+//! exact integers by the simplex method; traps that would lose their tokens are added as
+//! constraints until there are none; what is left of fractions is split in cases.
 
 pub mod certificate;
 mod class;
@@ -61,7 +62,8 @@ pub enum Stop {
 pub enum Unknown {
     /// A limit was reached.
     Limit(Stop),
-    /// The state equation and all traps allow this marking; whether it is reachable was not found out.
+    /// The state equation and all traps allow this marking; whether it is reachable was not found
+    /// out.
     Candidate(Vec<u32>),
 }
 

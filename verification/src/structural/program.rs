@@ -1,4 +1,5 @@
-//! The state equation of a net as a linear program: the marking is the initial one plus what firings change.
+//! The state equation of a net as a linear program: the marking is the initial one plus what
+//! firings change.
 
 use super::Stop;
 use super::certificate::{LinearInvariant, Sum, Trap};
@@ -24,7 +25,8 @@ enum Column {
     Trap(Arc<Trap>),
 }
 
-/// The state equation, assumptions, and constraints that traps give; and a point that satisfies some of them.
+/// The state equation, assumptions, and constraints that traps give; and a point that satisfies
+/// some of them.
 #[derive(Clone, Debug)]
 pub(super) struct Program {
     tableau: Tableau,
@@ -36,7 +38,8 @@ pub(super) struct Program {
 }
 
 impl Program {
-    /// The state equation alone, of the transitions that can fire; its point is the initial marking.
+    /// The state equation alone, of the transitions that can fire; its point is the initial
+    /// marking.
     pub(super) fn new(pt: &Pt, can_fire: impl Fn(TransitionId) -> bool) -> Result<Self, Stop> {
         let mut tableau = Tableau::default();
         let mut columns = Vec::new();
@@ -44,7 +47,10 @@ impl Program {
         let mut variables = vec![None; pt.transitions.len()];
         for transition in 0..pt.transitions.len() as u32 {
             let effects = pt.effects.of(transition);
-            if !effects.is_empty() && can_fire(TransitionId(transition)) && !seen.contains_key(effects) {
+            if !effects.is_empty()
+                && can_fire(TransitionId(transition))
+                && !seen.contains_key(effects)
+            {
                 let variable = tableau.variable();
                 seen.insert(effects, variable);
                 variables[transition as usize] = Some(variable);
@@ -63,18 +69,17 @@ impl Program {
         Ok(Self { tableau, columns, places, count: pt.places.len() as u32 })
     }
 
-    /// What follows from place invariants alone, with no regard to how often transitions fire: much smaller, and often
-    /// enough.
+    /// What follows from place invariants alone, with no regard to how often transitions fire: much
+    /// smaller, and often enough.
     pub(super) fn invariants(
         pt: &Pt,
         can_fire: impl Fn(TransitionId) -> bool,
         work: &mut u64,
     ) -> Result<Self, Stop> {
         let places = 0..pt.places.len() as u32;
-        let changers =
-            Lists::new(places.clone().map(|place| {
-                pt.changers.of(place).iter().copied().filter(|it| can_fire(TransitionId(it.0)))
-            }));
+        let changers = Lists::new(places.clone().map(|place| {
+            pt.changers.of(place).iter().copied().filter(|it| can_fire(TransitionId(it.0)))
+        }));
         let mut program =
             Self { tableau: Tableau::default(), columns: Vec::new(), places: 0, count: places.end };
         for place in places {
@@ -82,8 +87,9 @@ impl Program {
             program.columns.push(Column::Tokens(PlaceId(place)));
         }
         for flow in basis(&changers, pt.transitions.len() as u32).ok_or(Stop::Overflow)? {
-            let tokens =
-                |&(place, weight): &(u32, i64)| weight.checked_mul(pt.initial[place as usize].into());
+            let tokens = |&(place, weight): &(u32, i64)| {
+                weight.checked_mul(pt.initial[place as usize].into())
+            };
             let total = flow.iter().try_fold(0_i64, |sum, it| sum.checked_add(tokens(it)?));
             // With the marked places as basic variables the point is close to the initial marking.
             let preferred = |place: u32| pt.initial[place as usize] > 0;
@@ -98,7 +104,10 @@ impl Program {
         let mut terms = BTreeMap::new();
         for &(place, weight) in weights.iter().filter(|it| it.0.0 < self.count) {
             let sum: &mut i64 = terms.entry(self.places + place.0).or_insert(0);
-            *sum = weight.checked_mul(factor).and_then(|it| sum.checked_add(it)).ok_or(Stop::Overflow)?;
+            *sum = weight
+                .checked_mul(factor)
+                .and_then(|it| sum.checked_add(it))
+                .ok_or(Stop::Overflow)?;
         }
         Ok(terms.into_iter().filter(|it| it.1 != 0).collect())
     }
@@ -121,7 +130,11 @@ impl Program {
     }
 
     /// Moves to a point that satisfies everything; otherwise the proof that there is none.
-    pub(super) fn satisfy(&mut self, premises: &[Linear], work: &mut u64) -> Result<Option<Sum>, Stop> {
+    pub(super) fn satisfy(
+        &mut self,
+        premises: &[Linear],
+        work: &mut u64,
+    ) -> Result<Option<Sum>, Stop> {
         while let Some(row) = self.tableau.violated() {
             if self.tableau.raise(row, true, work)? != Raised::Feasible {
                 return self.sum(row, premises).map(Some);
@@ -130,8 +143,9 @@ impl Program {
         Ok(None)
     }
 
-    /// Moves to a point with the largest value of a weighted sum of tokens. The value, rounded down, and the proof with
-    /// the assumption that the sum is larger; `None` when there is no largest value.
+    /// Moves to a point with the largest value of a weighted sum of tokens. The value, rounded
+    /// down, and the proof with the assumption that the sum is larger; `None` when there is no
+    /// largest value.
     pub(super) fn maximise(
         &mut self,
         weights: &[(PlaceId, i64)],
@@ -147,7 +161,8 @@ impl Program {
                 let most = numerator.div_euclid(denominator);
                 // The variable of the row is the sum itself, not by how much it passes the bound.
                 let negated = weights.iter().map(|&(place, weight)| (place, -weight)).collect();
-                self.sum(row, &[Linear { constant: 0, weights: negated }]).map(|sum| Some((most, sum)))
+                self.sum(row, &[Linear { constant: 0, weights: negated }])
+                    .map(|sum| Some((most, sum)))
             }
             Ok(_) => Ok(None),
             Err(stop) => Err(stop),
@@ -157,8 +172,8 @@ impl Program {
         found
     }
 
-    /// What a row without negative numbers proves: it says that tokens, surpluses and firings add up to a constant.
-    /// Surpluses written as tokens, the tokens are what no firing increases.
+    /// What a row without negative numbers proves: it says that tokens, surpluses and firings add
+    /// up to a constant. Surpluses written as tokens, the tokens are what no firing increases.
     fn sum(&self, row: usize, premises: &[Linear]) -> Result<Sum, Stop> {
         self.checked_sum(row, premises).ok_or(Stop::Overflow)
     }
@@ -182,7 +197,8 @@ impl Program {
                     for &(place, weight) in &premise.weights {
                         add(place, weight, number.checked_neg()?)?;
                     }
-                    constant = constant.checked_add(i128::from(premise.constant) * i128::from(number))?;
+                    constant =
+                        constant.checked_add(i128::from(premise.constant) * i128::from(number))?;
                     sum.premises.push((*at, number.into()));
                 }
                 Column::Trap(trap) => {
@@ -204,8 +220,8 @@ impl Program {
         self.tableau.value(self.places + place)
     }
 
-    /// How often transitions fire in the point, one transition for all with the same effect; `None` when not a whole
-    /// number of times.
+    /// How often transitions fire in the point, one transition for all with the same effect; `None`
+    /// when not a whole number of times.
     pub(super) fn firings(&self) -> Option<Vec<(TransitionId, u64)>> {
         let mut firings = Vec::new();
         for (variable, column) in self.columns.iter().enumerate() {

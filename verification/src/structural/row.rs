@@ -10,13 +10,15 @@ pub(super) fn at(row: &[(u32, i64)], column: u32) -> i64 {
     row.binary_search_by_key(&column, |it| it.0).map_or(0, |at| row[at].1)
 }
 
-/// `a` times the first row plus `b` times the second, divided by the greatest common divisor of its numbers; `None` when
-/// a number is beyond 64 bits.
+/// `a` times the first row plus `b` times the second, divided by the greatest common divisor of its
+/// numbers; `None` when a number is beyond 64 bits.
 pub(super) fn combined(first: &[(u32, i64)], a: i64, second: &[(u32, i64)], b: i64) -> Option<Row> {
     let mut all: Row = Vec::with_capacity(first.len() + second.len());
     let mut divisor = 0;
     for (column, x, y) in aligned(first, second) {
-        let Some(number) = a.checked_mul(x).zip(b.checked_mul(y)).and_then(|(x, y)| x.checked_add(y)) else {
+        let Some(number) =
+            a.checked_mul(x).zip(b.checked_mul(y)).and_then(|(x, y)| x.checked_add(y))
+        else {
             return wide(first, a, second, b);
         };
         if number != 0 {
@@ -47,7 +49,8 @@ fn wide(first: &[(u32, i64)], a: i64, second: &[(u32, i64)], b: i64) -> Option<R
         }
     });
     let divisor = i128::try_from(divisor.max(1)).ok()?;
-    let narrow = |&(column, number): &(u32, i128)| Some((column, i64::try_from(number / divisor).ok()?));
+    let narrow =
+        |&(column, number): &(u32, i128)| Some((column, i64::try_from(number / divisor).ok()?));
     all.iter().filter(|it| it.1 != 0).map(narrow).collect()
 }
 
@@ -72,7 +75,8 @@ fn aligned<'a>(
     })
 }
 
-/// Factors of two numbers that are not zero with which the sum is zero, the first one positive; `None` beyond 64 bits.
+/// Factors of two numbers that are not zero with which the sum is zero, the first one positive;
+/// `None` beyond 64 bits.
 pub(super) fn cancelling(x: i64, y: i64) -> Option<(i64, i64)> {
     let divisor = i64::try_from(gcd(x.unsigned_abs(), y.unsigned_abs())).ok()?;
     let (x, y) = (x / divisor, y / divisor);

@@ -1,5 +1,5 @@
-//! Looks for a marking that satisfies assumptions and the state equation, in whole tokens, or proves that none is
-//! reachable.
+//! Looks for a marking that satisfies assumptions and the state equation, in whole tokens, or
+//! proves that none is reachable.
 
 use super::certificate::{Refutation, at_least, at_most, fewer, holds_at_start};
 use super::program::Program;
@@ -81,7 +81,8 @@ impl<'s> Search<'s> {
             if let Some(sum) = program.satisfy(&self.premises, &mut self.work)? {
                 return Ok(Refutation::Sum(sum));
             }
-            let empty = (0..self.pt().places.len() as u32).map(|it| program.tokens(it).0 == 0).collect();
+            let empty =
+                (0..self.pt().places.len() as u32).map(|it| program.tokens(it).0 == 0).collect();
             match self.graph.marked_trap(empty, &mut self.work) {
                 Some(trap) => program.mark(trap)?,
                 None => break,
@@ -91,10 +92,9 @@ impl<'s> Search<'s> {
             let (numerator, denominator) = program.tokens(place);
             i128::from(numerator) <= (i128::from(need) - 1) * i128::from(denominator)
         };
-        let enabled = self
-            .undecided
-            .iter()
-            .position(|it| !self.pt().needs.of(it.0).iter().any(|&(place, need)| below(place, need)));
+        let enabled = self.undecided.iter().position(|it| {
+            !self.pt().needs.of(it.0).iter().any(|&(place, need)| below(place, need))
+        });
         if let Some(at) = enabled {
             let transition = self.undecided.swap_remove(at);
             let needs = self.pt().needs.of(transition.0).iter();
@@ -128,7 +128,9 @@ impl<'s> Search<'s> {
     fn candidate(&self, program: &Program) -> End {
         let pt = self.pt();
         let tokens = (0..pt.places.len() as u32).map(|it| u32::try_from(program.tokens(it).0));
-        let Ok(marking) = tokens.collect::<Result<Vec<_>, _>>() else { return Stop::Overflow.into() };
+        let Ok(marking) = tokens.collect::<Result<Vec<_>, _>>() else {
+            return Stop::Overflow.into();
+        };
         let trace = program.firings().and_then(|it| self.fire(it)).filter(|trace| {
             let after = trace.iter().try_fold(pt.initial.clone(), |now, it| pt.fire(&now, it.0));
             let moved = after.map(|initial| Pt { initial, ..pt.clone() });
@@ -157,7 +159,9 @@ impl<'s> Search<'s> {
         let mut fired = true;
         while std::mem::take(&mut fired) {
             for (transition, left) in firings.iter_mut().filter(|it| it.1 > 0) {
-                let Some(now) = alike(*transition).find(|&it| pt.enabled(&marking, it)) else { continue };
+                let Some(now) = alike(*transition).find(|&it| pt.enabled(&marking, it)) else {
+                    continue;
+                };
                 marking = pt.fire(&marking, now)?;
                 trace.push(TransitionId(now));
                 *left -= 1;

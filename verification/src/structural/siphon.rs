@@ -8,7 +8,8 @@ use cotama_core::net::{PlaceId, TransitionId};
 #[derive(Clone, Debug)]
 pub(super) struct Graph<'a> {
     pub(super) pt: &'a Pt,
-    /// For each transition the places that hold a token after it has fired, whatever they held before.
+    /// For each transition the places that hold a token after it has fired, whatever they held
+    /// before.
     gives: Lists<i64>,
     /// The same seen from the places.
     givers: Lists<i64>,
@@ -26,10 +27,14 @@ impl<'a> Graph<'a> {
             let find = |list: &[(u32, u32)], place| {
                 list.binary_search_by_key(&place, |it: &(u32, u32)| it.0).map_or(0, |at| list[at].1)
             };
-            let mut left: Vec<_> =
-                effects.iter().map(|&(place, by)| (place, i64::from(find(needs, place)) + by)).collect();
+            let mut left: Vec<_> = effects
+                .iter()
+                .map(|&(place, by)| (place, i64::from(find(needs, place)) + by))
+                .collect();
             let changed = |place| effects.binary_search_by_key(&place, |it| it.0).is_ok();
-            left.extend(needs.iter().filter(|it| !changed(it.0)).map(|&(place, need)| (place, need.into())));
+            left.extend(
+                needs.iter().filter(|it| !changed(it.0)).map(|&(place, need)| (place, need.into())),
+            );
             left.retain(|it| it.1 > 0);
             left.sort_unstable();
             left
@@ -44,7 +49,8 @@ impl<'a> Graph<'a> {
         let needless = |transition: u32, places: &Places| {
             !self.gives.of(transition).iter().any(|it| places[it.0 as usize])
         };
-        let mut suspects: Vec<u32> = (0..places.len() as u32).filter(|&it| places[it as usize]).collect();
+        let mut suspects: Vec<u32> =
+            (0..places.len() as u32).filter(|&it| places[it as usize]).collect();
         // A place is no part if a transition takes tokens from it and leaves none in the trap.
         suspects.retain(|&place| {
             self.pt.changers.of(place).iter().any(|&(transition, by)| {
@@ -57,7 +63,8 @@ impl<'a> Graph<'a> {
             }
             for &(transition, _) in self.givers.of(place) {
                 if self.can_fire[transition as usize] && needless(transition, places) {
-                    let taken = self.pt.effects.of(transition).iter().filter(|it| it.1 < 0).map(|it| it.0);
+                    let taken =
+                        self.pt.effects.of(transition).iter().filter(|it| it.1 < 0).map(|it| it.0);
                     suspects.extend(taken.filter(|&it| places[it as usize]));
                 }
             }
@@ -69,7 +76,8 @@ impl<'a> Graph<'a> {
         let free = |transition: u32, places: &Places| {
             !self.pt.needs.of(transition).iter().any(|it| places[it.0 as usize])
         };
-        let mut suspects: Vec<u32> = (0..places.len() as u32).filter(|&it| places[it as usize]).collect();
+        let mut suspects: Vec<u32> =
+            (0..places.len() as u32).filter(|&it| places[it as usize]).collect();
         // A place is no part if a transition adds tokens to it and needs none of the siphon.
         suspects.retain(|&place| {
             self.pt.changers.of(place).iter().any(|&(transition, by)| {
@@ -82,7 +90,8 @@ impl<'a> Graph<'a> {
             }
             for &(transition, _) in self.pt.consumers.of(place) {
                 if self.can_fire[transition as usize] && free(transition, places) {
-                    let added = self.pt.effects.of(transition).iter().filter(|it| it.1 > 0).map(|it| it.0);
+                    let added =
+                        self.pt.effects.of(transition).iter().filter(|it| it.1 > 0).map(|it| it.0);
                     suspects.extend(added.filter(|&it| places[it as usize]));
                 }
             }
@@ -93,7 +102,8 @@ impl<'a> Graph<'a> {
         self.pt.initial.iter().zip(places).any(|(&tokens, &within)| within && tokens > 0)
     }
 
-    /// A trap among these places that is marked at the start, and no marked trap within it has fewer places.
+    /// A trap among these places that is marked at the start, and no marked trap within it has
+    /// fewer places.
     pub(super) fn marked_trap(&self, mut places: Places, work: &mut u64) -> Option<Trap> {
         self.greatest_trap(&mut places);
         if !self.marked(&places) {
@@ -109,8 +119,9 @@ impl<'a> Graph<'a> {
     }
 }
 
-/// Takes places out in this order as long as what is left, made smaller by `close`, is still what is wanted: first many
-/// at once, then single ones. `None` from `close` ends it early, and so does this.
+/// Takes places out in this order as long as what is left, made smaller by `close`, is still what
+/// is wanted: first many at once, then single ones. `None` from `close` ends it early, and so does
+/// this.
 fn shrink(
     places: &mut Places,
     order: &[usize],
@@ -202,15 +213,16 @@ pub struct Siphons {
 }
 
 impl Siphons {
-    /// Whether every siphon contains a marked trap: what Commoner's theorem asks for. `None` when not all are known and
-    /// those that are known do.
+    /// Whether every siphon contains a marked trap: what Commoner's theorem asks for. `None` when
+    /// not all are known and those that are known do.
     pub fn controlled(&self) -> Option<bool> {
         let all = self.siphons.iter().all(|it| it.trap.is_some());
         if all && !self.complete { None } else { Some(all) }
     }
 }
 
-/// The minimal siphons of a net. `limit` is the most siphons to find, `work` the most arcs to look at.
+/// The minimal siphons of a net. `limit` is the most siphons to find, `work` the most arcs to look
+/// at.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -230,8 +242,8 @@ pub fn minimal_siphons(pt: &Pt, limit: usize, work: u64) -> Siphons {
     let cost = (pt.arcs + pt.places.len()) as u64;
     let mut found = Siphons { siphons: Vec::new(), complete: false };
     let mut work = work;
-    // Siphons within the first places that contain the second ones. Whichever has not all places of a siphon that was
-    // found lacks a first one and contains those before it.
+    // Siphons within the first places that contain the second ones. Whichever has not all places of
+    // a siphon that was found lacks a first one and contains those before it.
     let mut open: Vec<(Places, Vec<usize>)> = vec![(vec![true; pt.places.len()], Vec::new())];
     while let Some((mut places, mut required)) = open.pop() {
         graph.greatest_siphon(&mut places);
@@ -242,7 +254,8 @@ pub fn minimal_siphons(pt: &Pt, limit: usize, work: u64) -> Siphons {
         }
         let whole = places.clone();
         // Those that are required go last: a siphon without one of them has been found elsewhere.
-        let others: Vec<_> = (0..places.len()).filter(|it| places[*it] && !required.contains(it)).collect();
+        let others: Vec<_> =
+            (0..places.len()).filter(|it| places[*it] && !required.contains(it)).collect();
         for order in [&others, &required] {
             let shrunk = shrink(&mut places, order, |fewer| {
                 work = work.checked_sub(cost)?;

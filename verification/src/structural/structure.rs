@@ -1,6 +1,8 @@
 //! Questions to the structure of a net, and their proofs.
 
-use super::certificate::{self, Bound, DeadTransitions, DeadlockFree, Refutation, above, disabled, needs};
+use super::certificate::{
+    self, Bound, DeadTransitions, DeadlockFree, Refutation, above, disabled, needs,
+};
 use super::program::Program;
 use super::search::{End, Search};
 use super::siphon::Graph;
@@ -11,8 +13,8 @@ use cotama_core::net::{PlaceId, TransitionId};
 
 /// A net, and what is known of its structure so far.
 ///
-/// Each question has its own [`Limits`]. Proofs lean on [`Structure::dead`] as it is when the proof is made; it only
-/// grows with [`Structure::find_dead_transitions`], and earlier proofs stay valid.
+/// Each question has its own [`Limits`]. Proofs lean on [`Structure::dead`] as it is when the proof
+/// is made; it only grows with [`Structure::find_dead_transitions`], and earlier proofs stay valid.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -49,7 +51,8 @@ pub struct Structure<'a> {
 }
 
 impl<'a> Structure<'a> {
-    /// Looks at a net; finds the transitions that can never fire because a place never gets what they need.
+    /// Looks at a net; finds the transitions that can never fire because a place never gets what
+    /// they need.
     pub fn new(pt: &'a Pt, limits: Limits) -> Self {
         let dead = DeadTransitions { transitions: starved(pt, &[]), refutations: Vec::new() };
         let graph = Graph::new(pt, &dead);
@@ -98,12 +101,14 @@ impl<'a> Structure<'a> {
         }
     }
 
-    /// The least number found that a weighted sum of tokens never exceeds; `None` when none was found.
+    /// The least number found that a weighted sum of tokens never exceeds; `None` when none was
+    /// found.
     pub fn upper_bound(&mut self, weights: &[(PlaceId, i64)]) -> Option<Bound> {
         let mut left = Limits { work: self.limits.work / 2, ..self.limits };
         let large = self.relaxed_bound(1, weights, &mut left.work);
         left.work += self.limits.work / 4;
-        let mut bound = large.or_else(|_| self.relaxed_bound(0, weights, &mut left.work)).ok()??;
+        let mut bound =
+            large.or_else(|_| self.relaxed_bound(0, weights, &mut left.work)).ok()??;
         left.work += self.limits.work / 4;
         // The bound may be due to fractions of tokens: is it reached in whole ones?
         while let Some(at_most) = bound.at_most.checked_sub(1) {
@@ -129,7 +134,8 @@ impl<'a> Structure<'a> {
         let mut program = self.programs[program_at].clone()?;
         loop {
             let Some((at_most, sum)) = program.maximise(weights, work)? else { return Ok(None) };
-            let empty = (0..self.pt.places.len() as u32).map(|it| program.tokens(it).0 == 0).collect();
+            let empty =
+                (0..self.pt.places.len() as u32).map(|it| program.tokens(it).0 == 0).collect();
             let Some(trap) = self.graph.marked_trap(empty, work) else {
                 self.programs[program_at] = Ok(program);
                 let refutation = Refutation::Sum(sum);
@@ -168,10 +174,13 @@ impl<'a> Structure<'a> {
         // The most tokens in a point of the program: it proves no smaller bound.
         let mut seen: Vec<i64> = self.pt.initial.iter().map(|&it| it.into()).collect();
         for place in 0..bounds.len() {
-            if !wanted(&bounds[place]) || bounds[place].as_ref().is_some_and(|it| it.at_most <= seen[place]) {
+            if !wanted(&bounds[place])
+                || bounds[place].as_ref().is_some_and(|it| it.at_most <= seen[place])
+            {
                 continue;
             }
-            let found = match self.relaxed_bound(program, &[(PlaceId(place as u32), 1)], &mut work) {
+            let found = match self.relaxed_bound(program, &[(PlaceId(place as u32), 1)], &mut work)
+            {
                 Ok(found) => found,
                 Err(Stop::Overflow) => None,
                 Err(_) => return,
@@ -193,7 +202,8 @@ impl<'a> Structure<'a> {
         }
     }
 
-    /// Whether a marking with two tokens in one place is reachable; the proof has a bound of each place.
+    /// Whether a marking with two tokens in one place is reachable; the proof has a bound of each
+    /// place.
     pub fn one_safe(&mut self) -> Answer<Vec<Bound>> {
         if self.pt.initial.iter().any(|&it| it > 1) {
             return Answer::Reachable(Vec::new());
@@ -257,13 +267,16 @@ impl<'a> Structure<'a> {
                     needs.len() > 1 && needs.iter().any(|need| need.0 == place.0)
                 })
             };
-            let bounds =
-                known.into_iter().flatten().filter(|it| it.weights.iter().any(|(place, _)| used(place)));
+            let bounds = known
+                .into_iter()
+                .flatten()
+                .filter(|it| it.weights.iter().any(|(place, _)| used(place)));
             DeadlockFree { bounds: bounds.collect(), disabled: assumed, refutation }
         })
     }
 
-    /// The transitions that can fire, without those that need all that another one needs: they are disabled with it.
+    /// The transitions that can fire, without those that need all that another one needs: they are
+    /// disabled with it.
     fn weakest(&self) -> Vec<TransitionId> {
         let pt = self.pt;
         let within = |a: u32, b: u32| {
@@ -271,8 +284,9 @@ impl<'a> Structure<'a> {
                 pt.needs.of(b).iter().any(|&(other, most)| other == place && need <= most)
             })
         };
-        let mut kept: Vec<u32> =
-            (0..pt.transitions.len() as u32).filter(|&it| self.dead.can_fire(TransitionId(it))).collect();
+        let mut kept: Vec<u32> = (0..pt.transitions.len() as u32)
+            .filter(|&it| self.dead.can_fire(TransitionId(it)))
+            .collect();
         if let Some(&free) = kept.iter().find(|&&it| pt.needs.of(it).is_empty()) {
             return vec![TransitionId(free)];
         }
@@ -291,20 +305,22 @@ impl<'a> Structure<'a> {
         kept.into_iter().map(TransitionId).collect()
     }
 
-    /// Looks for more transitions that can never fire. Those found are in [`Structure::dead`]; the other questions are
-    /// answered better afterwards.
+    /// Looks for more transitions that can never fire. Those found are in [`Structure::dead`]; the
+    /// other questions are answered better afterwards.
     pub fn find_dead_transitions(&mut self) {
         let mut left = self.limits;
         let mut found = Vec::new();
-        let bounds: Vec<_> = self.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
+        let bounds: Vec<_> =
+            self.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
         for transition in (0..self.pt.transitions.len() as u32).map(TransitionId) {
             if !self.dead.can_fire(transition) || self.pt.enabled(&self.pt.initial, transition.0) {
                 continue;
             }
             let goal = needs(self.pt, transition);
             // Single needs within single bounds say nothing: only several together can contradict.
-            let plain =
-                |&(place, need): &(u32, u32)| bounds[place as usize].is_none_or(|it| it >= need.into());
+            let plain = |&(place, need): &(u32, u32)| {
+                bounds[place as usize].is_none_or(|it| it >= need.into())
+            };
             if goal.len() == 1 && self.pt.needs.of(transition.0).iter().all(plain) {
                 continue;
             }
@@ -330,7 +346,8 @@ impl<'a> Structure<'a> {
     }
 }
 
-/// Bounds of single places that the invariant behind a bound gives; none when the proof is not that simple.
+/// Bounds of single places that the invariant behind a bound gives; none when the proof is not that
+/// simple.
 fn shared(bound: &Bound) -> Vec<Bound> {
     let Refutation::Sum(sum) = &bound.refutation else { return Vec::new() };
     if !sum.traps.is_empty() || sum.invariant.weights.iter().any(|it| it.1 < 0) {
@@ -344,8 +361,8 @@ fn shared(bound: &Bound) -> Vec<Bound> {
     sum.invariant.weights.iter().filter_map(share).collect()
 }
 
-/// The transitions that need more of a place than it has at the start, while no others but such transitions, and those
-/// given, add tokens to it.
+/// The transitions that need more of a place than it has at the start, while no others but such
+/// transitions, and those given, add tokens to it.
 fn starved(pt: &Pt, unable: &[TransitionId]) -> Vec<TransitionId> {
     let mut fires = vec![false; pt.transitions.len()];
     let mut grows = vec![false; pt.places.len()];
@@ -362,7 +379,9 @@ fn starved(pt: &Pt, unable: &[TransitionId]) -> Vec<TransitionId> {
         }
         for &(place, by) in pt.effects.of(transition) {
             if by > 0 && !std::mem::replace(&mut grows[place as usize], true) {
-                open.extend(pt.consumers.of(place).iter().map(|it| it.0).filter(|&it| fed(&grows, it)));
+                open.extend(
+                    pt.consumers.of(place).iter().map(|it| it.0).filter(|&it| fed(&grows, it)),
+                );
             }
         }
     }

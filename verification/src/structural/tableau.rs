@@ -11,13 +11,14 @@ const PATIENCE: u32 = 20;
 
 /// Equations `sum of number * variable = right-hand side` over variables of at least zero.
 ///
-/// Each row has a variable of its own, its basic variable, with a positive number, and multiples of the equations at the
-/// start add up to it. In the point that the tableau stands for all other variables are zero. A row whose right-hand
-/// side is negative is violated: its variable is.
+/// Each row has a variable of its own, its basic variable, with a positive number, and multiples of
+/// the equations at the start add up to it. In the point that the tableau stands for all other
+/// variables are zero. A row whose right-hand side is negative is violated: its variable is.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Tableau {
     rows: Vec<Arc<Row>>,
-    /// For each row a bit for each of its columns modulo 64: most rows do not have a column, and this shows it quickly.
+    /// For each row a bit for each of its columns modulo 64: most rows do not have a column, and
+    /// this shows it quickly.
     masks: Vec<u64>,
     basic: Vec<u32>,
     /// For each variable the row in which it is basic.
@@ -29,7 +30,8 @@ pub(super) struct Tableau {
 pub(super) enum Raised {
     /// It is no longer negative; only when this was the aim.
     Feasible,
-    /// No point has a larger value: in its row no number is negative, but maybe the right-hand side.
+    /// No point has a larger value: in its row no number is negative, but maybe the right-hand
+    /// side.
     Maximal,
     /// It has no largest value.
     Unbounded,
@@ -58,8 +60,8 @@ impl Tableau {
         Ok(self.rows.len() - 1)
     }
 
-    /// A new row without a new variable: `sum of terms = right`. One of its variables becomes basic, a preferred one if
-    /// there is one. Says nothing when it follows from the others.
+    /// A new row without a new variable: `sum of terms = right`. One of its variables becomes
+    /// basic, a preferred one if there is one. Says nothing when it follows from the others.
     pub(super) fn equate(
         &mut self,
         terms: &[(u32, i64)],
@@ -72,7 +74,8 @@ impl Tableau {
         }
         let row = self.without_basic(row)?;
         let variables = || row.iter().map(|it| it.0).filter(|&it| it != RIGHT);
-        let Some(column) = variables().find(|&it| preferred(it)).or_else(|| variables().next()) else {
+        let Some(column) = variables().find(|&it| preferred(it)).or_else(|| variables().next())
+        else {
             return Ok(());
         };
         self.masks.push(mask(&row));
@@ -85,7 +88,8 @@ impl Tableau {
         for (column, _) in row.clone() {
             if let Some(&Some(home)) = self.home.get(column as usize) {
                 let home = &self.rows[home as usize];
-                let (a, b) = cancelling(at(&row, column), at(home, column)).ok_or(Stop::Overflow)?;
+                let (a, b) =
+                    cancelling(at(&row, column), at(home, column)).ok_or(Stop::Overflow)?;
                 row = combined(&row, a, home, b).ok_or(Stop::Overflow)?;
             }
         }
@@ -125,9 +129,15 @@ impl Tableau {
         }
     }
 
-    /// Increases the basic variable of a row, up to zero if `feasible`, otherwise as far as it goes. Rows that are not
-    /// violated stay so. Each number that is looked at is one piece of `work`.
-    pub(super) fn raise(&mut self, row: usize, feasible: bool, work: &mut u64) -> Result<Raised, Stop> {
+    /// Increases the basic variable of a row, up to zero if `feasible`, otherwise as far as it
+    /// goes. Rows that are not violated stay so. Each number that is looked at is one piece of
+    /// `work`.
+    pub(super) fn raise(
+        &mut self,
+        row: usize,
+        feasible: bool,
+        work: &mut u64,
+    ) -> Result<Raised, Stop> {
         let mut wasted = 0;
         loop {
             let (terms, right) = self.row(row);
@@ -135,10 +145,13 @@ impl Tableau {
                 return Ok(Raised::Feasible);
             }
             let negative = terms.iter().filter(|it| it.1 < 0);
-            let entering = if wasted < PATIENCE { negative.min_by_key(|it| it.1) } else { negative.min() };
+            let entering =
+                if wasted < PATIENCE { negative.min_by_key(|it| it.1) } else { negative.min() };
             let Some(&(column, number)) = entering else { return Ok(Raised::Maximal) };
             let mut leaving = feasible.then_some((row, right.checked_neg(), number.checked_neg()));
-            for at_row in (0..self.rows.len()).filter(|&it| it != row && may_have(self.masks[it], column)) {
+            for at_row in
+                (0..self.rows.len()).filter(|&it| it != row && may_have(self.masks[it], column))
+            {
                 let (terms, right) = self.row(at_row);
                 let number = at(terms, column);
                 if number <= 0 || right < 0 {
@@ -150,7 +163,8 @@ impl Tableau {
                     };
                     let [ours, theirs] = [(right, kept_number), (kept_right, number)]
                         .map(|(a, b)| i128::from(a) * i128::from(b));
-                    ours < theirs || ours == theirs && kept != row && self.before(at_row, kept, wasted)
+                    ours < theirs
+                        || ours == theirs && kept != row && self.before(at_row, kept, wasted)
                 });
                 if smaller {
                     leaving = Some((at_row, Some(right), Some(number)));
@@ -162,23 +176,28 @@ impl Tableau {
         }
     }
 
-    /// Which of two rows that limit a step equally should leave: the shorter one, or the one that cannot cycle.
+    /// Which of two rows that limit a step equally should leave: the shorter one, or the one that
+    /// cannot cycle.
     fn before(&self, one: usize, other: usize, wasted: u32) -> bool {
-        let rank = |it: usize| (if wasted < PATIENCE { self.rows[it].len() } else { 0 }, self.basic[it]);
+        let rank =
+            |it: usize| (if wasted < PATIENCE { self.rows[it].len() } else { 0 }, self.basic[it]);
         rank(one) < rank(other)
     }
 
     fn pivot(&mut self, row: usize, column: u32, work: &mut u64) -> Result<(), Stop> {
         if at(&self.rows[row], column) < 0 {
-            let negated =
-                self.rows[row].iter().map(|&(column, number)| Some((column, number.checked_neg()?)));
+            let negated = self.rows[row]
+                .iter()
+                .map(|&(column, number)| Some((column, number.checked_neg()?)));
             self.rows[row] = Arc::new(negated.collect::<Option<_>>().ok_or(Stop::Overflow)?);
         }
         let pivot = Arc::clone(&self.rows[row]);
         let number = at(&pivot, column);
         let mut spent = self.rows.len() as u64 / 4;
         let others = self.rows.iter_mut().zip(&mut self.masks).enumerate();
-        for (_, (other, mask_of_other)) in others.filter(|it| it.0 != row && may_have(*it.1.1, column)) {
+        for (_, (other, mask_of_other)) in
+            others.filter(|it| it.0 != row && may_have(*it.1.1, column))
+        {
             let theirs = at(other, column);
             if theirs != 0 {
                 spent += (other.len() + pivot.len()) as u64;

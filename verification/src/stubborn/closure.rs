@@ -5,15 +5,16 @@ use crate::property::Marking;
 use crate::pt::Pt;
 use cotama_core::net::PlaceId;
 
-/// What must be in a stubborn set because something else is: a graph whose nodes are transitions, and for each place those that
-/// need it, those that take from it, and those that add to it.
+/// What must be in a stubborn set because something else is: a graph whose nodes are transitions,
+/// and for each place those that need it, those that take from it, and those that add to it.
 pub(crate) struct Closure<'n> {
     pt: &'n Pt,
     takers: Vec<Vec<u32>>,
     givers: Vec<Vec<u32>>,
     /// For each node when it was met; 0 if it was not.
     met: Vec<u32>,
-    /// For each node that was met the first one under way that it leads to; [`DONE`] when its component is complete.
+    /// For each node that was met the first one under way that it leads to; [`DONE`] when its
+    /// component is complete.
     low: Vec<u32>,
     /// Nodes that were met, in their order.
     order: Vec<u32>,
@@ -63,7 +64,8 @@ impl<'n> Closure<'n> {
         &self.givers[place as usize]
     }
 
-    /// Of the places that a disabled transition misses tokens in, the one that fewest transitions add to.
+    /// Of the places that a disabled transition misses tokens in, the one that fewest transitions
+    /// add to.
     pub(crate) fn missed(&self, look: Look<'_>, transition: u32) -> Option<u32> {
         let needs = self.pt.needs.of(transition).iter();
         let missed = needs.filter(|it| look.tokens(PlaceId(it.0)) < it.1.into()).map(|it| it.0);
@@ -82,8 +84,9 @@ impl<'n> Closure<'n> {
         (self.pt.transitions.len() + 2 * self.pt.places.len()) as u32 + place
     }
 
-    /// Adds the nodes that must be in when a node is. What is outside never disturbs what is inside in that it still can
-    /// be fired after it; that nothing outside disables what is inside is asked for as well where `lasting`.
+    /// Adds the nodes that must be in when a node is. What is outside never disturbs what is inside
+    /// in that it still can be fired after it; that nothing outside disables what is inside is
+    /// asked for as well where `lasting`.
     fn link(&mut self, look: Look<'_>, node: u32, lasting: bool) {
         let (pt, places) = (self.pt, self.pt.places.len() as u32);
         let Some(place) = node.checked_sub(pt.transitions.len() as u32) else {
@@ -97,7 +100,8 @@ impl<'n> Closure<'n> {
                 }
             } else {
                 let needs = pt.needs.of(node).iter();
-                let missed = needs.filter(|it| look.tokens(PlaceId(it.0)) < it.1.into()).map(|it| it.0);
+                let missed =
+                    needs.filter(|it| look.tokens(PlaceId(it.0)) < it.1.into()).map(|it| it.0);
                 // A place whose givers are in already costs nothing.
                 let cost = |it: &u32| match self.met[self.givers_of(*it) as usize] {
                     0 => self.givers[*it as usize].len(),
@@ -122,8 +126,9 @@ impl<'n> Closure<'n> {
         self.links.clear();
     }
 
-    /// The enabled transitions, in their order, of the least set with these transitions in which each that is disabled stays
-    /// disabled while nothing of the set is fired, and each that is enabled disables nothing outside.
+    /// The enabled transitions, in their order, of the least set with these transitions in which
+    /// each that is disabled stays disabled while nothing of the set is fired, and each that is
+    /// enabled disables nothing outside.
     pub(crate) fn around(&mut self, look: Look<'_>, first: &[u32]) -> Vec<u32> {
         self.forget();
         for &transition in first {
@@ -140,8 +145,12 @@ impl<'n> Closure<'n> {
             at += 1;
         }
         let transitions = self.pt.transitions.len() as u32;
-        let mut enabled: Vec<u32> =
-            self.order.iter().copied().filter(|it| *it < transitions && look.enables(*it)).collect();
+        let mut enabled: Vec<u32> = self
+            .order
+            .iter()
+            .copied()
+            .filter(|it| *it < transitions && look.enables(*it))
+            .collect();
         enabled.sort_unstable();
         enabled
     }
@@ -153,11 +162,17 @@ impl<'n> Closure<'n> {
         }
     }
 
-    /// The enabled transitions, in their order, of a persistent set in which all that are enabled are `fine`: few, but at
-    /// least one. `None` when none was found; the set of all transitions is always one.
+    /// The enabled transitions, in their order, of a persistent set in which all that are enabled
+    /// are `fine`: few, but at least one. `None` when none was found; the set of all transitions is
+    /// always one.
     ///
-    /// Strongly connected components of the graph that lead to no other one with an enabled transition.
-    pub(crate) fn persistent(&mut self, look: Look<'_>, fine: impl Fn(u32) -> bool) -> Option<Vec<u32>> {
+    /// Strongly connected components of the graph that lead to no other one with an enabled
+    /// transition.
+    pub(crate) fn persistent(
+        &mut self,
+        look: Look<'_>,
+        fine: impl Fn(u32) -> bool,
+    ) -> Option<Vec<u32>> {
         self.forget();
         let mut best: Option<Vec<u32>> = None;
         let (mut visits, mut waiting): (Vec<Visit>, Vec<u32>) = (Vec::new(), Vec::new());
@@ -211,7 +226,13 @@ impl<'n> Closure<'n> {
         best
     }
 
-    fn visit(&mut self, look: Look<'_>, node: u32, visits: &mut Vec<Visit>, waiting: &mut Vec<u32>) {
+    fn visit(
+        &mut self,
+        look: Look<'_>,
+        node: u32,
+        visits: &mut Vec<Visit>,
+        waiting: &mut Vec<u32>,
+    ) {
         self.meet(node);
         self.low[node as usize] = self.met[node as usize];
         let start = self.links.len();

@@ -30,7 +30,8 @@ impl Goal {
         Some(match formula {
             Formula::Atom(Atom::AtMost(linear)) => {
                 let sign = if positive { -1 } else { 1 };
-                let moves = transitions().filter(|it| linear.change(pt, *it).signum() == sign).collect();
+                let moves =
+                    transitions().filter(|it| linear.change(pt, *it).signum() == sign).collect();
                 if positive {
                     Self::AtMost(linear.clone(), moves)
                 } else {
@@ -38,14 +39,16 @@ impl Goal {
                 }
             }
             Formula::Atom(Atom::Fireable(some)) => {
-                let some = some.iter().map(|it| it.0).filter(|it| transitions().contains(it)).collect();
+                let some =
+                    some.iter().map(|it| it.0).filter(|it| transitions().contains(it)).collect();
                 if positive { Self::Enabled(some) } else { Self::Disabled(some) }
             }
             Formula::Atom(Atom::Deadlock) if positive => Self::Disabled(transitions().collect()),
             Formula::Atom(Atom::Deadlock) => Self::Alive,
             Formula::Not(inner) => Self::new(pt, inner, !positive)?,
             Formula::And(all) | Formula::Or(all) => {
-                let parts = all.iter().map(|it| Self::new(pt, it, positive)).collect::<Option<_>>()?;
+                let parts =
+                    all.iter().map(|it| Self::new(pt, it, positive)).collect::<Option<_>>()?;
                 if matches!(formula, Formula::And(_)) == positive {
                     Self::All(parts)
                 } else {
@@ -71,13 +74,15 @@ impl Goal {
             }
             Self::Disabled(some) => some.iter().filter(|it| look.enables(**it)).count() as u64,
             Self::Alive => u64::from(look.transitions().next().is_none()),
-            Self::All(all) => all.iter().map(|it| it.distance(pt, look)).fold(0, u64::saturating_add),
+            Self::All(all) => {
+                all.iter().map(|it| it.distance(pt, look)).fold(0, u64::saturating_add)
+            }
             Self::Any(all) => all.iter().map(|it| it.distance(pt, look)).min().unwrap_or(u64::MAX),
         }
     }
 
-    /// Sets of transitions each of which has a member on every way from here to a marking in which it holds; it does not
-    /// hold here.
+    /// Sets of transitions each of which has a member on every way from here to a marking in which
+    /// it holds; it does not hold here.
     pub(super) fn needed(&self, closure: &Closure<'_>, pt: &Pt, look: Look<'_>) -> Vec<Vec<u32>> {
         match self {
             Self::All(all) => {
@@ -85,7 +90,8 @@ impl Goal {
                 open.flat_map(|it| it.needed(closure, pt, look)).take(CHOICES).collect()
             }
             Self::Any(all) => {
-                let least = |it: &Self| it.needed(closure, pt, look).into_iter().min_by_key(Vec::len);
+                let least =
+                    |it: &Self| it.needed(closure, pt, look).into_iter().min_by_key(Vec::len);
                 vec![all.iter().filter_map(least).flatten().collect()]
             }
             Self::AtMost(_, moves) | Self::AtLeast(_, moves) => vec![moves.clone()],
@@ -95,7 +101,8 @@ impl Goal {
             }
             Self::Disabled(some) => {
                 let enabled = some.iter().filter(|it| look.enables(**it)).take(CHOICES);
-                let takers = |it: &u32| pt.needs.of(*it).iter().flat_map(|it| closure.takers(it.0)).copied();
+                let takers =
+                    |it: &u32| pt.needs.of(*it).iter().flat_map(|it| closure.takers(it.0)).copied();
                 enabled.map(|it| takers(it).collect()).collect()
             }
             Self::Alive => vec![Vec::new()],
@@ -107,6 +114,7 @@ impl Goal {
 const CHOICES: usize = 8;
 
 fn sum(linear: &Linear, look: Look<'_>) -> i128 {
-    let tokens = |&(place, weight): &(PlaceId, i64)| i128::from(weight) * i128::from(look.tokens(place));
+    let tokens =
+        |&(place, weight): &(PlaceId, i64)| i128::from(weight) * i128::from(look.tokens(place));
     linear.weights.iter().map(tokens).fold(linear.constant.into(), i128::saturating_add)
 }

@@ -17,8 +17,9 @@ const PATIENCE: usize = 4;
 
 /// Searches for a marking in which a formula holds, through markings that seem near to it first.
 ///
-/// The way to it is a way, not always a shortest one; the numbers of markings are those that the search met, of which there
-/// may be far fewer than are reachable. `None` when the formula speaks of more than one marking. `progress` is called now and then.
+/// The way to it is a way, not always a shortest one; the numbers of markings are those that the
+/// search met, of which there may be far fewer than are reachable. `None` when the formula speaks
+/// of more than one marking. `progress` is called now and then.
 ///
 /// ```
 /// use cotama_core::net::TransitionId;
@@ -99,12 +100,18 @@ struct Search<'s> {
     only_deadlock: bool,
     markings: Markings<'s>,
     closure: Closure<'s>,
-    /// For each marking that from which it was met first, by which transition, and how many firings from the first one.
+    /// For each marking that from which it was met first, by which transition, and how many firings
+    /// from the first one.
     from: Vec<(u32, u32, u32)>,
 }
 
 impl<'s> Search<'s> {
-    fn new(pt: &'s Pt, goal: &'s Goal, only_deadlock: bool, limits: &Limits) -> Result<Self, Limit> {
+    fn new(
+        pt: &'s Pt,
+        goal: &'s Goal,
+        only_deadlock: bool,
+        limits: &Limits,
+    ) -> Result<Self, Limit> {
         let (markings, closure) = (Markings::new(pt, limits)?, Closure::new(pt));
         Ok(Self { pt, goal, only_deadlock, markings, closure, from: vec![(0, 0, 0)] })
     }
@@ -115,8 +122,8 @@ impl<'s> Search<'s> {
         if distance == 0 {
             return Ok(Some(0));
         }
-        // The nearest first, and of these the one that was met last; in between the one that waits longest, so that a
-        // goal that is not far is found wherever the distance leads.
+        // The nearest first, and of these the one that was met last; in between the one that waits
+        // longest, so that a goal that is not far is found wherever the distance leads.
         let mut near = BinaryHeap::from([(Reverse(distance), 0_u32)]);
         let (mut visited, mut oldest, mut is_visited) = (0_usize, 0_u32, Vec::new());
         while let Some((_, mut marking)) = near.pop() {
@@ -126,7 +133,8 @@ impl<'s> Search<'s> {
             }
             if visited.is_multiple_of(TICK) {
                 self.markings.check_time()?;
-                let (states, depth) = (self.markings.len() as u64, self.from[marking as usize].2.into());
+                let (states, depth) =
+                    (self.markings.len() as u64, self.from[marking as usize].2.into());
                 progress(Progress { states, depth, waiting: near.len() as u64 });
             }
             visited += 1;

@@ -36,6 +36,9 @@ impl Linear {
             let effects = pt.effects.of(transition);
             effects.binary_search_by_key(&place, |it| it.0).map_or(0, |at| effects[at].1)
         };
-        self.weights.iter().map(|&(place, weight)| i128::from(weight) * i128::from(effect(place.0))).sum()
+        self.weights
+            .iter()
+            .map(|&(place, weight)| i128::from(weight) * i128::from(effect(place.0)))
+            .sum()
     }
 }

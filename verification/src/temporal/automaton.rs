@@ -1,9 +1,10 @@
 //! A formula of LTL as a generalised Büchi automaton, made as far as it is used.
 //!
-//! A state is a set of parts of the formula that the rest of the run has to meet (J.-M. Couvreur, *On-the-fly verification of
-//! linear temporal logic*, 1999). What a marking says is put in at once, so that a move is made of a state and of a
-//! valuation: which of the parts about one marking hold. A move that puts off an `Until` makes a promise; a run is
-//! accepted when it makes none of them for ever.
+//! A state is a set of parts of the formula that the rest of the run has to meet (J.-M. Couvreur,
+//! *On-the-fly verification of linear temporal logic*, 1999). What a marking says is put in at
+//! once, so that a move is made of a state and of a valuation: which of the parts about one marking
+//! hold. A move that puts off an `Until` makes a promise; a run is accepted when it makes none of
+//! them for ever.
 
 use crate::property::{Ltl, LtlNode};
 use std::collections::{BTreeSet, HashMap};
@@ -72,7 +73,8 @@ impl<'f> Automaton<'f> {
         Ok(automaton)
     }
 
-    /// All promises: a run is accepted when for each of them it has moves without it again and again.
+    /// All promises: a run is accepted when for each of them it has moves without it again and
+    /// again.
     pub(super) fn promises(&self) -> u128 {
         if self.bits.len() == 128 { u128::MAX } else { (1 << self.bits.len()) - 1 }
     }
@@ -82,8 +84,14 @@ impl<'f> Automaton<'f> {
         self.states[state as usize].is_empty()
     }
 
-    /// The moves of a state on a valuation: a bit for each part about one marking, in their order. `valuation` is its number.
-    pub(super) fn moves(&mut self, state: u32, valuation: u32, holds: &[u64]) -> Result<&[Move], TooLarge> {
+    /// The moves of a state on a valuation: a bit for each part about one marking, in their order.
+    /// `valuation` is its number.
+    pub(super) fn moves(
+        &mut self,
+        state: u32,
+        valuation: u32,
+        holds: &[u64],
+    ) -> Result<&[Move], TooLarge> {
         if !self.moves.contains_key(&(state, valuation)) {
             let moves = self.worked_out(state, holds)?;
             self.moves.insert((state, valuation), moves);
@@ -132,7 +140,8 @@ impl<'f> Automaton<'f> {
     fn worked_out(&mut self, state: u32, holds: &[u64]) -> Result<Vec<Move>, TooLarge> {
         let known = self.known(holds);
         let mut found: Vec<(Vec<u32>, u128)> = Vec::new();
-        let mut branches = vec![Branch { now: self.states[state as usize].clone(), ..Branch::default() }];
+        let mut branches =
+            vec![Branch { now: self.states[state as usize].clone(), ..Branch::default() }];
         let mut count = 0;
         while let Some(mut branch) = branches.pop() {
             count += 1;
@@ -154,7 +163,10 @@ impl<'f> Automaton<'f> {
             }
         }
         found.sort_by(|a, b| (a.0.len(), a.1, &a.0).cmp(&(b.0.len(), b.1, &b.0)));
-        Ok(found.into_iter().map(|(next, promises)| Move { to: self.state(next), promises }).collect())
+        Ok(found
+            .into_iter()
+            .map(|(next, promises)| Move { to: self.state(next), promises })
+            .collect())
     }
 
     /// Works out all that is asked for now; `false` when it cannot be met.

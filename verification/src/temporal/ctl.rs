@@ -11,11 +11,11 @@ use crate::property::{Ctl, CtlNode};
 pub struct CtlAnswer {
     /// Whether it holds in the initial marking.
     pub verdict: bool,
-    /// For each of [`Ctl::nodes`] whether it holds in each marking of the graph. `None` of parts that the verdict does not
-    /// depend on.
+    /// For each of [`Ctl::nodes`] whether it holds in each marking of the graph. `None` of parts
+    /// that the verdict does not depend on.
     pub labels: Vec<Option<Vec<bool>>>,
-    /// For each `Until` that was looked at and each marking how many firings its second operand is away, through markings in which
-    /// the first holds; `u32::MAX` where the `Until` does not hold.
+    /// For each `Until` that was looked at and each marking how many firings its second operand is
+    /// away, through markings in which the first holds; `u32::MAX` where the `Until` does not hold.
     pub ranks: Vec<Option<Vec<u32>>>,
     /// A run that shows the verdict, as far as one run can.
     pub witness: Option<Witness>,
@@ -26,7 +26,8 @@ pub struct CtlAnswer {
 pub struct Witness {
     /// The run: a counterexample when the verdict is no.
     pub run: Run,
-    /// Whether it suffices; otherwise where it ends something is left to show that takes more than one run.
+    /// Whether it suffices; otherwise where it ends something is left to show that takes more than
+    /// one run.
     pub is_complete: bool,
 }
 
@@ -88,7 +89,8 @@ pub(super) struct Labelling<'g> {
 }
 
 impl Labelling<'_> {
-    /// Whether a part holds in the initial marking; parts of it that do not matter for this are not looked at.
+    /// Whether a part holds in the initial marking; parts of it that do not matter for this are not
+    /// looked at.
     fn holds(&mut self, node: u32) -> bool {
         match &self.formula.nodes()[node as usize] {
             CtlNode::Not(a) => !self.holds(*a),
@@ -110,7 +112,9 @@ impl Labelling<'_> {
     fn labelled(&mut self, node: u32) -> Vec<bool> {
         let (states, graph) = (self.graph.states(), self.graph);
         match &self.formula.nodes()[node as usize] {
-            CtlNode::State(state) => Goal::new(state).map_or(vec![false; states], |it| graph.satisfying(it)),
+            CtlNode::State(state) => {
+                Goal::new(state).map_or(vec![false; states], |it| graph.satisfying(it))
+            }
             CtlNode::Not(a) => self.label(*a).iter().map(|it| !it).collect(),
             CtlNode::And(all) => {
                 let mut holds = vec![true; states];
@@ -165,7 +169,8 @@ impl Labelling<'_> {
         self.fair.sets(region)
     }
 
-    /// For each state how many firings through such states a goal is away; `u32::MAX` when none is reached.
+    /// For each state how many firings through such states a goal is away; `u32::MAX` when none is
+    /// reached.
     fn backward(&mut self, goal: &[bool], through: &[bool]) -> Vec<u32> {
         let graph = self.graph;
         let before = self.before.get_or_insert_with(|| Predecessors::new(graph));
@@ -199,8 +204,10 @@ impl Predecessors {
     fn new(graph: &Graph) -> Self {
         let count = graph.states();
         let mut starts = vec![0; count + 1];
-        let arcs =
-            || (0..count as u32).flat_map(|from| graph.successors(from).iter().map(move |to| (from, *to)));
+        let arcs = || {
+            (0..count as u32)
+                .flat_map(|from| graph.successors(from).iter().map(move |to| (from, *to)))
+        };
         for (_, to) in arcs() {
             starts[to as usize + 1] += 1;
         }

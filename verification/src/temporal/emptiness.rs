@@ -1,7 +1,8 @@
-//! Whether some run of a net is as a formula says: the search for a component of the product in which no promise is kept up for ever.
+//! Whether some run of a net is as a formula says: the search for a component of the product in
+//! which no promise is kept up for ever.
 //!
-//! J.-M. Couvreur's algorithm (1999): one depth first search, which merges components as cycles close, and ends as soon as
-//! the merged ones have all that is needed.
+//! J.-M. Couvreur's algorithm (1999): one depth first search, which merges components as cycles
+//! close, and ends as soon as the merged ones have all that is needed.
 
 use super::product::{NONE, Product, Stop};
 use super::run::{Rest, Run};
@@ -14,7 +15,8 @@ use std::collections::VecDeque;
 /// Pairs between two looks at the clock.
 const TICK: u32 = 256;
 
-/// What a search for a run found, and how many pairs of a marking and a state of the automaton, and how many markings, were met.
+/// What a search for a run found, and how many pairs of a marking and a state of the automaton, and
+/// how many markings, were met.
 #[derive(Debug)]
 pub(super) struct Searched {
     pub(super) run: Result<Option<Run>, Stop>,
@@ -22,7 +24,12 @@ pub(super) struct Searched {
 }
 
 /// Searches for a run from the initial marking of which a formula is true.
-pub(super) fn some_run(pt: &Pt, formula: &Ltl, limits: &Limits, progress: &dyn Fn(Progress)) -> Searched {
+pub(super) fn some_run(
+    pt: &Pt,
+    formula: &Ltl,
+    limits: &Limits,
+    progress: &dyn Fn(Progress),
+) -> Searched {
     let product = match Product::new(pt, formula, limits) {
         Ok(product) => product,
         Err(stop) => return Searched { run: Err(stop), states: 0 },
@@ -177,7 +184,8 @@ impl Search<'_> {
         Ok(())
     }
 
-    /// Adds the transitions that were left out to the visit that is under way: on each cycle they are fired somewhere.
+    /// Adds the transitions that were left out to the visit that is under way: on each cycle they
+    /// are fired somewhere.
     fn complete(&mut self) -> Result<(), Stop> {
         let Some(visit) = self.visits.last_mut().filter(|it| it.is_reduced) else { return Ok(()) };
         visit.is_reduced = false;
@@ -244,14 +252,19 @@ impl Search<'_> {
             let back = self.way_inside(at, &inside, |_, to, _| to == first.to);
             cycle.extend(back.unwrap_or_default().fired);
         }
-        if cycle.contains(&NONE) { Run { stem, rest: Rest::Stays } } else { Run::lasso(stem, fired(&cycle)) }
+        if cycle.contains(&NONE) {
+            Run { stem, rest: Rest::Stays }
+        } else {
+            Run::lasso(stem, fired(&cycle))
+        }
     }
 
     fn way(&mut self, from: u32, is_last: impl Fn(u32, u32, u128) -> bool) -> Option<Way> {
         self.way_inside(from, &|_| true, is_last)
     }
 
-    /// A shortest way of at least one step from a pair, through these pairs, up to and with a step that is the last one.
+    /// A shortest way of at least one step from a pair, through these pairs, up to and with a step
+    /// that is the last one.
     fn way_inside(
         &mut self,
         from: u32,

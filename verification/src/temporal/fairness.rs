@@ -6,13 +6,14 @@ use crate::property::Assumptions;
 use cotama_core::net::TransitionId;
 use std::collections::VecDeque;
 
-/// What is asked of runs; one that does not meet all of it is left out. A run that ends in a deadlock stays there for ever.
+/// What is asked of runs; one that does not meet all of it is left out. A run that ends in a
+/// deadlock stays there for ever.
 #[derive(Clone, Debug, Default)]
 pub struct Fairness<'f> {
     /// Each of these holds again and again.
     pub recurring: Vec<Goal<'f>>,
-    /// Each of these is disabled again and again, or fires again and again: none is enabled for ever from some time on
-    /// without firing.
+    /// Each of these is disabled again and again, or fires again and again: none is enabled for
+    /// ever from some time on without firing.
     pub weak: Vec<TransitionId>,
     /// Each of these, if it is enabled again and again, fires again and again.
     pub strong: Vec<TransitionId>,
@@ -38,8 +39,8 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Fair<'g> {
     graph: &'g Graph,
     recurring: Vec<Vec<bool>>,
-    /// For each of these transitions and each state where it leads, [`NONE`] where it is disabled; and whether it is to be
-    /// treated strongly fair.
+    /// For each of these transitions and each state where it leads, [`NONE`] where it is disabled;
+    /// and whether it is to be treated strongly fair.
     targets: Vec<(TransitionId, bool, Vec<u32>)>,
 }
 
@@ -78,8 +79,8 @@ impl<'g> Fair<'g> {
         }
     }
 
-    /// The fair sets inside of a region. Those of different numbers are disjoint, and every fair run that stays in the region is
-    /// in one of them from some time on.
+    /// The fair sets inside of a region. Those of different numbers are disjoint, and every fair
+    /// run that stays in the region is in one of them from some time on.
     pub(super) fn sets(&self, region: &[bool]) -> FairSets {
         let mut of = vec![NONE; region.len()];
         // The region that a state is in; NONE in none of those that are still looked at.
@@ -114,8 +115,8 @@ impl<'g> Fair<'g> {
         FairSets { of }
     }
 
-    /// Of a strongly connected set: `None` when no fair run stays in it; else the states that a fair run in it does without,
-    /// none when it is fair as it is.
+    /// Of a strongly connected set: `None` when no fair run stays in it; else the states that a
+    /// fair run in it does without, none when it is fair as it is.
     fn verdict(&self, component: &[u32], part: &[u32]) -> Option<Vec<u32>> {
         let first = *component.first()?;
         let is_inside = |to: u32| to != NONE && part[to as usize] == part[first as usize];
@@ -141,9 +142,14 @@ impl<'g> Fair<'g> {
         Some(removed)
     }
 
-    /// A fair run from a state that goes through a region, all of whose states lead to a fair set in it: what is fired first,
-    /// and what then.
-    pub(super) fn run(&self, from: u32, region: &[bool], sets: &FairSets) -> (Vec<TransitionId>, Rest) {
+    /// A fair run from a state that goes through a region, all of whose states lead to a fair set
+    /// in it: what is fired first, and what then.
+    pub(super) fn run(
+        &self,
+        from: u32,
+        region: &[bool],
+        sets: &FairSets,
+    ) -> (Vec<TransitionId>, Rest) {
         let mut stem = Vec::new();
         let mut first = from;
         if !sets.has(first) {
@@ -160,14 +166,15 @@ impl<'g> Fair<'g> {
         let inside = |it: u32| sets.of[it as usize] == set;
         let (mut cycle, mut at) = (Vec::new(), first);
         let mut met = vec![first];
-        let mut go =
-            |cycle: &mut Vec<TransitionId>, at: &mut u32, is_last: &dyn Fn(u32, u32, usize) -> bool| {
-                if let Some((way, to)) = self.way(*at, &inside, is_last) {
-                    cycle.extend(way);
-                    *at = to;
-                    met.push(to);
-                }
-            };
+        let mut go = |cycle: &mut Vec<TransitionId>,
+                      at: &mut u32,
+                      is_last: &dyn Fn(u32, u32, usize) -> bool| {
+            if let Some((way, to)) = self.way(*at, &inside, is_last) {
+                cycle.extend(way);
+                *at = to;
+                met.push(to);
+            }
+        };
         for holds in &self.recurring {
             if !holds[at as usize] {
                 go(&mut cycle, &mut at, &|_, to, _| holds[to as usize]);
@@ -176,7 +183,8 @@ impl<'g> Fair<'g> {
         for (transition, is_strong, to) in &self.targets {
             let members = || (0..sets.of.len()).filter(|it| sets.of[*it] == set);
             if members().any(|it| to[it] != NONE && inside(to[it])) {
-                let fires = |from: u32, _, arc: usize| self.graph.transitions(from)[arc] == *transition;
+                let fires =
+                    |from: u32, _, arc: usize| self.graph.transitions(from)[arc] == *transition;
                 go(&mut cycle, &mut at, &fires);
             } else if !is_strong && to[at as usize] != NONE {
                 go(&mut cycle, &mut at, &|_, it, _| to[it as usize] == NONE);
@@ -188,8 +196,8 @@ impl<'g> Fair<'g> {
         (stem, Rest::Cycle(cycle))
     }
 
-    /// A shortest way of at least one step through such states up to and with a step that is the last one (from, to, position of
-    /// the arc), and where it leads.
+    /// A shortest way of at least one step through such states up to and with a step that is the
+    /// last one (from, to, position of the arc), and where it leads.
     fn way(
         &self,
         from: u32,
@@ -199,7 +207,9 @@ impl<'g> Fair<'g> {
         let mut before: Vec<(u32, u32)> = vec![(NONE, 0); self.graph.states()];
         let mut queue = VecDeque::from([from]);
         while let Some(state) = queue.pop_front() {
-            for (arc, &to) in self.graph.successors(state).iter().enumerate().filter(|it| inside(*it.1)) {
+            for (arc, &to) in
+                self.graph.successors(state).iter().enumerate().filter(|it| inside(*it.1))
+            {
                 if is_last(state, to, arc) {
                     let fired = |state: u32, arc: usize| self.graph.transitions(state)[arc];
                     let (mut way, mut at) = (vec![fired(state, arc)], state);
@@ -221,7 +231,8 @@ impl<'g> Fair<'g> {
     }
 }
 
-/// The strongly connected components of some states, by arcs inside of their part. `low` is room for numbers.
+/// The strongly connected components of some states, by arcs inside of their part. `low` is room
+/// for numbers.
 fn components(graph: &Graph, states: &[u32], part: &[u32], low: &mut [u32]) -> Vec<Vec<u32>> {
     // Numbers in the order in which states are met; NONE for those that are left.
     for it in states {

@@ -7,10 +7,12 @@ use crate::explicit::{Limits, Progress};
 use crate::property::{Formula, Ltl};
 use crate::pt::Pt;
 
-/// Whether a formula without quantifiers is true of all runs from the initial marking. A counterexample is a lasso, short but
-/// not always a shortest one. `progress` is called now and then.
+/// Whether a formula without quantifiers is true of all runs from the initial marking. A
+/// counterexample is a lasso, short but not always a shortest one. `progress` is called now and
+/// then.
 ///
-/// Of a formula without `X`, in each marking only some transitions are fired where the others make no difference.
+/// Of a formula without `X`, in each marking only some transitions are fired where the others make
+/// no difference.
 ///
 /// ```
 /// use cotama_core::net::TransitionId;
@@ -41,7 +43,8 @@ pub fn all_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Prog
     searched(pt, Ltl::negation_of(path), false, limits, progress)
 }
 
-/// Whether a formula without quantifiers is true of some run from the initial marking; the answer is as that of [`all_runs`].
+/// Whether a formula without quantifiers is true of some run from the initial marking; the answer
+/// is as that of [`all_runs`].
 pub fn some_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
     searched(pt, Ltl::new(path), true, limits, progress)
 }
@@ -53,7 +56,9 @@ fn searched(
     limits: &Limits,
     progress: &dyn Fn(Progress),
 ) -> Verdict {
-    let Some(formula) = formula else { return Verdict::Unknown { reason: Reason::Kind, states: 0 } };
+    let Some(formula) = formula else {
+        return Verdict::Unknown { reason: Reason::Kind, states: 0 };
+    };
     let searched = some_run(pt, &formula, limits, progress);
     let states = searched.states;
     match searched.run {

@@ -29,7 +29,8 @@ impl From<TooLarge> for Stop {
     }
 }
 
-/// Pairs of a marking and a state of the automaton, with numbers in the order in which they are met.
+/// Pairs of a marking and a state of the automaton, with numbers in the order in which they are
+/// met.
 pub(super) struct Product<'a> {
     pub(super) markings: Markings<'a>,
     pub(super) automaton: Automaton<'a>,
@@ -144,7 +145,8 @@ impl<'a> Product<'a> {
         if all.is_empty() { vec![NONE] } else { all }
     }
 
-    /// Transitions that suffice, unless they close a cycle; none of them is seen. `None` when all are to be fired.
+    /// Transitions that suffice, unless they close a cycle; none of them is seen. `None` when all
+    /// are to be fired.
     pub(super) fn few(&mut self, marking: u32) -> Option<Vec<u32>> {
         let (closure, seen) = self.reduction.as_mut()?;
         let look = self.markings.look(marking);
@@ -164,8 +166,11 @@ impl<'a> Product<'a> {
         let marking = self.of(pair).0;
         let mut steps = Vec::new();
         for transition in self.transitions(marking) {
-            let after =
-                if transition == NONE { Some(marking) } else { self.markings.known(marking, transition) };
+            let after = if transition == NONE {
+                Some(marking)
+            } else {
+                self.markings.known(marking, transition)
+            };
             let Some(after) = after else { continue };
             for step in &moves {
                 steps.extend(self.known(after, step.to).map(|to| (transition, to, step.promises)));

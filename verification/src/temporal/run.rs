@@ -25,10 +25,12 @@ pub enum Rest {
 }
 
 impl Run {
-    /// The run of a stem and a loop, without repetition in the stem of what comes in the loop, and in the loop of itself.
+    /// The run of a stem and a loop, without repetition in the stem of what comes in the loop, and
+    /// in the loop of itself.
     pub(super) fn lasso(mut stem: Vec<TransitionId>, mut cycle: Vec<TransitionId>) -> Self {
         let repeats = |period: &usize| {
-            cycle.len().is_multiple_of(*period) && cycle.iter().zip(&cycle[*period..]).all(|(a, b)| a == b)
+            cycle.len().is_multiple_of(*period)
+                && cycle.iter().zip(&cycle[*period..]).all(|(a, b)| a == b)
         };
         let period = (1..cycle.len()).find(repeats).unwrap_or(cycle.len());
         cycle.truncate(period);
@@ -43,15 +45,17 @@ impl Run {
 const TRIED: usize = 4_096;
 
 impl Run {
-    /// The same run with a loop or a deadlock at its end where that is found with little effort, by firing the first transition
-    /// that is enabled.
+    /// The same run with a loop or a deadlock at its end where that is found with little effort, by
+    /// firing the first transition that is enabled.
     #[must_use]
     pub fn closed(mut self, pt: &Pt) -> Self {
         if self.rest != Rest::Any {
             return self;
         }
         let fired = |marking: Vec<u32>, it: &TransitionId| pt.fire(&marking, it.0);
-        let Some(mut marking) = self.stem.iter().try_fold(pt.initial.clone(), fired) else { return self };
+        let Some(mut marking) = self.stem.iter().try_fold(pt.initial.clone(), fired) else {
+            return self;
+        };
         let (mut met, mut fired) = (HashMap::new(), Vec::new());
         while fired.len() < TRIED {
             if let Some(back) = met.insert(marking.clone(), fired.len()) {
@@ -59,7 +63,8 @@ impl Run {
                 self.stem.extend(fired);
                 return Self::lasso(self.stem, cycle);
             }
-            let Some(transition) = (0..pt.transitions.len() as u32).find(|it| pt.enabled(&marking, *it))
+            let Some(transition) =
+                (0..pt.transitions.len() as u32).find(|it| pt.enabled(&marking, *it))
             else {
                 self.stem.extend(fired);
                 return Self { rest: Rest::Stays, ..self };

@@ -18,7 +18,8 @@ pub enum Verdict {
     Known {
         /// Whether it does.
         holds: bool,
-        /// A run that shows it, where a run does: one that exists, or a counterexample to what is said of all.
+        /// A run that shows it, where a run does: one that exists, or a counterexample to what is
+        /// said of all.
         run: Option<Run>,
         /// How many markings were met.
         states: u64,
@@ -37,7 +38,8 @@ pub enum Verdict {
 pub enum Reason {
     /// A limit was reached.
     Limit(Limit),
-    /// The automaton of the formula has more than 128 conditions, or more than 16,384 moves in one state on one marking.
+    /// The automaton of the formula has more than 128 conditions, or more than 16,384 moves in one
+    /// state on one marking.
     Formula,
     /// It is of no kind that is answered here.
     Kind,
@@ -51,9 +53,10 @@ impl From<Limit> for Reason {
 
 /// Whether a formula holds in the initial marking.
 ///
-/// `EF` and `AG` of one marking are answered by [`reach_reduced`], other quantifiers before a formula without quantifiers
-/// by [`all_runs`] and [`some_runs`], and what is left, if it is of CTL, by [`ctl`] on the stored graph. Of a conjunction
-/// or disjunction only as many parts are answered as are needed.
+/// `EF` and `AG` of one marking are answered by [`reach_reduced`], other quantifiers before a
+/// formula without quantifiers by [`all_runs`] and [`some_runs`], and what is left, if it is of
+/// CTL, by [`ctl`] on the stored graph. Of a conjunction or disjunction only as many parts are
+/// answered as are needed.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -113,19 +116,29 @@ impl Asked<'_> {
                     let run = Some(Run { stem: transitions, rest: Rest::Any });
                     Verdict::Known { holds: asked.expected, run, states }
                 }
-                Reached::Never { states } => Verdict::Known { holds: !asked.expected, run: None, states },
-                Reached::Unknown { limit, states } => Verdict::Unknown { reason: limit.into(), states },
+                Reached::Never { states } => {
+                    Verdict::Known { holds: !asked.expected, run: None, states }
+                }
+                Reached::Unknown { limit, states } => {
+                    Verdict::Unknown { reason: limit.into(), states }
+                }
             };
         }
         match formula {
             Formula::Not(inner) => match self.verdict(inner) {
-                Verdict::Known { holds, run, states } => Verdict::Known { holds: !holds, run, states },
+                Verdict::Known { holds, run, states } => {
+                    Verdict::Known { holds: !holds, run, states }
+                }
                 unknown @ Verdict::Unknown { .. } => unknown,
             },
             Formula::And(parts) => self.parts(parts, false),
             Formula::Or(parts) => self.parts(parts, true),
-            Formula::All(path) if is_of_runs(path) => all_runs(self.pt, path, self.limits, self.progress),
-            Formula::Exists(path) if is_of_runs(path) => some_runs(self.pt, path, self.limits, self.progress),
+            Formula::All(path) if is_of_runs(path) => {
+                all_runs(self.pt, path, self.limits, self.progress)
+            }
+            Formula::Exists(path) if is_of_runs(path) => {
+                some_runs(self.pt, path, self.limits, self.progress)
+            }
             _ => self.branching(formula),
         }
     }
@@ -165,7 +178,8 @@ impl Asked<'_> {
         match (self.graph)() {
             Ok(graph) => {
                 let answer = ctl(&graph, &formula, &Fairness::default());
-                let run = answer.witness.filter(|it| it.is_complete || can_be_lost).map(|it| it.run);
+                let run =
+                    answer.witness.filter(|it| it.is_complete || can_be_lost).map(|it| it.run);
                 Verdict::Known { holds: answer.verdict, run, states: graph.states() as u64 }
             }
             Err(it) => Verdict::Unknown { reason: it.limit.into(), states: it.states },
@@ -173,8 +187,8 @@ impl Asked<'_> {
     }
 }
 
-/// `AG EF p`: that it does not hold is shown by a run to a marking from which no run reaches `p`, although that run cannot show
-/// the latter.
+/// `AG EF p`: that it does not hold is shown by a run to a marking from which no run reaches `p`,
+/// although that run cannot show the latter.
 fn can_be_lost(formula: &Formula) -> bool {
     let Formula::All(always) = formula else { return false };
     let Formula::Globally(inner) = &**always else { return false };
@@ -182,7 +196,8 @@ fn can_be_lost(formula: &Formula) -> bool {
     matches!(&**path, Formula::Finally(goal) if goal.is_state())
 }
 
-/// Whether a formula after a quantifier speaks of the whole run, and has no quantifiers: `EX` and `AX` speak of successors.
+/// Whether a formula after a quantifier speaks of the whole run, and has no quantifiers: `EX` and
+/// `AX` speak of successors.
 fn is_of_runs(path: &Formula) -> bool {
     !matches!(path, Formula::Next(inner) if !inner.needs_run())
         && !path.any(&|it| matches!(it, Formula::Exists(_) | Formula::All(_) | Formula::Within(..)))

@@ -5,7 +5,8 @@ use super::run::{Rest, Run};
 use crate::property::CtlNode;
 use cotama_core::net::TransitionId;
 
-/// A run from the initial marking that shows the verdict; `None` when no run is needed, or when none can begin to show it.
+/// A run from the initial marking that shows the verdict; `None` when no run is needed, or when
+/// none can begin to show it.
 pub(super) fn explained(labelling: &Labelling<'_>, verdict: bool) -> Option<Witness> {
     let mut path = Path { labelling, state: 0, fired: Vec::new(), rest: Rest::Any, has_run: false };
     let is_complete = path.show(labelling.formula.root(), verdict);
@@ -63,7 +64,8 @@ impl Path<'_> {
         }
     }
 
-    /// Extends the run to show that a part holds here, or does not; whether that is all there is to show.
+    /// Extends the run to show that a part holds here, or does not; whether that is all there is to
+    /// show.
     fn show(&mut self, node: u32, value: bool) -> bool {
         if self.is_state(node) {
             return true;
@@ -75,7 +77,8 @@ impl Path<'_> {
             (CtlNode::And(all), true) | (CtlNode::Or(all), false) => {
                 let open: Vec<u32> = all.into_iter().filter(|it| !self.is_state(*it)).collect();
                 let run = open.iter().copied().find(|it| self.is_run(*it, value));
-                let is_shown = run.or_else(|| open.first().copied()).is_none_or(|it| self.show(it, value));
+                let is_shown =
+                    run.or_else(|| open.first().copied()).is_none_or(|it| self.show(it, value));
                 open.len() < 2 && is_shown
             }
             (CtlNode::And(all) | CtlNode::Or(all), _) => {
@@ -89,7 +92,8 @@ impl Path<'_> {
                 run.or_else(|| some.first().copied()).is_some_and(|it| self.show(it, value))
             }
             (CtlNode::Next(a), true) => {
-                let Some(arc) = graph.successors(self.state).iter().position(|it| self.is_goal(a, *it))
+                let Some(arc) =
+                    graph.successors(self.state).iter().position(|it| self.is_goal(a, *it))
                 else {
                     return false;
                 };

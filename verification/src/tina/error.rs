@@ -2,7 +2,8 @@
 
 use std::fmt;
 
-/// The first error of a file. Its `Display` is `file:line:column: message`, and a line of help where there is some.
+/// The first error of a file. Its `Display` is `file:line:column: message`, and a line of help
+/// where there is some.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TinaError {
     /// The name of the file, as the caller gave it.
@@ -58,7 +59,8 @@ impl Finding {
     }
 }
 
-/// A text of the file as a message shows it: in backticks, cut, and without characters that a terminal obeys.
+/// A text of the file as a message shows it: in backticks, cut, and without characters that a
+/// terminal obeys.
 pub(super) fn quoted(text: &str) -> String {
     const SHOWN: usize = 40;
     let obeyed = |c: char| {

@@ -24,16 +24,20 @@
 //! comment     = "#" to the end of the line
 //! ```
 //!
-//! - White space separates and means nothing else; a keyword begins the next declaration. A name that is a keyword
-//!   needs braces.
-//! - A bracket opens and closes: `]2,5]` is 2 < x ≤ 5, `[2,w[` has no end. Without interval a transition has `[0,w[`.
-//! - Nodes are declared by their first appearance, which is also their order. Declarations of one node add up: arcs and
-//!   tokens are summed, of several read arcs to a place the largest counts, intervals intersect, the last label stays.
+//! - White space separates and means nothing else; a keyword begins the next declaration. A name
+//!   that is a keyword needs braces.
+//! - A bracket opens and closes: `]2,5]` is 2 < x ≤ 5, `[2,w[` has no end. Without interval a
+//!   transition has `[0,w[`.
+//! - Nodes are declared by their first appearance, which is also their order. Declarations of one
+//!   node add up: arcs and tokens are summed, of several read arcs to a place the largest counts,
+//!   intervals intersect, the last label stays.
 //! - An arc of weight 0 is none.
-//! - Priorities (`pr`), `lb`, inhibitor arcs (`?-`), stopwatch arcs (`!`) and arcs in `pl` declarations are refused.
+//! - Priorities (`pr`), `lb`, inhibitor arcs (`?-`), stopwatch arcs (`!`) and arcs in `pl`
+//!   declarations are refused.
 //!
-//! Weights and tokens are at most [`u32::MAX`], bounds at most [`Interval::LARGEST`](crate::tpn::Interval::LARGEST).
-//! [`Limits`] bound what a file may ask for. Time and memory grow with the length of the file, and there is no recursion.
+//! Weights and tokens are at most [`u32::MAX`], bounds at most
+//! [`Interval::LARGEST`](crate::tpn::Interval::LARGEST). [`Limits`] bound what a file may ask for.
+//! Time and memory grow with the length of the file, and there is no recursion.
 
 mod error;
 mod parser;

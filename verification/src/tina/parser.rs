@@ -9,7 +9,8 @@ use std::collections::HashMap;
 
 const KEYWORDS: [&str; 6] = ["net", "pl", "tr", "nt", "lb", "pr"];
 
-/// Whether a name without braces would begin a declaration, for readers that do not tell cases apart too.
+/// Whether a name without braces would begin a declaration, for readers that do not tell cases
+/// apart too.
 pub(super) fn is_keyword(word: &str) -> bool {
     KEYWORDS.iter().any(|keyword| keyword.eq_ignore_ascii_case(word))
 }
@@ -36,7 +37,8 @@ pub(super) fn parse(text: &str, limits: Limits) -> Result<TimeNet, Finding> {
     let Parser { name, places, transitions, transitions_at, .. } = parser;
     TimeNet::new(name, places, transitions).map_err(|defect| match defect {
         TimeNetDefect::Weight(TransitionId(id)) => {
-            let message = format!("weights of one place at this transition sum to more than {}", u32::MAX);
+            let message =
+                format!("weights of one place at this transition sum to more than {}", u32::MAX);
             Finding::new(transitions_at[id as usize], message)
         }
         other => Finding::new(text.len(), other.to_string()),
@@ -111,7 +113,10 @@ impl<'t> Parser<'t> {
             _ => return Ok(None),
         };
         if length > self.limits.name {
-            return Err(Finding::new(at, format!("a name is longer than {} bytes", self.limits.name)));
+            return Err(Finding::new(
+                at,
+                format!("a name is longer than {} bytes", self.limits.name),
+            ));
         }
         Ok(match self.take()?.1 {
             Token::Bare(word) => Some(word.to_owned()),
@@ -126,8 +131,9 @@ impl<'t> Parser<'t> {
         }
         let finding = self.expected(what);
         Err(match &self.token {
-            Token::Bare(word) => finding
-                .help(format!("`{word}` begins a declaration; as a name it needs braces: `{{{word}}}`")),
+            Token::Bare(word) => finding.help(format!(
+                "`{word}` begins a declaration; as a name it needs braces: `{{{word}}}`"
+            )),
             _ => finding,
         })
     }
@@ -149,7 +155,10 @@ impl<'t> Parser<'t> {
     fn count(&mut self, at: usize) -> Result<(), Finding> {
         self.objects += 1;
         if self.objects > self.limits.objects {
-            return Err(Finding::new(at, format!("the net has more than {} parts", self.limits.objects)));
+            return Err(Finding::new(
+                at,
+                format!("the net has more than {} parts", self.limits.objects),
+            ));
         }
         Ok(())
     }
@@ -192,14 +201,20 @@ impl<'t> Parser<'t> {
             }
             let sum = self.places[id].initial.checked_add(tokens);
             self.places[id].initial = sum.ok_or_else(|| {
-                Finding::new(at, format!("the markings of this place sum to more than {}", u32::MAX))
+                Finding::new(
+                    at,
+                    format!("the markings of this place sum to more than {}", u32::MAX),
+                )
             })?;
         }
         let arcs = matches!(self.token, Token::Arrow | Token::Bare(_) | Token::Braced(_))
             && !matches!(self.token, Token::Bare(word) if KEYWORDS.contains(&word));
         if arcs {
-            return Err(Finding::new(self.at, format!("{} does not belong to a place", self.token.shown()))
-                .help("arcs stand in `tr` declarations only"));
+            return Err(Finding::new(
+                self.at,
+                format!("{} does not belong to a place", self.token.shown()),
+            )
+            .help("arcs stand in `tr` declarations only"));
         }
         Ok(())
     }
@@ -265,7 +280,8 @@ impl<'t> Parser<'t> {
         let upper_strict = self.token == Token::Sign('[');
         match (&self.token, upper) {
             (Token::Sign(']'), None) => {
-                Err(Finding::new(self.at, "infinity is not a time: its bracket is `[`").help("write `w[`"))
+                Err(Finding::new(self.at, "infinity is not a time: its bracket is `[`")
+                    .help("write `w[`"))
             }
             (Token::Sign('[' | ']'), _) => {
                 self.take()?;
@@ -284,9 +300,13 @@ impl<'t> Parser<'t> {
             return Err(Finding::new(self.at, format!("{} is not an integer", quoted(word)))
                 .help("bounds are written out, without `K` or `M`"));
         }
-        let bound = word.parse().ok().filter(|&bound| bound <= Interval::LARGEST).ok_or_else(|| {
-            Finding::new(self.at, format!("the bound {} is larger than {}", quoted(word), Interval::LARGEST))
-        })?;
+        let bound =
+            word.parse().ok().filter(|&bound| bound <= Interval::LARGEST).ok_or_else(|| {
+                Finding::new(
+                    self.at,
+                    format!("the bound {} is larger than {}", quoted(word), Interval::LARGEST),
+                )
+            })?;
         self.take()?;
         Ok(bound)
     }
@@ -304,14 +324,17 @@ impl<'t> Parser<'t> {
             "E" => Some(1_000_000_000_000_000_000),
             _ => None,
         };
-        let Some(times) =
-            times.filter(|_| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
+        let Some(times) = times
+            .filter(|_| !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit()))
         else {
             return Err(Finding::new(self.at, format!("{} is not a number", quoted(word))));
         };
         let number = digits.parse().ok().and_then(|number: u64| number.checked_mul(times));
         let number = number.and_then(|number| u32::try_from(number).ok()).ok_or_else(|| {
-            Finding::new(self.at, format!("the number {} is larger than {}", quoted(word), u32::MAX))
+            Finding::new(
+                self.at,
+                format!("the number {} is larger than {}", quoted(word), u32::MAX),
+            )
         })?;
         self.take()?;
         Ok(number)
@@ -328,9 +351,8 @@ impl<'t> Parser<'t> {
                 Token::Sign('*') => false,
                 Token::Sign('?') if inputs => true,
                 Token::Sign('?') => {
-                    return Err(
-                        Finding::new(sign, "a read arc is an input").help("write it before the arrow")
-                    );
+                    return Err(Finding::new(sign, "a read arc is an input")
+                        .help("write it before the arrow"));
                 }
                 Token::Sign('!') => return Err(Finding::new(sign, "stopwatch arcs are not read")),
                 _ => {

@@ -93,7 +93,8 @@ pub(super) fn in_name(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '\'' || c == '_'
 }
 
-/// The name at the start of a text that begins with a brace, and how many bytes it takes; or what is wrong, and where.
+/// The name at the start of a text that begins with a brace, and how many bytes it takes; or what
+/// is wrong, and where.
 fn braced(text: &str) -> Result<(Cow<'_, str>, usize), (usize, &'static str)> {
     let mut name = Cow::Borrowed("");
     let mut start = 1;

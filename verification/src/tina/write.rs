@@ -6,7 +6,8 @@ use crate::tpn::{Interval, TimeNet};
 use cotama_core::net::Arc;
 use std::fmt::Write as _;
 
-/// A file that [`read`](super::read) reads as the same net: all places in their order, then all transitions.
+/// A file that [`read`](super::read) reads as the same net: all places in their order, then all
+/// transitions.
 ///
 /// Every interval is written but `[0,w[`, which is the one of a transition without interval.
 pub fn write(net: &TimeNet) -> String {
@@ -60,7 +61,10 @@ fn arcs(text: &mut String, net: &TimeNet, arcs: &[Arc], sign: char) {
 /// A name, in braces where it needs them.
 fn name(text: &mut String, name: &str) {
     // Some readers want a letter in front.
-    if name.starts_with(|c: char| c.is_ascii_alphabetic()) && name.chars().all(in_name) && !is_keyword(name) {
+    if name.starts_with(|c: char| c.is_ascii_alphabetic())
+        && name.chars().all(in_name)
+        && !is_keyword(name)
+    {
         *text += name;
         return;
     }

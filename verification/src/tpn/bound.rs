@@ -4,9 +4,10 @@ use super::net::Interval;
 
 /// `< v`, `<= v`, or no bound; the smaller one is the tighter one.
 ///
-/// One integer: `2v` for `< v`, `2v + 1` for `<= v`. Every bound of a class lies between the negated largest lower and
-/// the largest upper bound of an interval (a firing replaces bounds by bounds of this kind, see [`super::domain`]), so
-/// with bounds up to [`Interval::LARGEST`] sums of several of them never leave 64 bits.
+/// One integer: `2v` for `< v`, `2v + 1` for `<= v`. Every bound of a class lies between the
+/// negated largest lower and the largest upper bound of an interval (a firing replaces bounds by
+/// bounds of this kind, see [`super::domain`]), so with bounds up to [`Interval::LARGEST`] sums of
+/// several of them never leave 64 bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Bound(i64);
 
@@ -20,9 +21,9 @@ impl Bound {
 
     /// The bound of a clock from above.
     pub(super) fn upper(interval: Interval) -> Self {
-        interval
-            .upper
-            .map_or(Self::INFINITE, |upper| Self(2 * upper.cast_signed() + i64::from(!interval.upper_strict)))
+        interval.upper.map_or(Self::INFINITE, |upper| {
+            Self(2 * upper.cast_signed() + i64::from(!interval.upper_strict))
+        })
     }
 
     /// The bound of the negated clock from above.

@@ -13,12 +13,13 @@ use cotama_core::net::TransitionId;
 /// A class, by its number; 0 is the first.
 pub type ClassId = u32;
 
-/// The linear state class graph of a net (Berthomieu and Menasche 1983, Berthomieu and Diaz 1991), or the part of it that
-/// the limits allowed.
+/// The linear state class graph of a net (Berthomieu and Menasche 1983, Berthomieu and Diaz 1991),
+/// or the part of it that the limits allowed.
 ///
-/// A class is a marking and the set of times left that its enabled transitions can have just after some firing sequence.
-/// Two classes are one iff both are equal; none is merged into a larger one. The first has the intervals of the net. The
-/// firing sequences of the net are the paths of the graph. Classes are numbered breadth first, transitions in their order.
+/// A class is a marking and the set of times left that its enabled transitions can have just after
+/// some firing sequence. Two classes are one iff both are equal; none is merged into a larger one.
+/// The first has the intervals of the net. The firing sequences of the net are the paths of the
+/// graph. Classes are numbered breadth first, transitions in their order.
 #[derive(Debug)]
 pub struct Classes {
     pub(super) rules: Rules,
@@ -28,7 +29,8 @@ pub struct Classes {
     pub(super) list: Vec<(u32, u32)>,
     /// From which class each was met first, and by which transition.
     pub(super) parents: Vec<(ClassId, TransitionId)>,
-    /// Where the edges of each class start, and where the last ones end. Classes that were not looked at have none.
+    /// Where the edges of each class start, and where the last ones end. Classes that were not
+    /// looked at have none.
     starts: Vec<usize>,
     edges: Vec<(TransitionId, ClassId)>,
     stopped: Option<Stop>,
@@ -74,8 +76,8 @@ impl Classes {
         }
     }
 
-    /// Adds classes until there are no more, or one has a marking that is sought: that one is returned. With `growth` it
-    /// also stops when the net is unbounded.
+    /// Adds classes until there are no more, or one has a marking that is sought: that one is
+    /// returned. With `growth` it also stops when the net is unbounded.
     pub(super) fn explore(
         &mut self,
         limits: &Limits<'_>,
@@ -83,7 +85,9 @@ impl Classes {
         mut sought: impl FnMut(&[u32]) -> bool,
     ) -> Result<Option<ClassId>, Stop> {
         let most = limits.classes.min(u32::MAX as usize - 1);
-        let fits = |transitions: usize| Domain::bytes(transitions).is_some_and(|bytes| bytes <= limits.bytes);
+        let fits = |transitions: usize| {
+            Domain::bytes(transitions).is_some_and(|bytes| bytes <= limits.bytes)
+        };
         if most == 0 {
             return Err(Stop::Classes);
         }
@@ -112,7 +116,8 @@ impl Classes {
                 }
                 let known = self.markings.len();
                 let fired = TransitionId(self.markings.enabled(marking)[position]);
-                let step = self.markings.step(&self.rules, marking, position).ok_or(Stop::Overflow)?;
+                let step =
+                    self.markings.step(&self.rules, marking, position).ok_or(Stop::Overflow)?;
                 let kept = (self.markings.kept(step), self.markings.enabled(step.target));
                 if !fits(kept.1.len()) {
                     return Err(Stop::Bytes);
@@ -120,7 +125,8 @@ impl Classes {
                 domain.fire(&self.rules, (position + 1, &first), kept, &mut bounds, &mut after);
                 let pair = (step.target, self.domains.number(&after));
                 let next = self.list.len() as ClassId;
-                let found = index.find_or_insert(key(pair), next, |it| self.list[it as usize] == pair);
+                let found =
+                    index.find_or_insert(key(pair), next, |it| self.list[it as usize] == pair);
                 if found.is_none() {
                     if self.list.len() >= most {
                         return Err(Stop::Classes);
@@ -172,10 +178,11 @@ impl Classes {
 
     /// Whether the net has finitely many markings; `None` when that is not known.
     ///
-    /// It is known to be bounded when the graph is complete, or when the net without time is bounded. It is known to be
-    /// unbounded when some firing sequence leads to a larger marking with the same times, and no transition that it leaves
-    /// disabled on the way waits for the tokens that it adds: then it can be repeated for ever. That is a proof, and a
-    /// larger marking alone would not be one. There is no procedure that decides every net.
+    /// It is known to be bounded when the graph is complete, or when the net without time is
+    /// bounded. It is known to be unbounded when some firing sequence leads to a larger marking
+    /// with the same times, and no transition that it leaves disabled on the way waits for the
+    /// tokens that it adds: then it can be repeated for ever. That is a proof, and a larger marking
+    /// alone would not be one. There is no procedure that decides every net.
     pub fn bounded(&self) -> Option<bool> {
         self.bounded
     }
@@ -197,7 +204,9 @@ impl Classes {
 
     /// How many of the markings enable nothing.
     pub fn dead_markings(&self) -> usize {
-        (0..self.markings() as u32).filter(|&marking| self.markings.enabled(marking).is_empty()).count()
+        (0..self.markings() as u32)
+            .filter(|&marking| self.markings.enabled(marking).is_empty())
+            .count()
     }
 
     /// The marking of a class; empty beyond the last.

@@ -7,8 +7,8 @@ use std::fmt;
 
 /// A [`TimeNet`] made of a [`Net`], in milliseconds, and where it allows more than the net.
 ///
-/// Every run of the net is a run of the time net, whatever events come when, so what no run of the time net does no run of
-/// the net does. The time net has further runs where `differences` says so.
+/// Every run of the net is a run of the time net, whatever events come when, so what no run of the
+/// time net does no run of the net does. The time net has further runs where `differences` says so.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Converted {
     /// The net.
@@ -20,11 +20,13 @@ pub struct Converted {
 /// Where a time net allows more than the net that it was made of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// Priorities and the order of lines are ignored: transitions that can fire at the same instant fire in any order.
+    /// Priorities and the order of lines are ignored: transitions that can fire at the same instant
+    /// fire in any order.
     Order,
     /// These need an event; here they may fire at any time that their interval allows, or never.
     Events(Vec<TransitionId>),
-    /// These accept an event up to a latest time; here also after it, as the end of an interval would force them to fire.
+    /// These accept an event up to a latest time; here also after it, as the end of an interval
+    /// would force them to fire.
     Latest(Vec<TransitionId>),
 }
 
@@ -33,13 +35,16 @@ impl fmt::Display for Difference {
         match self {
             Self::Order => f.write_str("priorities and the order of lines are ignored"),
             Self::Events(all) => write!(f, "{} transitions fire without their event", all.len()),
-            Self::Latest(all) => write!(f, "{} transitions accept their event later as well", all.len()),
+            Self::Latest(all) => {
+                write!(f, "{} transitions accept their event later as well", all.len())
+            }
         }
     }
 }
 
-/// The time net of a net: a transition with an event and no interval has `[0,w[`, one with neither has `[0,0]`, one with an
-/// interval and no event keeps it. A transition with both has its earliest time and no latest one.
+/// The time net of a net: a transition with an event and no interval has `[0,w[`, one with neither
+/// has `[0,0]`, one with an interval and no event keeps it. A transition with both has its earliest
+/// time and no latest one.
 ///
 /// # Errors
 /// What is wrong with the net.
@@ -49,15 +54,19 @@ pub fn from_net(net: &Net<'_>) -> Result<Converted, TimeNetDefect> {
         ids.map(|(at, _)| TransitionId(at as u32)).collect::<Vec<_>>()
     };
     let events = ids(|it| it.on.is_some());
-    let latest = ids(|it| it.on.is_some() && it.within.is_some_and(|within| within.latest.is_some()));
+    let latest =
+        ids(|it| it.on.is_some() && it.within.is_some_and(|within| within.latest.is_some()));
     let order = net.transitions.len() > 1;
     let differences = [
         order.then_some(Difference::Order),
         (!events.is_empty()).then_some(Difference::Events(events)),
         (!latest.is_empty()).then_some(Difference::Latest(latest)),
     ];
-    let places =
-        net.places.iter().map(|it| TimePlace { name: it.name.to_owned(), label: None, initial: it.initial });
+    let places = net.places.iter().map(|it| TimePlace {
+        name: it.name.to_owned(),
+        label: None,
+        initial: it.initial,
+    });
     let transitions = net.transitions.iter().map(|it| TimeTransition {
         interval: interval(it),
         take: it.take.to_vec(),
@@ -95,23 +104,27 @@ impl fmt::Display for NotANet {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Open(id) => write!(f, "the interval of transition {} has an open bound", id.0),
-            Self::Large(id) => write!(f, "a bound of transition {} is more than {}", id.0, u32::MAX),
-            Self::TakenAndRead(id) => write!(f, "transition {} takes from and reads the same place", id.0),
+            Self::Large(id) => {
+                write!(f, "a bound of transition {} is more than {}", id.0, u32::MAX)
+            }
+            Self::TakenAndRead(id) => {
+                write!(f, "transition {} takes from and reads the same place", id.0)
+            }
         }
     }
 }
 
 impl std::error::Error for NotANet {}
 
-/// A net of the same meaning, its unit taken as milliseconds, its labels as documentation. All transitions get an interval.
+/// A net of the same meaning, its unit taken as milliseconds, its labels as documentation. All
+/// transitions get an interval.
 ///
 /// # Errors
 /// What a net cannot say.
 pub fn to_net(net: &TimeNet) -> Result<OwnedNet, NotANet> {
-    let places = net
-        .places()
-        .iter()
-        .map(|it| OwnedPlace::new(&it.name, it.initial).doc(it.label.as_deref().unwrap_or_default()));
+    let places = net.places().iter().map(|it| {
+        OwnedPlace::new(&it.name, it.initial).doc(it.label.as_deref().unwrap_or_default())
+    });
     let mut transitions = Vec::with_capacity(net.transitions().len());
     for (id, it) in (0..).map(TransitionId).zip(net.transitions()) {
         let Interval { lower, lower_strict, upper, upper_strict } = it.interval;
@@ -119,7 +132,11 @@ pub fn to_net(net: &TimeNet) -> Result<OwnedNet, NotANet> {
             return Err(NotANet::Open(id));
         }
         let bound = |bound| u32::try_from(bound).map_err(|_| NotANet::Large(id));
-        if it.read.iter().any(|arc| it.take.binary_search_by_key(&arc.place, |arc| arc.place).is_ok()) {
+        if it
+            .read
+            .iter()
+            .any(|arc| it.take.binary_search_by_key(&arc.place, |arc| arc.place).is_ok())
+        {
             return Err(NotANet::TakenAndRead(id));
         }
         transitions.push(OwnedTransition {

@@ -1,8 +1,8 @@
 //! The times left of the enabled transitions of a class: difference bound matrices, numbered.
 //!
-//! A matrix over n transitions has n + 1 rows and columns, the first of which stands for zero. Entry (i, j) is the upper
-//! bound of xᵢ - xⱼ, as tight as it can be: the shortest path from i to j. This form is canonical, so two sets of times
-//! are equal iff their matrices are.
+//! A matrix over n transitions has n + 1 rows and columns, the first of which stands for zero.
+//! Entry (i, j) is the upper bound of xᵢ - xⱼ, as tight as it can be: the shortest path from i to
+//! j. This form is canonical, so two sets of times are equal iff their matrices are.
 
 use super::bound::Bound;
 use super::index::{Index, hash};
@@ -25,7 +25,8 @@ impl Domain {
         domain
     }
 
-    /// How many bytes it takes to fire in a domain of so many transitions; `None`: too many to count.
+    /// How many bytes it takes to fire in a domain of so many transitions; `None`: too many to
+    /// count.
     pub(super) fn bytes(transitions: usize) -> Option<usize> {
         let size = transitions.checked_add(1)?;
         size.checked_mul(size)?.checked_mul(3 * size_of::<Bound>())
@@ -53,8 +54,8 @@ impl Domain {
         self.entries[row * self.size + column]
     }
 
-    /// For each column the least entry but for the first row: bounds of the first firing minus each time. The transition
-    /// of a column can fire first iff its bound is zero.
+    /// For each column the least entry but for the first row: bounds of the first firing minus each
+    /// time. The transition of a column can fire first iff its bound is zero.
     pub(super) fn first(&self, least: &mut Vec<Bound>) {
         least.clear();
         least.resize(self.size, Bound::INFINITE);
@@ -65,13 +66,14 @@ impl Domain {
         }
     }
 
-    /// The times after a firing at position `fired`, counted from 1. `first` is of the domain before, `kept` and
-    /// `enabled` of the step.
+    /// The times after a firing at position `fired`, counted from 1. `first` is of the domain
+    /// before, `kept` and `enabled` of the step.
     ///
-    /// Let f fire first: xf <= xₖ for all k, so a shortest path may use an edge of weight 0 from f to any k, once. With
-    /// times counted from f on, f is the new zero. So the bound of xᵢ from above is that of xᵢ - xf, from below the
-    /// shortest path from f, which is `first`; a difference keeps its bound, or its path goes through f. This takes a step
-    /// for each entry, and no search for shortest paths.
+    /// Let f fire first: xf <= xₖ for all k, so a shortest path may use an edge of weight 0 from f
+    /// to any k, once. With times counted from f on, f is the new zero. So the bound of xᵢ from
+    /// above is that of xᵢ - xf, from below the shortest path from f, which is `first`; a
+    /// difference keeps its bound, or its path goes through f. This takes a step for each entry,
+    /// and no search for shortest paths.
     pub(super) fn fire(
         &self,
         rules: &Rules,
@@ -146,7 +148,8 @@ impl Domains {
     /// None yet, of a net with these intervals.
     pub(super) fn new(rules: &Rules) -> Self {
         let bounds = rules.intervals.iter().flat_map(|&(lower, upper)| [lower, upper]);
-        let finite = bounds.filter_map(|it| it.value().map(|_| it.code().unsigned_abs())).max().unwrap_or(0);
+        let finite =
+            bounds.filter_map(|it| it.value().map(|_| it.code().unsigned_abs())).max().unwrap_or(0);
         let entries = match finite {
             0..0x7fff => Entries::Short(Vec::new()),
             0x7fff..0x7fff_ffff => Entries::Middle(Vec::new()),
@@ -162,9 +165,15 @@ impl Domains {
         let Self { starts, entries, index } = self;
         let range = |number: u32| starts[number as usize]..starts[number as usize + 1];
         let found = match entries {
-            Entries::Short(all) => index.find_or_insert(hash, next, |it| same(&all[range(it)], domain)),
-            Entries::Middle(all) => index.find_or_insert(hash, next, |it| same(&all[range(it)], domain)),
-            Entries::Long(all) => index.find_or_insert(hash, next, |it| same(&all[range(it)], domain)),
+            Entries::Short(all) => {
+                index.find_or_insert(hash, next, |it| same(&all[range(it)], domain))
+            }
+            Entries::Middle(all) => {
+                index.find_or_insert(hash, next, |it| same(&all[range(it)], domain))
+            }
+            Entries::Long(all) => {
+                index.find_or_insert(hash, next, |it| same(&all[range(it)], domain))
+            }
         };
         if let Some(found) = found {
             return found;

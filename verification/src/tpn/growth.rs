@@ -3,14 +3,17 @@
 use super::classes::{ClassId, Classes};
 use super::markings::Markings;
 
-/// How many classes back a repetition is looked for. A longer one goes unnoticed, and the net counts as unknown.
+/// How many classes back a repetition is looked for. A longer one goes unnoticed, and the net
+/// counts as unknown.
 const BACK: usize = 256;
 
-/// Whether the way to a class, the last one met, ends in a firing sequence that can be repeated for ever and adds tokens.
+/// Whether the way to a class, the last one met, ends in a firing sequence that can be repeated for
+/// ever and adds tokens.
 ///
-/// Let it lead from (m, D) to (m + d, D), d >= 0, d != 0. If on its way no transition that is disabled, in a marking or in an
-/// intermediate one, would be enabled by more tokens in the places of d, then with any multiple of d added the same
-/// transitions are enabled and newly enabled all the way: the domains are the same, so it leads to (m + 2d, D), and so on.
+/// Let it lead from (m, D) to (m + d, D), d >= 0, d != 0. If on its way no transition that is
+/// disabled, in a marking or in an intermediate one, would be enabled by more tokens in the places
+/// of d, then with any multiple of d added the same transitions are enabled and newly enabled all
+/// the way: the domains are the same, so it leads to (m + 2d, D), and so on.
 pub(super) fn repeats(classes: &Classes, last: ClassId) -> bool {
     let (marking, domain) = classes.list[last as usize];
     let mut class = last;
@@ -30,16 +33,25 @@ pub(super) fn repeats(classes: &Classes, last: ClassId) -> bool {
 /// Whether a marking enables the same transitions as another one and has no more tokens anywhere.
 fn smaller(markings: &Markings, before: u32, after: u32) -> bool {
     markings.enabled(before) == markings.enabled(after)
-        && markings.tokens(before).iter().zip(markings.tokens(after)).all(|(before, after)| before <= after)
+        && markings
+            .tokens(before)
+            .iter()
+            .zip(markings.tokens(after))
+            .all(|(before, after)| before <= after)
 }
 
 /// Whether no transition waits only for the tokens that the way from one class to the other adds.
 fn harmless(classes: &Classes, from: ClassId, to: ClassId) -> bool {
     let rules = &classes.rules;
-    let grows = |place: u32| classes.marking(from)[place as usize] < classes.marking(to)[place as usize];
+    let grows =
+        |place: u32| classes.marking(from)[place as usize] < classes.marking(to)[place as usize];
     let waits = |marking: &[u32], transition: u32| {
-        let mut lacks =
-            rules.pt.needs.of(transition).iter().filter(|&&(place, need)| marking[place as usize] < need);
+        let mut lacks = rules
+            .pt
+            .needs
+            .of(transition)
+            .iter()
+            .filter(|&&(place, need)| marking[place as usize] < need);
         let mut lacking = lacks.next().is_some_and(|&(place, _)| grows(place));
         lacking &= lacks.all(|&(place, _)| grows(place));
         lacking

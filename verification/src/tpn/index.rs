@@ -13,8 +13,14 @@ impl Index {
         Self { slots: vec![(0, 0); 64], used: 0 }
     }
 
-    /// The number of a thing with this hash, which `is` knows; or `None` when it is new, and now has number `next`.
-    pub(super) fn find_or_insert(&mut self, hash: u64, next: u32, is: impl Fn(u32) -> bool) -> Option<u32> {
+    /// The number of a thing with this hash, which `is` knows; or `None` when it is new, and now
+    /// has number `next`.
+    pub(super) fn find_or_insert(
+        &mut self,
+        hash: u64,
+        next: u32,
+        is: impl Fn(u32) -> bool,
+    ) -> Option<u32> {
         if self.used * 2 >= self.slots.len() {
             self.grow();
         }
@@ -55,7 +61,8 @@ impl Index {
 /// The same words, the same hash, on every machine.
 pub(super) fn hash(words: impl IntoIterator<Item = u64>) -> u64 {
     const FACTOR: u64 = 0x9e37_79b9_7f4a_7c15;
-    let mixed =
-        words.into_iter().fold(0_u64, |hash, word| (hash.rotate_left(23) ^ word).wrapping_mul(FACTOR));
+    let mixed = words
+        .into_iter()
+        .fold(0_u64, |hash, word| (hash.rotate_left(23) ^ word).wrapping_mul(FACTOR));
     (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9)
 }

@@ -17,9 +17,12 @@ pub(super) struct Rules {
 
 impl Rules {
     pub(super) fn new(net: &TimeNet) -> Self {
-        let take = net.transitions().iter().map(|it| it.take.iter().map(|arc| (arc.place.0, arc.weight)));
-        let intervals =
-            net.transitions().iter().map(|it| (Bound::lower(it.interval), Bound::upper(it.interval)));
+        let take =
+            net.transitions().iter().map(|it| it.take.iter().map(|arc| (arc.place.0, arc.weight)));
+        let intervals = net
+            .transitions()
+            .iter()
+            .map(|it| (Bound::lower(it.interval), Bound::upper(it.interval)));
         Self { pt: net.untimed(), take: Lists::new(take), intervals: intervals.collect() }
     }
 
@@ -79,7 +82,9 @@ impl Markings {
         let next = self.len() as u32;
         let Self { width, tokens, .. } = self;
         let is = |number: u32| tokens[number as usize * *width..][..*width] == *marking;
-        if let Some(number) = self.index.find_or_insert(hash(marking.iter().map(|&it| it.into())), next, is) {
+        if let Some(number) =
+            self.index.find_or_insert(hash(marking.iter().map(|&it| it.into())), next, is)
+        {
             return number;
         }
         self.tokens.extend(marking);
@@ -105,7 +110,8 @@ impl Markings {
         &self.enabled[self.starts[marking as usize]..self.starts[marking as usize + 1]]
     }
 
-    /// The firing of an enabled transition, named by its position in the list; `None` when a place would hold too much.
+    /// The firing of an enabled transition, named by its position in the list; `None` when a place
+    /// would hold too much.
     #[inline]
     pub(super) fn step(&mut self, rules: &Rules, marking: u32, position: usize) -> Option<Step> {
         let at = self.starts[marking as usize] + position;
@@ -113,7 +119,8 @@ impl Markings {
         if known.target == UNKNOWN.target { self.new_step(rules, marking, at) } else { Some(known) }
     }
 
-    /// The position of a transition among the enabled ones of a marking, and its firing if it was asked for before.
+    /// The position of a transition among the enabled ones of a marking, and its firing if it was
+    /// asked for before.
     pub(super) fn known_step(&self, marking: u32, transition: u32) -> Option<(usize, Step)> {
         let position = self.enabled(marking).binary_search(&transition).ok()?;
         let step = self.steps[self.starts[marking as usize] + position];
@@ -137,8 +144,8 @@ impl Markings {
         Some(step)
     }
 
-    /// For each transition that is enabled after a firing, its position in the list of those that were before, if its
-    /// clock goes on, or [`ANEW`].
+    /// For each transition that is enabled after a firing, its position in the list of those that
+    /// were before, if its clock goes on, or [`ANEW`].
     #[inline]
     pub(super) fn kept(&self, step: Step) -> &[u32] {
         let length = self.starts[step.target as usize + 1] - self.starts[step.target as usize];
@@ -146,7 +153,8 @@ impl Markings {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        let words = self.tokens.len() + 2 * self.starts.len() + self.enabled.len() + self.kept.len();
+        let words =
+            self.tokens.len() + 2 * self.starts.len() + self.enabled.len() + self.kept.len();
         words * size_of::<u32>() + self.steps.len() * size_of::<Step>() + self.index.bytes()
     }
 }

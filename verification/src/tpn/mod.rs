@@ -9,8 +9,9 @@
 //! | [`schedule`] | dates for a firing sequence |
 //! | [`from_net`], [`to_net`] | a [`Net`](cotama_core::net::Net) as a time net, and back |
 //!
-//! [`TimeNet`] says what a net means; [`tina`](crate::tina) reads it from files. All answers are exact, in dense time, with
-//! open bounds where they are open. What a limit cuts short is said to be unknown.
+//! [`TimeNet`] says what a net means; [`tina`](crate::tina) reads it from files. All answers are
+//! exact, in dense time, with open bounds where they are open. What a limit cuts short is said to
+//! be unknown.
 
 mod bound;
 mod classes;

@@ -6,7 +6,8 @@ use cotama_core::net::{Arc, PlaceId, TransitionId};
 use std::collections::HashSet;
 use std::fmt;
 
-/// When a transition may fire, counted from the moment it became enabled. No unit is attached; bounds are integers.
+/// When a transition may fire, counted from the moment it became enabled. No unit is attached;
+/// bounds are integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Interval {
     /// Not before.
@@ -47,7 +48,8 @@ impl Interval {
     /// The times that lie in both.
     #[must_use]
     pub fn intersection(self, other: Self) -> Self {
-        let (lower, lower_strict) = (self.lower, self.lower_strict).max((other.lower, other.lower_strict));
+        let (lower, lower_strict) =
+            (self.lower, self.lower_strict).max((other.lower, other.lower_strict));
         // Of equal upper bounds the strict one is the smaller.
         let end = |it: Self| it.upper.map_or((u64::MAX, true), |upper| (upper, !it.upper_strict));
         let upper = if end(self) <= end(other) { self } else { other };
@@ -87,7 +89,8 @@ pub struct TimeTransition {
     pub interval: Interval,
     /// Tokens that it removes, sorted by place, each place once.
     pub take: Vec<Arc>,
-    /// Tokens that must be there and stay, sorted likewise. A place may be in `take` as well: the larger weight counts.
+    /// Tokens that must be there and stay, sorted likewise. A place may be in `take` as well: the
+    /// larger weight counts.
     pub read: Vec<Arc>,
     /// Tokens that it adds, sorted likewise.
     pub give: Vec<Arc>,
@@ -135,7 +138,9 @@ impl fmt::Display for TimeNetDefect {
             Self::UnknownPlace(id) => {
                 write!(f, "an arc of transition {} names a place that is not there", id.0)
             }
-            Self::Weight(id) => write!(f, "weights of transition {} sum to more than {}", id.0, u32::MAX),
+            Self::Weight(id) => {
+                write!(f, "weights of transition {} sum to more than {}", id.0, u32::MAX)
+            }
             Self::Empty(id) => write!(f, "the interval of transition {} is empty", id.0),
             Self::Bound(id) => {
                 write!(f, "a bound of transition {} is larger than {}", id.0, Interval::LARGEST)
@@ -148,11 +153,12 @@ impl std::error::Error for TimeNetDefect {}
 
 /// A time Petri net: places, and transitions with an interval each.
 ///
-/// A transition is enabled when every place of `take` and `read` holds at least the weight. Each enabled transition has
-/// one clock, however many times the marking would allow it. It may fire when its clock is in its interval, and time
-/// cannot pass the end of the interval of any enabled transition. After a firing the clocks start anew of transitions
-/// that are enabled now and either fired or were not enabled in the intermediate marking, when tokens were removed and
-/// not yet added. So a read arc disturbs no clock, and taking a token and putting it back does.
+/// A transition is enabled when every place of `take` and `read` holds at least the weight. Each
+/// enabled transition has one clock, however many times the marking would allow it. It may fire
+/// when its clock is in its interval, and time cannot pass the end of the interval of any enabled
+/// transition. After a firing the clocks start anew of transitions that are enabled now and either
+/// fired or were not enabled in the intermediate marking, when tokens were removed and not yet
+/// added. So a read arc disturbs no clock, and taking a token and putting it back does.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TimeNet {
     name: String,
@@ -161,8 +167,9 @@ pub struct TimeNet {
 }
 
 impl TimeNet {
-    /// Puts a net together. Arcs are sorted; those of one list to the same place become one (weights of `take` and
-    /// `give` add up, of `read` the largest counts), and those of weight zero are dropped.
+    /// Puts a net together. Arcs are sorted; those of one list to the same place become one
+    /// (weights of `take` and `give` add up, of `read` the largest counts), and those of weight
+    /// zero are dropped.
     ///
     /// # Errors
     /// What does not fit together.
@@ -227,14 +234,15 @@ impl TimeNet {
         self.transitions.iter().position(|it| it.name == name).map(|at| TransitionId(at as u32))
     }
 
-    /// The same net without intervals. Time only takes runs away, so what holds of all its markings holds here too.
+    /// The same net without intervals. Time only takes runs away, so what holds of all its markings
+    /// holds here too.
     pub fn untimed(&self) -> Pt {
-        let weights = |arcs: &[Arc]| arcs.iter().map(|arc| (arc.place.0, arc.weight)).collect::<Vec<_>>();
-        let needs = Lists::new(
-            self.transitions
-                .iter()
-                .map(|it| merged(weights(&it.take).into_iter().chain(weights(&it.read)), u32::max)),
-        );
+        let weights =
+            |arcs: &[Arc]| arcs.iter().map(|arc| (arc.place.0, arc.weight)).collect::<Vec<_>>();
+        let needs =
+            Lists::new(self.transitions.iter().map(|it| {
+                merged(weights(&it.take).into_iter().chain(weights(&it.read)), u32::max)
+            }));
         let effects = Lists::new(self.transitions.iter().map(|it| {
             let taken = it.take.iter().map(|arc| (arc.place.0, -i64::from(arc.weight)));
             let given = it.give.iter().map(|arc| (arc.place.0, i64::from(arc.weight)));
@@ -275,7 +283,10 @@ fn merge(arcs: &mut Vec<Arc>, join: impl Fn(u32, u32) -> Option<u32>) -> Option<
 }
 
 /// Pairs sorted by id, of the same id joined to one.
-fn merged<T: Copy>(pairs: impl Iterator<Item = (u32, T)>, join: impl Fn(T, T) -> T) -> Vec<(u32, T)> {
+fn merged<T: Copy>(
+    pairs: impl Iterator<Item = (u32, T)>,
+    join: impl Fn(T, T) -> T,
+) -> Vec<(u32, T)> {
     let mut pairs: Vec<_> = pairs.collect();
     pairs.sort_by_key(|&(id, _)| id);
     pairs.dedup_by(|later, kept| {

@@ -30,7 +30,8 @@ impl fmt::Display for Time {
     }
 }
 
-/// The time from each firing of a transition to the first instant, then or later, at which a place is marked.
+/// The time from each firing of a transition to the first instant, then or later, at which a place
+/// is marked.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Response {
     /// The transition fires in no run, so there is nothing to measure.
@@ -39,8 +40,8 @@ pub enum Response {
     Between {
         /// The greatest lower bound; infinite when the place is marked after no firing.
         min: Time,
-        /// The least upper bound; infinite when after some firing of some run the place is never marked, or as late as one
-        /// likes.
+        /// The least upper bound; infinite when after some firing of some run the place is never
+        /// marked, or as late as one likes.
         max: Time,
     },
     /// The work was cut short.
@@ -52,10 +53,11 @@ pub enum Response {
     },
 }
 
-/// The least and the most time from a firing of `from` to the first marking, right after it or later, with a token in `to`.
+/// The least and the most time from a firing of `from` to the first marking, right after it or
+/// later, with a token in `to`.
 ///
-/// All runs count that cannot be extended: without end, also in finite time, or up to a deadlock. Each firing starts its own
-/// measurement. Bounds are exact, whether a run attains them or not.
+/// All runs count that cannot be extended: without end, also in finite time, or up to a deadlock.
+/// Each firing starts its own measurement. Bounds are exact, whether a run attains them or not.
 ///
 /// ```
 /// use cotama_verification::tina;
@@ -71,7 +73,8 @@ pub fn bound(net: &TimeNet, from: TransitionId, to: PlaceId, limits: &Limits<'_>
     measured(net, Some(from), to, limits).0
 }
 
-/// The least and the most time from the start to the first marking with a token in `to`; else as [`bound`].
+/// The least and the most time from the start to the first marking with a token in `to`; else as
+/// [`bound`].
 pub fn bound_from_start(net: &TimeNet, to: PlaceId, limits: &Limits<'_>) -> Response {
     measured(net, None, to, limits).0
 }
@@ -93,7 +96,12 @@ pub(crate) fn measured(
     (response, explored)
 }
 
-fn response(classes: &Classes, from: Option<TransitionId>, to: PlaceId, limits: &Limits<'_>) -> Response {
+fn response(
+    classes: &Classes,
+    from: Option<TransitionId>,
+    to: PlaceId,
+    limits: &Limits<'_>,
+) -> Response {
     let mut entered = HashSet::new();
     let entries: Vec<ClassId> = match from {
         None => vec![0],
@@ -106,14 +114,16 @@ fn response(classes: &Classes, from: Option<TransitionId>, to: PlaceId, limits: 
     if entries.is_empty() {
         return Response::NeverFires;
     }
-    let mut search = Search { classes, to: to.0, limits, met: classes.classes(), bytes: classes.bytes() };
+    let mut search =
+        Search { classes, to: to.0, limits, met: classes.classes(), bytes: classes.bytes() };
     match search.min(&entries).and_then(|min| Ok((min, search.max(&entries)?))) {
         Ok((min, max)) => Response::Between { min, max },
         Err(stop) => Response::Unknown { stop, explored: search.met },
     }
 }
 
-/// A search through classes in which the place is not marked, with one more variable y: minus the time since the firing.
+/// A search through classes in which the place is not marked, with one more variable y: minus the
+/// time since the firing.
 struct Search<'c> {
     classes: &'c Classes,
     to: u32,
@@ -152,7 +162,8 @@ impl<'c> Search<'c> {
         let marking = classes.list[class as usize].0;
         classes.successors(class).iter().filter_map(move |&(fired, target)| {
             let (position, step) = classes.markings.known_step(marking, fired.0)?;
-            let (kept, enabled) = (classes.markings.kept(step), classes.markings.enabled(step.target));
+            let (kept, enabled) =
+                (classes.markings.kept(step), classes.markings.enabled(step.target));
             Some(Firing { column: position + 1, target, kept, enabled })
         })
     }
@@ -169,8 +180,8 @@ impl<'c> Search<'c> {
 
     /// The least time, the earliest class first.
     ///
-    /// A row bounds y - xᵢ, which bounds the time from below; a larger bound allows more. Firing f makes f the new zero,
-    /// and a shortest path from y may go through f to any other transition.
+    /// A row bounds y - xᵢ, which bounds the time from below; a larger bound allows more. Firing f
+    /// makes f the new zero, and a shortest path from y may go through f to any other transition.
     fn min(&mut self, entries: &[ClassId]) -> Result<Time, Stop> {
         let useful = self.leading();
         let mut rows: HashMap<ClassId, Vec<Row>> = HashMap::new();
@@ -229,8 +240,9 @@ impl<'c> Search<'c> {
         let count = self.classes.classes();
         let mut starts = vec![0_usize; count + 1];
         let edges = || {
-            (0..count as ClassId)
-                .flat_map(|from| self.classes.successors(from).iter().map(move |&(_, to)| (from, to)))
+            (0..count as ClassId).flat_map(|from| {
+                self.classes.successors(from).iter().map(move |&(_, to)| (from, to))
+            })
         };
         edges().for_each(|(_, to)| starts[to as usize + 1] += 1);
         for at in 0..count {
@@ -242,8 +254,10 @@ impl<'c> Search<'c> {
             sources[ends[to as usize]] = from;
             ends[to as usize] += 1;
         }
-        let mut leading: Vec<bool> = (0..count as ClassId).map(|class| self.marked(class)).collect();
-        let mut open: Vec<ClassId> = (0..count as ClassId).filter(|&class| leading[class as usize]).collect();
+        let mut leading: Vec<bool> =
+            (0..count as ClassId).map(|class| self.marked(class)).collect();
+        let mut open: Vec<ClassId> =
+            (0..count as ClassId).filter(|&class| leading[class as usize]).collect();
         while let Some(class) = open.pop() {
             for &from in &sources[starts[class as usize]..ends[class as usize]] {
                 if !std::mem::replace(&mut leading[from as usize], true) {
@@ -254,10 +268,11 @@ impl<'c> Search<'c> {
         leading
     }
 
-    /// The most time: infinite with a cycle or a dead class on the way, else along the longest path.
+    /// The most time: infinite with a cycle or a dead class on the way, else along the longest
+    /// path.
     ///
-    /// A row bounds xᵢ - y, which bounds the time from above; a larger bound allows more. Firing f makes f the new zero, and
-    /// its shortest path to y may go through any other transition.
+    /// A row bounds xᵢ - y, which bounds the time from above; a larger bound allows more. Firing f
+    /// makes f the new zero, and its shortest path to y may go through any other transition.
     fn max(&mut self, entries: &[ClassId]) -> Result<Time, Stop> {
         let Some(order) = self.order(entries) else { return Ok(Time::Infinite) };
         let mut rows: HashMap<ClassId, Vec<Row>> = HashMap::new();
@@ -304,8 +319,8 @@ impl<'c> Search<'c> {
         Ok(Time::Finite(most))
     }
 
-    /// The classes that are reached without a marked place, each before those that it leads to; `None` when there is a
-    /// cycle or a dead class among them.
+    /// The classes that are reached without a marked place, each before those that it leads to;
+    /// `None` when there is a cycle or a dead class among them.
     fn order(&self, entries: &[ClassId]) -> Option<Vec<ClassId>> {
         #[derive(Clone, Copy, PartialEq, Eq)]
         enum State {

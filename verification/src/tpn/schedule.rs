@@ -44,7 +44,8 @@ pub struct Step {
     pub date: Date,
 }
 
-/// A timed run: the firings in their order, each as early as the whole sequence allows in steps of one part.
+/// A timed run: the firings in their order, each as early as the whole sequence allows in steps of
+/// one part.
 #[derive(Clone, Debug, PartialEq, Eq, Default)]
 pub struct Schedule {
     /// The firings.
@@ -66,7 +67,9 @@ impl fmt::Display for NoSchedule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Disabled(at) => write!(f, "firing {} of the sequence is not enabled", at + 1),
-            Self::TooLate(at) => write!(f, "before firing {} of the sequence another one is due", at + 1),
+            Self::TooLate(at) => {
+                write!(f, "before firing {} of the sequence another one is due", at + 1)
+            }
             Self::Overflow => f.write_str("a number of tokens or a time is too large"),
         }
     }
@@ -114,7 +117,8 @@ pub enum Reach {
     },
 }
 
-/// Whether a marking that `goal` accepts can be reached. It gets the tokens of each place, and each marking once.
+/// Whether a marking that `goal` accepts can be reached. It gets the tokens of each place, and each
+/// marking once.
 ///
 /// ```
 /// use cotama_verification::{tina, tpn};
@@ -146,7 +150,8 @@ pub fn deadlock(net: &TimeNet, limits: &Limits<'_>) -> Reach {
 /// How often all constraints are looked at before a finer time is tried.
 const ROUNDS: usize = 64;
 
-/// Bounds of differences between dates. Date 0 is the start, date k the one of the k-th firing, from 1.
+/// Bounds of differences between dates. Date 0 is the start, date k the one of the k-th firing,
+/// from 1.
 struct Constraints {
     /// (earlier, later, the least and the most between them), sorted by the later date.
     between: Vec<(usize, usize, Interval)>,
@@ -158,7 +163,8 @@ impl Constraints {
         let rules = Rules::new(net);
         let mut markings = super::markings::Markings::new(&rules);
         let mut marking = 0;
-        let (mut domain, mut after) = (Domain::of_new(&rules, markings.enabled(0)), Domain::default());
+        let (mut domain, mut after) =
+            (Domain::of_new(&rules, markings.enabled(0)), Domain::default());
         // For each enabled transition the date since when it is.
         let mut since = vec![0; markings.enabled(0).len()];
         let (mut first, mut bounds, mut between) = (Vec::new(), Vec::new(), Vec::new());
@@ -182,11 +188,16 @@ impl Constraints {
                     && (!kept.contains(&(position as u32)) || date == sequence.len())
                 {
                     // Dates do not decrease: the last one that it sees is enough.
-                    between.push((since, date, Interval { lower: 0, lower_strict: false, ..interval }));
+                    between.push((
+                        since,
+                        date,
+                        Interval { lower: 0, lower_strict: false, ..interval },
+                    ));
                 }
             }
             let old = since;
-            since = kept.iter().map(|&it| if it == ANEW { date } else { old[it as usize] }).collect();
+            since =
+                kept.iter().map(|&it| if it == ANEW { date } else { old[it as usize] }).collect();
             domain.fire(
                 &rules,
                 (position + 1, &first),
@@ -200,11 +211,13 @@ impl Constraints {
         Ok(Self { between, count: sequence.len() })
     }
 
-    /// The earliest dates, in a time as coarse as is found with little work; `None` when one is too large.
+    /// The earliest dates, in a time as coarse as is found with little work; `None` when one is too
+    /// large.
     ///
-    /// With closed bounds there are integers. Else let a unit have n parts, and let each strict bound be a part tighter.
-    /// Where dates exist, the bounds along a cycle through strict ones leave at least a unit of slack, and a cycle has no
-    /// more bounds than there are dates, the start included: n need not be larger than their number.
+    /// With closed bounds there are integers. Else let a unit have n parts, and let each strict
+    /// bound be a part tighter. Where dates exist, the bounds along a cycle through strict ones
+    /// leave at least a unit of slack, and a cycle has no more bounds than there are dates, the
+    /// start included: n need not be larger than their number.
     fn dates(&self) -> Option<Vec<Date>> {
         let mut per_unit = 1_u64;
         loop {
@@ -225,16 +238,17 @@ impl Constraints {
         }
     }
 
-    /// The least solution in parts of a unit; `None` when it is not found in so many rounds. As many as there are dates,
-    /// and one to see it, find it if there is one.
+    /// The least solution in parts of a unit; `None` when it is not found in so many rounds. As
+    /// many as there are dates, and one to see it, find it if there is one.
     fn earliest(&self, per_unit: i128, rounds: usize) -> Option<Vec<i128>> {
         let mut dates = vec![0_i128; self.count + 1];
-        // Forwards and backwards, as lower bounds push later dates and upper bounds earlier ones. With a solution every
-        // round settles a date; without one the dates grow for ever.
+        // Forwards and backwards, as lower bounds push later dates and upper bounds earlier ones.
+        // With a solution every round settles a date; without one the dates grow for ever.
         for _ in 0..rounds {
             let mut changed = false;
             for &(early, late, interval) in &self.between {
-                let least = i128::from(interval.lower) * per_unit + i128::from(interval.lower_strict);
+                let least =
+                    i128::from(interval.lower) * per_unit + i128::from(interval.lower_strict);
                 let pushed = dates[late].max(dates[early].checked_add(least)?);
                 changed |= std::mem::replace(&mut dates[late], pushed) != pushed;
             }

@@ -4,7 +4,8 @@ use super::index::{Index, hash};
 use super::{Limits, Stop};
 use crate::pt::Pt;
 
-/// How many firings back a smaller marking is looked for. Growth that takes longer goes unnoticed, and counts as unknown.
+/// How many firings back a smaller marking is looked for. Growth that takes longer goes unnoticed,
+/// and counts as unknown.
 const BACK: usize = 4096;
 
 /// How many markings a net has when time is left out.
@@ -29,7 +30,8 @@ impl Untimed {
 
 /// Counts the markings of a net without time; [`Limits::classes`] is the most that are counted.
 ///
-/// A firing sequence that adds tokens and takes none away in sum can be repeated: the net is unbounded.
+/// A firing sequence that adds tokens and takes none away in sum can be repeated: the net is
+/// unbounded.
 pub fn markings(pt: &Pt, limits: &Limits<'_>) -> Untimed {
     let width = pt.initial.len();
     let mut tokens = pt.initial.clone();
@@ -49,8 +51,9 @@ pub fn markings(pt: &Pt, limits: &Limits<'_>) -> Untimed {
             break Some(stop);
         }
         let marking = of(&tokens, next);
-        let stop =
-            (0..pt.transitions.len() as u32).filter(|&it| pt.enabled(&marking, it)).find_map(|fired| {
+        let stop = (0..pt.transitions.len() as u32)
+            .filter(|&it| pt.enabled(&marking, it))
+            .find_map(|fired| {
                 let Some(after) = pt.fire(&marking, fired) else { return Some(Stop::Overflow) };
                 let number = parents.len() as u32;
                 let is = |it: u32| tokens[it as usize * width..][..width] == after;
@@ -62,8 +65,10 @@ pub fn markings(pt: &Pt, limits: &Limits<'_>) -> Untimed {
                 }
                 let mut before = next;
                 for _ in 0..BACK {
-                    let smaller =
-                        tokens[before as usize * width..][..width].iter().zip(&after).all(|(a, b)| a <= b);
+                    let smaller = tokens[before as usize * width..][..width]
+                        .iter()
+                        .zip(&after)
+                        .all(|(a, b)| a <= b);
                     if smaller {
                         return Some(Stop::Unbounded);
                     }

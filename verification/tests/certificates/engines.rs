@@ -19,7 +19,9 @@ fn pt(net: &OwnedNet) -> Pt {
 }
 
 fn families() -> Vec<Pt> {
-    [philosophers(4), kanban(3), fms(3), token_ring(4), swimming_pool(2)].map(|it| pt(&it.unwrap())).into()
+    [philosophers(4), kanban(3), fms(3), token_ring(4), swimming_pool(2)]
+        .map(|it| pt(&it.unwrap()))
+        .into()
 }
 
 fn ids(trace: &[TransitionId]) -> Vec<u32> {
@@ -36,7 +38,8 @@ fn is_shown(certificate: &Certificate) -> String {
     shown(certificate)
 }
 
-/// What the structure of a net says, as certificates: whether it stops, is safe, and the most tokens of each place.
+/// What the structure of a net says, as certificates: whether it stops, is safe, and the most
+/// tokens of each place.
 fn structural(pt: &Pt) -> Vec<Certificate> {
     let mut structure = Structure::new(pt, Limits::default());
     let mut found = Vec::new();
@@ -46,7 +49,13 @@ fn structural(pt: &Pt) -> Vec<Certificate> {
             found.push(Certificate::of(pt, "", never_dead(), true, evidence));
         }
         Answer::Reachable(way) => {
-            found.push(Certificate::of(pt, "", never_dead(), false, Evidence::trace(pt, &ids(&way))));
+            found.push(Certificate::of(
+                pt,
+                "",
+                never_dead(),
+                false,
+                Evidence::trace(pt, &ids(&way)),
+            ));
         }
         Answer::Unknown(_) => {}
     }
@@ -65,13 +74,21 @@ fn structural(pt: &Pt) -> Vec<Certificate> {
         let Some(bound) = structure.upper_bound(&[(PlaceId(place), 1)]) else { continue };
         let never_more = Evidence::bounded(pt, structure.dead(), &bound).unwrap();
         let name = &pt.places[place as usize];
-        let (most, full) =
-            (bound.at_most, Linear { constant: bound.at_most, weights: vec![(PlaceId(place), -1)] });
+        let (most, full) = (
+            bound.at_most,
+            Linear { constant: bound.at_most, weights: vec![(PlaceId(place), -1)] },
+        );
         let question = Question::Formula(a(g(at_most(name, most))));
         found.push(Certificate::of(pt, "", question, true, never_more.clone()));
         if let Answer::Reachable(way) = structure.reach(&[full]) {
             let question = Question::Bound { places: vec![name.clone()], most };
-            found.push(Certificate::of(pt, "", question, true, Evidence::most(never_more, pt, &ids(&way))));
+            found.push(Certificate::of(
+                pt,
+                "",
+                question,
+                true,
+                Evidence::most(never_more, pt, &ids(&way)),
+            ));
         }
     }
     found
@@ -140,7 +157,8 @@ fn two_thousand_cards_never_stop_and_two_hundred_philosophers_do() {
     let table = pt(&philosophers(200).unwrap());
     let found = stubborn::deadlock(&table, &explicit::Limits::default(), &|_| ());
     let explicit::Reached::Trace { transitions: trace, .. } = found else { panic!("not found") };
-    let certificate = Certificate::of(&table, "", never_dead(), false, Evidence::trace(&table, &ids(&trace)));
+    let certificate =
+        Certificate::of(&table, "", never_dead(), false, Evidence::trace(&table, &ids(&trace)));
     is_shown(&certificate);
 }
 
@@ -170,7 +188,8 @@ fn a_counter_counts_without_end() {
             ("release", &[("on", 1), ("count", 1)], &[("off", 1)]),
         ],
     );
-    let Bounded::No(growth) = coverability::bounded(&counter, &coverability::Limits::default()) else {
+    let Bounded::No(growth) = coverability::bounded(&counter, &coverability::Limits::default())
+    else {
         panic!("it counts on")
     };
     let evidence = Evidence::growth(&counter, &growth).unwrap();
@@ -228,5 +247,8 @@ fn a_part_without_a_proof_is_no_evidence() {
     assert!(Evidence::never(&track, structure.dead(), &property::Formula::FALSE, &[]).is_some());
     assert_eq!(Evidence::never(&track, structure.dead(), &property::Formula::TRUE, &[]), None);
     assert_eq!(Evidence::one_safe(&track, &DeadTransitions::default(), &[]), None);
-    assert_eq!(Evidence::run(&track, &temporal::Run { stem: Vec::new(), rest: temporal::Rest::Any }), None);
+    assert_eq!(
+        Evidence::run(&track, &temporal::Run { stem: Vec::new(), rest: temporal::Rest::Any }),
+        None
+    );
 }

@@ -40,7 +40,11 @@ fn another_net_another_question_or_another_number_is_refused() {
             ("/net/transitions/0/give/0/1", json!(2), "evidence.graph: there are more markings"),
             ("/net/transitions/2/take/0/1", json!(1), "evidence.graph: there are more markings"),
             ("/net/transitions/2/take/0/1", json!(3), "evidence.graph: there are fewer markings"),
-            ("/net/transitions/2/take/0/0", json!("fuel"), "net.transitions[2]: there is no `fuel`"),
+            (
+                "/net/transitions/2/take/0/0",
+                json!("fuel"),
+                "net.transitions[2]: there is no `fuel`",
+            ),
             (
                 "/question",
                 json!({"formula": {"A": {"F": {"at_most": {"constant": 1, "weights": [["broken", -1]]}}}}}),
@@ -51,7 +55,11 @@ fn another_net_another_question_or_another_number_is_refused() {
                 json!({"formula": {"A": {"F": {"G": "deadlock"}}}}),
                 "evidence.graph: speaks of runs where one marking is to decide",
             ),
-            ("/question", json!({"unbounded": {"places": ["full"]}}), "question: only growth can show it"),
+            (
+                "/question",
+                json!({"unbounded": {"places": ["full"]}}),
+                "question: only growth can show it",
+            ),
         ],
     );
 }
@@ -87,7 +95,10 @@ fn every_operator_is_shown_true_and_false() {
         shown(&certificate);
         certificate.verdict = !verdict;
         let error = verify(&certificate.text()).unwrap_err().to_string();
-        assert!(error == "evidence.graph: the opposite of what is claimed is so", "{words}: {error}");
+        assert!(
+            error == "evidence.graph: the opposite of what is claimed is so",
+            "{words}: {error}"
+        );
     }
 }
 

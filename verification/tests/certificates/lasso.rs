@@ -39,9 +39,21 @@ fn a_run_that_does_not_show_it_is_refused() {
             ("/evidence/lasso/loop", json!([]), no_loop),
             ("/evidence/lasso/loop", json!(["enter1", "leave1"]), not_so),
             ("/evidence/lasso/loop", json!(["enter2", "leave2", "enter1", "leave1"]), not_so),
-            ("/evidence/lasso/loop/1", json!("leave1"), "evidence.lasso.loop[1]: `leave1` is not enabled"),
-            ("/evidence/lasso/stem", json!(["enter1"]), "evidence.lasso.loop[0]: `enter2` is not enabled"),
-            ("/evidence/lasso/stem/0", json!("leave1"), "evidence.lasso.stem[0]: `leave1` is not enabled"),
+            (
+                "/evidence/lasso/loop/1",
+                json!("leave1"),
+                "evidence.lasso.loop[1]: `leave1` is not enabled",
+            ),
+            (
+                "/evidence/lasso/stem",
+                json!(["enter1"]),
+                "evidence.lasso.loop[0]: `enter2` is not enabled",
+            ),
+            (
+                "/evidence/lasso/stem/0",
+                json!("leave1"),
+                "evidence.lasso.stem[0]: `leave1` is not enabled",
+            ),
             ("/verdict", json!(true), "evidence: this kind of evidence does not fit the claim"),
             ("/question/formula/A/G/F/at_most/constant", json!(0), not_so),
             ("/question/formula/A/G/F/at_most/weights/0/0", json!("on2"), not_so),
@@ -60,14 +72,18 @@ fn a_run_that_does_not_show_it_is_refused() {
 fn a_deadlock_lasts_for_ever() {
     let tools = tools();
     let never_idle = Question::Formula(a(g(f(has("idle1", 1)))));
-    let certificate = Certificate::of(&tools, "", never_idle, false, Evidence::lasso(&tools, &[0, 2], &[]));
+    let certificate =
+        Certificate::of(&tools, "", never_idle, false, Evidence::lasso(&tools, &[0, 2], &[]));
     assert_eq!(
         shown(&certificate),
         "net tools (6 places, 4 transitions): A(G(F(1 <= idle1))) is false\n  \
          by a run of 2 firings and a loop of 0 firings"
     );
     // And `X` inside of a run speaks of the marking that lasts.
-    let lasts = Question::Formula(a(f(Formula::And(vec![Formula::Deadlock, x(x(not(Formula::Deadlock)))]))));
+    let lasts = Question::Formula(a(f(Formula::And(vec![
+        Formula::Deadlock,
+        x(x(not(Formula::Deadlock))),
+    ]))));
     let lasts = Certificate::of(&tools, "", lasts, false, Evidence::lasso(&tools, &[0, 2], &[]));
     assert!(shown(&lasts).ends_with("by a run of 2 firings and a loop of 0 firings"));
 }
@@ -76,7 +92,8 @@ fn a_deadlock_lasts_for_ever() {
 fn a_deadlock_has_no_successor() {
     let stuck = net("stuck", &[("here", 1)], &[("go", &[("here", 2)], &[])]);
     let next = |question, verdict, evidence| {
-        let certificate = Certificate::of(&stuck, "", Question::Formula(question), verdict, evidence);
+        let certificate =
+            Certificate::of(&stuck, "", Question::Formula(question), verdict, evidence);
         cotama_verification::certificate::verify(&certificate.text()).map_err(|it| it.to_string())
     };
     let lasts = || Evidence::lasso(&stuck, &[], &[]);

@@ -17,19 +17,24 @@ use serde_json::Value;
 
 /// What a certificate shows, in words.
 fn shown(certificate: &Certificate) -> String {
-    verify(&certificate.text()).unwrap_or_else(|error| panic!("{error}\n{}", certificate.text())).to_string()
+    verify(&certificate.text())
+        .unwrap_or_else(|error| panic!("{error}\n{}", certificate.text()))
+        .to_string()
 }
 
 /// Why a certificate is refused when the value at a place in its JSON is another one.
 fn refused(certificate: &Certificate, pointer: &str, other: Value) -> String {
     let mut json: Value = serde_json::from_str(&certificate.text()).unwrap();
-    let place = json.pointer_mut(pointer).unwrap_or_else(|| panic!("no {pointer} in {}", certificate.text()));
+    let place = json
+        .pointer_mut(pointer)
+        .unwrap_or_else(|| panic!("no {pointer} in {}", certificate.text()));
     assert_ne!(*place, other, "{pointer} is not changed");
     *place = other;
     verify(&json.to_string()).expect_err("is refused").to_string()
 }
 
-/// How many of a few changes at random are refused, at most so many; the opposite verdict always is.
+/// How many of a few changes at random are refused, at most so many; the opposite verdict always
+/// is.
 fn mutated(certificate: &Certificate, dice: &mut random::Dice, most: usize) -> usize {
     let json: Value = serde_json::from_str(&certificate.text()).unwrap();
     refused(certificate, "/verdict", Value::Bool(!certificate.verdict));

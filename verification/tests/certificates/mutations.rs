@@ -1,4 +1,5 @@
-//! Certificates with something changed at random: they never stop the checker, and never make it believe what is not so.
+//! Certificates with something changed at random: they never stop the checker, and never make it
+//! believe what is not so.
 
 use crate::graph::graph;
 use crate::random::{self, Dice};
@@ -14,10 +15,15 @@ fn certificates() -> Vec<Value> {
     let refutation = |facts, cases| Evidence::Refutation(Refutation { dead: vec![], facts, cases });
     let sum = |weights| Fact::sum(&track, weights, &track.initial).unwrap();
     let both = Formula::And(vec![has("on1", 1), has("on2", 1)]);
-    let exclusive = refutation(vec![sum(&[(0, 1), (2, 1), (4, 1)])], vec![leaf(&[(0, 1), (1, 1), (2, 1)])]);
+    let exclusive =
+        refutation(vec![sum(&[(0, 1), (2, 1), (4, 1)])], vec![leaf(&[(0, 1), (1, 1), (2, 1)])]);
     let no_deadlock = refutation(
         vec![sum(&[(0, -1), (2, -1), (4, -1)]), Fact::trap(&track, &[1, 2])],
-        vec![Case::Split(0), leaf(&[(0, 1), (2, 1), (3, 1), (4, 1)]), leaf(&[(1, 1), (2, 1), (4, 1)])],
+        vec![
+            Case::Split(0),
+            leaf(&[(0, 1), (2, 1), (3, 1), (4, 1)]),
+            leaf(&[(1, 1), (2, 1), (4, 1)]),
+        ],
     );
     let ways: [&[u32]; 4] = [&[], &[0], &[], &[2]];
     let each = Evidence::Each(ways.iter().map(|it| Evidence::trace(&track, it)).collect());
@@ -28,13 +34,28 @@ fn certificates() -> Vec<Value> {
         facts: vec![Fact::sum(&battery, &[(0, 1), (1, 1), (2, 2)], &battery.initial).unwrap()],
         cases: vec![leaf(&[(0, 1), (1, 1)])],
     });
-    let pump =
-        net("pump", &[("power", 1), ("on", 0)], &[("start", &[("power", 1)], &[("power", 1), ("on", 1)])]);
+    let pump = net(
+        "pump",
+        &[("power", 1), ("on", 0)],
+        &[("start", &[("power", 1)], &[("power", 1), ("on", 1)])],
+    );
     let grows = Evidence::Growth(Growth { stem: vec!["start".into()], pump: vec!["start".into()] });
     let mut all = vec![
-        Certificate::of(&tools, "", formula(e(f(Formula::Deadlock))), true, Evidence::trace(&tools, &[0, 2])),
+        Certificate::of(
+            &tools,
+            "",
+            formula(e(f(Formula::Deadlock))),
+            true,
+            Evidence::trace(&tools, &[0, 2]),
+        ),
         Certificate::of(&tools, "", formula(idle), true, Evidence::lasso(&tools, &[0, 2], &[])),
-        Certificate::of(&track, "", formula(starved), false, Evidence::lasso(&track, &[0, 1], &[2, 3])),
+        Certificate::of(
+            &track,
+            "",
+            formula(starved),
+            false,
+            Evidence::lasso(&track, &[0, 1], &[2, 3]),
+        ),
         Certificate::of(&track, "", formula(a(g(not(both)))), true, exclusive),
         Certificate::of(&track, "", formula(a(g(not(Formula::Deadlock)))), true, no_deadlock),
         Certificate::of(&track, "", Question::QuasiLive, true, each),
@@ -63,7 +84,9 @@ fn certificates() -> Vec<Value> {
 fn places(value: &Value, at: String, found: &mut Vec<String>) {
     match value {
         Value::Array(list) => {
-            list.iter().enumerate().for_each(|(number, it)| places(it, format!("{at}/{number}"), found));
+            list.iter()
+                .enumerate()
+                .for_each(|(number, it)| places(it, format!("{at}/{number}"), found));
         }
         Value::Object(fields) => {
             fields.iter().for_each(|(name, it)| places(it, format!("{at}/{name}"), found));
@@ -80,7 +103,8 @@ pub(crate) fn change(json: &mut Value, dice: &mut Dice) {
     let pointer = &all[dice.roll(all.len())];
     let here = json.pointer_mut(pointer).unwrap();
     let kinds = [
-        "not", "E", "A", "EX", "AX", "X", "F", "G", "one", "trace", "deadlock", "live", "state", "or", "and",
+        "not", "E", "A", "EX", "AX", "X", "F", "G", "one", "trace", "deadlock", "live", "state",
+        "or", "and",
     ];
     match (dice.roll(4), &mut *here) {
         (0, _) => *here = other,
@@ -140,7 +164,11 @@ fn what_is_believed_of_a_changed_certificate_is_so() {
             unbounded += 1;
             continue;
         };
-        assert_eq!(Some(json["verdict"] == true), space.answer(&json["question"]), "believed: {text}");
+        assert_eq!(
+            Some(json["verdict"] == true),
+            space.answer(&json["question"]),
+            "believed: {text}"
+        );
     }
     assert!(believed > 1_000 && unbounded * 10 < believed, "{unbounded} of {believed}");
 }

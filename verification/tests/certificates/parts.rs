@@ -33,8 +33,16 @@ fn every_transition_fires_once() {
                 "evidence.each[3].trace.then: the opposite of what is claimed is so",
             ),
             ("/verdict", json!(false), "evidence: this kind of evidence does not fit the claim"),
-            ("/question", json!("live"), "evidence.each[0]: this kind of evidence does not fit the claim"),
-            ("/question", json!("stable"), "evidence: this kind of evidence does not fit the claim"),
+            (
+                "/question",
+                json!("live"),
+                "evidence.each[0]: this kind of evidence does not fit the claim",
+            ),
+            (
+                "/question",
+                json!("stable"),
+                "evidence: this kind of evidence does not fit the claim",
+            ),
         ],
     );
 }
@@ -48,7 +56,8 @@ fn a_number_of_tokens_is_attained_and_never_exceeded() {
         cases: vec![Case::Contradiction(vec![(0, 1), (1, 1)])],
     });
     let evidence = Evidence::Each(vec![never_more, Evidence::trace(&battery, &[0, 0])]);
-    let property = Property { name: "charges".into(), question: property::Question::Bound(vec![PlaceId(1)]) };
+    let property =
+        Property { name: "charges".into(), question: property::Question::Bound(vec![PlaceId(1)]) };
     let certificate = Certificate::new(&battery, &property, Answer::Bound(2), evidence).unwrap();
     assert_eq!(
         shown(&certificate),
@@ -80,8 +89,11 @@ fn a_number_of_tokens_is_attained_and_never_exceeded() {
 
 #[test]
 fn one_place_never_changes_or_each_place_does() {
-    let pump =
-        net("pump", &[("power", 1), ("on", 0)], &[("start", &[("power", 1)], &[("power", 1), ("on", 1)])]);
+    let pump = net(
+        "pump",
+        &[("power", 1), ("on", 0)],
+        &[("start", &[("power", 1)], &[("power", 1), ("on", 1)])],
+    );
     let leaf = |fact| Case::Contradiction(vec![(fact, 1), (2, 1)]);
     let constant = Evidence::Refutation(Refutation {
         dead: vec![],
@@ -132,16 +144,27 @@ fn a_formula_of_the_property_language_is_carried_over() {
     ])))));
     let property = |question| Property { name: "p".into(), question };
     let asked = property(property::Question::Formula(formula.clone()));
-    let certificate = Certificate::new(&track, &asked, Answer::Holds(true), Evidence::None).unwrap();
+    let certificate =
+        Certificate::new(&track, &asked, Answer::Holds(true), Evidence::None).unwrap();
     let Question::Formula(carried) = &certificate.question else { panic!("not a formula") };
     assert_eq!(carried.to_string(), "A(G((!(2 <= on1 + on2)) | (deadlock) | (fireable(enter1))))");
-    assert_eq!(verify(&certificate.text()).unwrap_err().to_string(), "evidence: there is no evidence");
-    let refused =
-        |question, answer| Certificate::new(&track, &property(question), answer, Evidence::None).unwrap_err();
+    assert_eq!(
+        verify(&certificate.text()).unwrap_err().to_string(),
+        "evidence: there is no evidence"
+    );
+    let refused = |question, answer| {
+        Certificate::new(&track, &property(question), answer, Evidence::None).unwrap_err()
+    };
     assert_eq!(refused(property::Question::Liveness, Answer::Bound(1)), Uncertifiable::Answer);
-    assert_eq!(refused(property::Question::Bound(vec![]), Answer::Holds(true)), Uncertifiable::Answer);
+    assert_eq!(
+        refused(property::Question::Bound(vec![]), Answer::Holds(true)),
+        Uncertifiable::Answer
+    );
     let timed = F::All(Box::new(F::Within(5, Box::new(F::TRUE))));
-    assert_eq!(refused(property::Question::Formula(timed), Answer::Holds(true)), Uncertifiable::Time);
+    assert_eq!(
+        refused(property::Question::Formula(timed), Answer::Holds(true)),
+        Uncertifiable::Time
+    );
 }
 
 #[test]

@@ -12,7 +12,8 @@ pub(crate) struct Dice(pub(crate) u64);
 
 impl Dice {
     pub(crate) fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) as usize) % sides.max(1)
     }
 }
@@ -32,7 +33,8 @@ pub(crate) fn any_net(dice: &mut Dice) -> Pt {
         arcs
     };
     let transitions = TRANSITIONS.map(|it| (it, side(), side()));
-    let transitions: Vec<_> = transitions.iter().map(|it| (it.0, it.1.as_slice(), it.2.as_slice())).collect();
+    let transitions: Vec<_> =
+        transitions.iter().map(|it| (it.0, it.1.as_slice(), it.2.as_slice())).collect();
     net("any", &places, &transitions)
 }
 
@@ -43,7 +45,10 @@ fn any_formula(dice: &mut Dice, depth: usize) -> Formula {
             0 => Formula::Deadlock,
             1 => fireable(TRANSITIONS[dice.roll(5)]),
             2 => at_most(place, [0, 1, 2][dice.roll(3)]),
-            3 => Formula::AtMost(linear(0, &[(place, 2), (if place == "b" { "c" } else { "b" }, -1)])),
+            3 => Formula::AtMost(linear(
+                0,
+                &[(place, 2), (if place == "b" { "c" } else { "b" }, -1)],
+            )),
             _ => has(place, [1, 2][dice.roll(2)]),
         };
     }
@@ -74,8 +79,13 @@ pub(crate) fn certificates(dice: &mut Dice, count: usize) -> Vec<Certificate> {
     let mut all = Vec::new();
     while all.len() < count {
         let net = any_net(dice);
-        let empty =
-            Certificate::of(&net, "", Question::Live, true, cotama_verification::certificate::Evidence::None);
+        let empty = Certificate::of(
+            &net,
+            "",
+            Question::Live,
+            true,
+            cotama_verification::certificate::Evidence::None,
+        );
         let json: Value = serde_json::from_str(&empty.text()).unwrap();
         let Some(space) = Space::new(&json["net"], 60) else { continue };
         let question = match dice.roll(12) {
@@ -83,9 +93,10 @@ pub(crate) fn certificates(dice: &mut Dice, count: usize) -> Vec<Certificate> {
             1 => Question::QuasiLive,
             2 => Question::Stable,
             3 => Question::OneSafe,
-            4 => {
-                Question::Bound { places: vec!["a".into(), "c".into()], most: [0, 1, 2, 3, 4][dice.roll(5)] }
-            }
+            4 => Question::Bound {
+                places: vec!["a".into(), "c".into()],
+                most: [0, 1, 2, 3, 4][dice.roll(5)],
+            },
             _ => Question::Formula(any_formula(dice, 3)),
         };
         let asked = Certificate::of(&net, "", question.clone(), true, empty.evidence);

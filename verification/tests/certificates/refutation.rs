@@ -32,7 +32,8 @@ fn never_two_robots_on_the_track() {
 #[test]
 fn an_inequality_that_does_not_exclude_it_is_refused() {
     let case = |words: &str| format!("evidence.refutation.cases[0]: no contradiction: {words}");
-    let (constant, on1) = (case("the constant is not above 0"), case("a place has a negative weight"));
+    let (constant, on1) =
+        (case("the constant is not above 0"), case("a place has a negative weight"));
     let leaf = "/evidence/refutation/cases/0/contradiction";
     let sum = "/evidence/refutation/facts/0/at_most";
     let at = |pointer: &str| format!("{sum}{pointer}");
@@ -40,16 +41,32 @@ fn an_inequality_that_does_not_exclude_it_is_refused() {
         &exclusive(),
         vec![
             ("/verdict", json!(false), "evidence: this kind of evidence does not fit the claim"),
-            (&at("/constant"), json!(0), "evidence.refutation.facts[0]: does not hold at the start"),
+            (
+                &at("/constant"),
+                json!(0),
+                "evidence.refutation.facts[0]: does not hold at the start",
+            ),
             (&at("/constant"), json!(-2), &constant),
             (&at("/weights/1/1"), json!(2), "evidence.refutation.facts[0]: `enter1` breaks it"),
             (&at("/weights/1/1"), json!(0), "evidence.refutation.facts[0]: `leave1` breaks it"),
-            (&at("/weights/0/0"), json!("wait1"), "evidence.refutation.facts[0]: `enter2` breaks it"),
-            (&at("/weights/0/1"), json!(i64::MIN), "evidence.refutation.facts[0]: `enter1` breaks it"),
+            (
+                &at("/weights/0/0"),
+                json!("wait1"),
+                "evidence.refutation.facts[0]: `enter2` breaks it",
+            ),
+            (
+                &at("/weights/0/1"),
+                json!(i64::MIN),
+                "evidence.refutation.facts[0]: `enter1` breaks it",
+            ),
             (leaf, json!([[1, 1], [2, 1]]), &on1),
             (leaf, json!([[0, 1], [1, 1]]), &constant),
             (leaf, json!([[0, 1], [1, 1], [2, 2]]), &on1),
-            (leaf, json!([[0, 1], [1, 1], [3, 1]]), "evidence.refutation.cases[0]: there is no inequality 3"),
+            (
+                leaf,
+                json!([[0, 1], [1, 1], [3, 1]]),
+                "evidence.refutation.cases[0]: there is no inequality 3",
+            ),
             (leaf, json!([[1, 1], [1, 1], [2, 1]]), &on1),
             ("/evidence/refutation/cases", json!([]), "evidence.refutation.cases: there are none"),
             (
@@ -62,9 +79,21 @@ fn an_inequality_that_does_not_exclude_it_is_refused() {
                 json!([]),
                 "evidence.refutation.cases[0]: there is no inequality 2",
             ),
-            ("/net/transitions/0/give/0/1", json!(2), "evidence.refutation.facts[0]: `enter1` breaks it"),
-            ("/net/places/4/1", json!(1), "evidence.refutation.facts[0]: does not hold at the start"),
-            ("/question", json!("one_safe"), "evidence.refutation.cases[0]: there is no inequality 1"),
+            (
+                "/net/transitions/0/give/0/1",
+                json!(2),
+                "evidence.refutation.facts[0]: `enter1` breaks it",
+            ),
+            (
+                "/net/places/4/1",
+                json!(1),
+                "evidence.refutation.facts[0]: does not hold at the start",
+            ),
+            (
+                "/question",
+                json!("one_safe"),
+                "evidence.refutation.cases[0]: there is no inequality 1",
+            ),
             (
                 "/question/formula",
                 json!({"A": {"G": {"E": {"F": "deadlock"}}}}),
@@ -74,8 +103,8 @@ fn an_inequality_that_does_not_exclude_it_is_refused() {
     );
 }
 
-/// The track is never in deadlock: the goal assumes that nobody is on it (`leave1`, `leave2`), so it is free; then
-/// both robots would have to be away.
+/// The track is never in deadlock: the goal assumes that nobody is on it (`leave1`, `leave2`), so
+/// it is free; then both robots would have to be away.
 fn no_deadlock() -> Certificate {
     let track = track();
     let sum = |weights| Fact::sum(&track, weights, &track.initial).unwrap();
@@ -115,10 +144,22 @@ fn cases_that_do_not_close_are_refused() {
         vec![
             (trap, json!(["wait1"]), no_trap),
             (trap, json!(["wait1", "on2"]), no_trap),
-            (trap, json!(["on1", "on2"]), "evidence.refutation.facts[1]: does not hold at the start"),
-            (trap, json!(["wait1", "on1", "hall"]), "evidence.refutation.facts[1]: there is no `hall`"),
+            (
+                trap,
+                json!(["on1", "on2"]),
+                "evidence.refutation.facts[1]: does not hold at the start",
+            ),
+            (
+                trap,
+                json!(["wait1", "on1", "hall"]),
+                "evidence.refutation.facts[1]: there is no `hall`",
+            ),
             (trap, json!([]), "evidence.refutation.facts[1]: does not hold at the start"),
-            (&at("/0"), json!({"split": 2}), "evidence.refutation.cases[0]: there is no open `or` 2"),
+            (
+                &at("/0"),
+                json!({"split": 2}),
+                "evidence.refutation.cases[0]: there is no open `or` 2",
+            ),
             (&at("/0"), leaf.clone(), "evidence.refutation.cases[0]: there is no inequality 4"),
             (
                 &at("/1"),
@@ -142,7 +183,11 @@ fn cases_that_do_not_close_are_refused() {
                 json!([["wait2", 1]]),
                 "evidence.refutation.facts[0]: `leave2` breaks it",
             ),
-            ("/net/transitions/3/take/0/1", json!(2), "evidence.refutation.facts[0]: `leave2` breaks it"),
+            (
+                "/net/transitions/3/take/0/1",
+                json!(2),
+                "evidence.refutation.facts[0]: `leave2` breaks it",
+            ),
         ],
     );
     let mut too_many = no_deadlock();
@@ -168,7 +213,8 @@ fn a_transition_that_never_fires_breaks_nothing() {
     );
     let certificate = |dead| {
         let facts = vec![Fact::AtMost(linear(-1, &[("free", 1), ("on", 1)]))];
-        let evidence = Evidence::Refutation(Refutation { dead, facts, cases: vec![leaf(&[(0, 1), (1, 1)])] });
+        let evidence =
+            Evidence::Refutation(Refutation { dead, facts, cases: vec![leaf(&[(0, 1), (1, 1)])] });
         Certificate::of(&track, "", Question::Formula(e(f(has("on", 2)))), false, evidence)
     };
     let error = verify(&certificate(vec![]).text()).unwrap_err().to_string();
@@ -185,14 +231,26 @@ fn a_transition_that_never_fires_breaks_nothing() {
             (&format!("{at}/0"), json!("enter"), &no("facts[0]: `cheat` breaks it")),
             (&format!("{at}/0"), json!("fly"), &no("dead[0]: there is no `fly`")),
             (&format!("{at}/1"), json!([]), &no("dead[0]: there are none")),
-            (&format!("{at}/1/0/contradiction"), json!([[1, 1]]), &no(&format!("dead[0][0]: {weight}"))),
-            (&format!("{at}/1/0/contradiction/1/1"), json!(2), &no(&format!("dead[0][0]: {weight}"))),
+            (
+                &format!("{at}/1/0/contradiction"),
+                json!([[1, 1]]),
+                &no(&format!("dead[0][0]: {weight}")),
+            ),
+            (
+                &format!("{at}/1/0/contradiction/1/1"),
+                json!(2),
+                &no(&format!("dead[0][0]: {weight}")),
+            ),
             (
                 &format!("{at}/1/0/contradiction/0/1"),
                 json!(2),
                 &no("dead[0][0]: no contradiction: the constant is not above 0"),
             ),
-            (&format!("{at}/1/0/contradiction/1/0"), json!(2), &no("dead[0][0]: there is no inequality 2")),
+            (
+                &format!("{at}/1/0/contradiction/1/0"),
+                json!(2),
+                &no("dead[0][0]: there is no inequality 2"),
+            ),
             (
                 "/net/transitions/2/take/0/1",
                 json!(1),
@@ -205,7 +263,8 @@ fn a_transition_that_never_fires_breaks_nothing() {
 
 #[test]
 fn a_cut_excludes_fractions() {
-    // 2 a + 2 b = 2 c + 1 has no solution in whole numbers: a sum of the state equation would allow a = 1/2.
+    // 2 a + 2 b = 2 c + 1 has no solution in whole numbers: a sum of the state equation would allow
+    // a = 1/2.
     let parity = net("parity", &[("odd", 1), ("two", 0)], &[("more", &[], &[("two", 2)])]);
     let goal = Formula::And(vec![at_most("odd", 0), Formula::AtMost(linear(1, &[("two", -1)]))]);
     let cut = linear(0, &[("two", 1)]);

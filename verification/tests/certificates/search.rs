@@ -74,24 +74,35 @@ impl Space {
         match question.as_str() {
             Some("one_safe") => return Some(self.markings.iter().flatten().all(|it| *it <= 1)),
             Some("stable") => {
-                let same = |place: usize| self.markings.iter().all(|it| it[place] == self.markings[0][place]);
+                let same = |place: usize| {
+                    self.markings.iter().all(|it| it[place] == self.markings[0][place])
+                };
                 return Some((0..self.places.len()).any(same));
             }
             Some("quasi_live") => {
-                return Some(transitions.into_iter().all(|it| self.enabled.iter().any(|can| can[it])));
+                return Some(
+                    transitions.into_iter().all(|it| self.enabled.iter().any(|can| can[it])),
+                );
             }
             Some("live") => {
-                let again = |from: usize, it: usize| reached_from(from).any(|at| self.enabled[at][it]);
+                let again =
+                    |from: usize, it: usize| reached_from(from).any(|at| self.enabled[at][it]);
                 return Some(
-                    transitions.into_iter().all(|it| (0..self.markings.len()).all(|from| again(from, it))),
+                    transitions
+                        .into_iter()
+                        .all(|it| (0..self.markings.len()).all(|from| again(from, it))),
                 );
             }
             _ => {}
         }
         if let Some(bound) = question.get("bound") {
-            let places: Vec<_> = bound["places"].as_array()?.iter().map(|it| self.place(it)).collect();
-            let sum = |it: &Marking| places.iter().map(|place| i128::from(it[*place])).sum::<i128>();
-            return Some(self.markings.iter().map(sum).max() == Some(bound["most"].as_i64()?.into()));
+            let places: Vec<_> =
+                bound["places"].as_array()?.iter().map(|it| self.place(it)).collect();
+            let sum =
+                |it: &Marking| places.iter().map(|place| i128::from(it[*place])).sum::<i128>();
+            return Some(
+                self.markings.iter().map(sum).max() == Some(bound["most"].as_i64()?.into()),
+            );
         }
         let formula = &question["formula"];
         self.holds(formula).map(|it| it[0]).or_else(|| self.on_some_run(formula))
@@ -112,7 +123,9 @@ impl Space {
             return Some(all.map(|it| self.next[it].is_empty()).collect());
         }
         let (kind, inner) = formula.as_object()?.iter().next()?;
-        let list = || inner.as_array().unwrap().iter().map(|it| self.holds(it)).collect::<Option<Vec<_>>>();
+        let list = || {
+            inner.as_array().unwrap().iter().map(|it| self.holds(it)).collect::<Option<Vec<_>>>()
+        };
         Some(match kind.as_str() {
             "at_most" => {
                 let weights: Vec<_> = inner["weights"]
@@ -123,7 +136,10 @@ impl Space {
                 let constant = i128::from(inner["constant"].as_i64()?);
                 let value = |it: &Marking| {
                     constant
-                        + weights.iter().map(|(place, weight)| weight * i128::from(it[*place])).sum::<i128>()
+                        + weights
+                            .iter()
+                            .map(|(place, weight)| weight * i128::from(it[*place]))
+                            .sum::<i128>()
                 };
                 self.markings.iter().map(|it| value(it) <= 0).collect()
             }
@@ -136,18 +152,22 @@ impl Space {
                 all.map(|it| ids.iter().any(|id| self.enabled[it][*id])).collect()
             }
             "not" => Self::not(self.holds(inner)?),
-            "and" => list()?
-                .iter()
-                .fold(vec![true; all.len()], |a, b| a.iter().zip(b).map(|(a, b)| *a && *b).collect()),
-            "or" => list()?
-                .iter()
-                .fold(vec![false; all.len()], |a, b| a.iter().zip(b).map(|(a, b)| *a || *b).collect()),
+            "and" => list()?.iter().fold(vec![true; all.len()], |a, b| {
+                a.iter().zip(b).map(|(a, b)| *a && *b).collect()
+            }),
+            "or" => list()?.iter().fold(vec![false; all.len()], |a, b| {
+                a.iter().zip(b).map(|(a, b)| *a || *b).collect()
+            }),
             "EX" | "AX" => {
                 let a = self.holds(inner)?;
                 let after = |it: usize| self.next[it].iter().map(|to| a[*to]).collect::<Vec<_>>();
-                all.map(
-                    |it| if kind == "EX" { after(it).contains(&true) } else { !after(it).contains(&false) },
-                )
+                all.map(|it| {
+                    if kind == "EX" {
+                        after(it).contains(&true)
+                    } else {
+                        !after(it).contains(&false)
+                    }
+                })
                 .collect()
             }
             "E" | "A" => {
@@ -163,7 +183,9 @@ impl Space {
                     let mut until = b;
                     loop {
                         let more: Vec<bool> = (0..a.len())
-                            .map(|it| until[it] || a[it] && !self.next[it].is_empty() && step(&until, it))
+                            .map(|it| {
+                                until[it] || a[it] && !self.next[it].is_empty() && step(&until, it)
+                            })
                             .collect();
                         if more == until {
                             return until;
@@ -230,7 +252,8 @@ impl Space {
         None
     }
 
-    /// Whether a path formula holds at a position of the run, whose last marking is followed by the one at `back`.
+    /// Whether a path formula holds at a position of the run, whose last marking is followed by the
+    /// one at `back`.
     fn at(&self, path: &Value, run: &[usize], back: usize, position: usize) -> Option<bool> {
         let next = |it: usize| if it + 1 < run.len() { it + 1 } else { back };
         // All positions from here on, in order, each once.
@@ -248,15 +271,17 @@ impl Space {
                 "and" | "or" => {
                     let parts: Option<Vec<bool>> =
                         inner.as_array()?.iter().map(|it| at(it, position)).collect();
-                    return parts
-                        .map(|it| if kind == "and" { it.iter().all(|it| *it) } else { it.contains(&true) });
+                    return parts.map(|it| {
+                        if kind == "and" { it.iter().all(|it| *it) } else { it.contains(&true) }
+                    });
                 }
                 "X" => return at(inner, next(position)),
                 "F" | "G" => {
                     let all: Option<Vec<bool>> =
                         later(position).into_iter().map(|it| at(inner, it)).collect();
-                    return all
-                        .map(|it| if kind == "G" { it.iter().all(|it| *it) } else { it.contains(&true) });
+                    return all.map(|it| {
+                        if kind == "G" { it.iter().all(|it| *it) } else { it.contains(&true) }
+                    });
                 }
                 "U" => {
                     for it in later(position) {

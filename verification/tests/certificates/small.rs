@@ -15,8 +15,14 @@ fn the_checker_has_fewer_than_400_lines() {
 #[test]
 fn the_checker_uses_no_engine() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/certificate");
-    let files =
-        ["verify/mod.rs", "verify/truth.rs", "verify/refutation.rs", "read.rs", "sum.rs", "verified.rs"];
+    let files = [
+        "verify/mod.rs",
+        "verify/truth.rs",
+        "verify/refutation.rs",
+        "read.rs",
+        "sum.rs",
+        "verified.rs",
+    ];
     for file in files {
         let text = fs::read_to_string(folder.join(file)).unwrap();
         let foreign = |it: &&str| it.contains("crate::") && !it.contains("crate::certificate");

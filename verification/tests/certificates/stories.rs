@@ -8,8 +8,10 @@ type Arcs<'a> = &'a [(&'a str, u32)];
 
 pub(crate) fn net(name: &str, places: Arcs, transitions: &[(&str, Arcs, Arcs)]) -> Pt {
     let mut net = OwnedNet::new(name, "");
-    let ids: Vec<_> =
-        places.iter().map(|&(name, tokens)| net.place(OwnedPlace::new(name, tokens)).unwrap()).collect();
+    let ids: Vec<_> = places
+        .iter()
+        .map(|&(name, tokens)| net.place(OwnedPlace::new(name, tokens)).unwrap())
+        .collect();
     let id = |name: &str| ids[places.iter().position(|it| it.0 == name).unwrap()];
     for (name, take, give) in transitions {
         let mut transition = OwnedTransition::new(name);

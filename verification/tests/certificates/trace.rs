@@ -33,26 +33,50 @@ fn a_trace_that_does_not_lead_there_is_refused() {
             ),
             ("/verdict", json!(false), "evidence: this kind of evidence does not fit the claim"),
             ("/evidence", json!("none"), "evidence: there is no evidence"),
-            ("/evidence", json!("state"), "evidence: speaks of runs where one marking is to decide"),
+            (
+                "/evidence",
+                json!("state"),
+                "evidence: speaks of runs where one marking is to decide",
+            ),
             (
                 "/evidence/trace/fire",
                 json!(["saw1"]),
                 "evidence.trace.then: the opposite of what is claimed is so",
             ),
-            ("/evidence/trace/fire", json!([]), "evidence.trace.then: the opposite of what is claimed is so"),
+            (
+                "/evidence/trace/fire",
+                json!([]),
+                "evidence.trace.then: the opposite of what is claimed is so",
+            ),
             (
                 "/evidence/trace/fire",
                 json!(["saw1", "saw1"]),
                 "evidence.trace.fire[1]: `saw1` is not enabled",
             ),
-            ("/evidence/trace/fire/0", json!("paint"), "evidence.trace.fire[0]: there is no `paint`"),
-            ("/evidence/trace/fire/0", json!("saw2"), "evidence.trace.fire[0]: `saw2` is not enabled"),
+            (
+                "/evidence/trace/fire/0",
+                json!("paint"),
+                "evidence.trace.fire[0]: there is no `paint`",
+            ),
+            (
+                "/evidence/trace/fire/0",
+                json!("saw2"),
+                "evidence.trace.fire[0]: `saw2` is not enabled",
+            ),
             ("/evidence/trace/then", json!("none"), "evidence.trace.then: there is no evidence"),
             ("/net/places/1/1", json!(0), not_enabled),
             ("/net/transitions/2/take/0/1", json!(2), not_enabled),
             ("/net/transitions/2/take/0/1", json!(0), "net.transitions[2]: an arc has weight 0"),
-            ("/net/places/0/1", json!(2), "evidence.trace.then: the opposite of what is claimed is so"),
-            ("/net/places/0/0", json!("drill"), "net: two places or two transitions have the same name"),
+            (
+                "/net/places/0/1",
+                json!(2),
+                "evidence.trace.then: the opposite of what is claimed is so",
+            ),
+            (
+                "/net/places/0/0",
+                json!("drill"),
+                "net: two places or two transitions have the same name",
+            ),
             (
                 "/question",
                 json!({"formula": {"A": {"F": "deadlock"}}}),
@@ -74,7 +98,8 @@ fn a_successor_is_one_step_away() {
     let battery = battery();
     let misfit = "evidence: this kind of evidence does not fit the claim";
     let question = Question::Formula(ax(has("full", 2)));
-    let certificate = Certificate::of(&battery, "", question.clone(), false, Evidence::trace(&battery, &[0]));
+    let certificate =
+        Certificate::of(&battery, "", question.clone(), false, Evidence::trace(&battery, &[0]));
     assert_eq!(
         shown(&certificate),
         "net battery (3 places, 3 transitions): A(X(2 <= full)) is false\n  by a trace of 1 firing"
@@ -93,7 +118,8 @@ fn a_successor_is_one_step_away() {
 fn until_is_watched_on_the_way() {
     let battery = battery();
     let question = Question::Formula(e(u(has("full", 1), has("empty", 2))));
-    let certificate = Certificate::of(&battery, "", question, true, Evidence::trace(&battery, &[0, 0]));
+    let certificate =
+        Certificate::of(&battery, "", question, true, Evidence::trace(&battery, &[0, 0]));
     assert_eq!(
         shown(&certificate),
         "net battery (3 places, 3 transitions): E((1 <= full) U (2 <= empty)) is true\n  by a trace of 2 firings"
@@ -110,7 +136,8 @@ fn until_is_watched_on_the_way() {
 
 #[test]
 fn a_broken_battery_ends_the_hope_that_it_works_again() {
-    // Not live: after the break, no set of markings but that one is needed to see that `work` is gone.
+    // Not live: after the break, no set of markings but that one is needed to see that `work` is
+    // gone.
     let battery = battery();
     let question = Question::Formula(a(g(e(f(fireable("work"))))));
     let evidence = Evidence::trace_then(&battery, &[0, 0, 2], Evidence::Graph(1));

@@ -22,8 +22,10 @@ fn read(folder: &Path, file: &Path) -> (Model, Vec<Property>) {
 }
 
 fn files(folder: &Path) -> Vec<PathBuf> {
-    let files = std::fs::read_dir(folder.join("properties")).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> = files.filter(|file| file.extension().is_some_and(|it| it == "xml")).collect();
+    let files =
+        std::fs::read_dir(folder.join("properties")).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> =
+        files.filter(|file| file.extension().is_some_and(|it| it == "xml")).collect();
     files.sort();
     files
 }

@@ -38,8 +38,8 @@ net! {
 
 /// The text of the panic of a test.
 fn said(property: &str) -> String {
-    let panic =
-        std::panic::catch_unwind(|| assert_holds!(lift::NET, property)).expect_err("it does not hold");
+    let panic = std::panic::catch_unwind(|| assert_holds!(lift::NET, property))
+        .expect_err("it does not hold");
     *panic.downcast::<String>().expect("a text")
 }
 
@@ -97,7 +97,10 @@ fn the_front_says_of_two_thousand_nets_what_the_engine_says_and_its_runs_replay(
     for _ in 0..2_000 {
         let pt = small(&mut random);
         let some = |random: &mut Random| -> Vec<_> {
-            (0..pt.transitions.len() as u32).map(TransitionId).filter(|_| random.below(3) == 0).collect()
+            (0..pt.transitions.len() as u32)
+                .map(TransitionId)
+                .filter(|_| random.below(3) == 0)
+                .collect()
         };
         let (weak, strong) = (some(&mut random), some(&mut random));
         let often = (0..random.below(2)).map(|_| state(&mut random, &pt, 2)).collect();

@@ -1,5 +1,5 @@
-//! The laws of the shipped nets: what holds while compiling holds here; with one arc changed, one of them does not, and
-//! the player runs into it.
+//! The laws of the shipped nets: what holds while compiling holds here; with one arc changed, one
+//! of them does not, and the player runs into it.
 
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{
@@ -73,7 +73,8 @@ fn mutants(net: &Net<'_>) -> Vec<OwnedNet> {
 /// More than any of these nets has.
 const CLOCKS: usize = 16;
 
-/// Whether the player of the core fires just this: each event is offered at its date, all else comes by itself.
+/// Whether the player of the core fires just this: each event is offered at its date, all else
+/// comes by itself.
 fn plays(net: &Net<'_>, steps: &[Step]) -> bool {
     assert!(clocks(net) <= CLOCKS);
     match words(net) {
@@ -87,13 +88,15 @@ fn plays_in<const W: usize>(net: &Net<'_>, steps: &[Step]) -> bool {
     let Ok(packed) = Packed::<W>::of(net) else { return false };
     let mut fired = Vec::new();
     let mut observer = |it: &Firing<'_, EventId, TransitionId, _>| fired.push((it.id, it.at.0));
-    let mut player = Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
+    let mut player =
+        Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
     for step in steps {
         let now = Millis(step.date.parts);
         match net.transitions[step.transition.0 as usize].on {
             Some(event) => {
                 let outcome = player.offer_with(now, &event, &mut observer);
-                if !matches!(outcome, Outcome::Fired { transition, .. } if transition == step.transition) {
+                if !matches!(outcome, Outcome::Fired { transition, .. } if transition == step.transition)
+                {
                     return false;
                 }
             }
@@ -106,7 +109,8 @@ fn plays_in<const W: usize>(net: &Net<'_>, steps: &[Step]) -> bool {
 
 /// The steps of the run of an answer; at the start of time, where the net has none.
 fn steps(answer: &Answer) -> Option<Vec<Step>> {
-    let at_once = |it: &TransitionId| Step { transition: *it, date: Date { parts: 0, per_unit: 1 } };
+    let at_once =
+        |it: &TransitionId| Step { transition: *it, date: Date { parts: 0, per_unit: 1 } };
     match &answer.schedule {
         Some(schedule) => Some(schedule.steps.clone()),
         None => Some(answer.run.as_ref()?.stem.iter().map(at_once).collect()),
@@ -127,8 +131,10 @@ fn a_changed_arc_breaks_a_law_and_the_player_runs_into_it() {
             let mutant = view.net();
             let Ok(model) = Model::timed(&mutant) else { continue };
             let laws = laws(&mutant);
-            let options =
-                Options { limits: Limits { states: 2_000, ..Limits::default() }, ..Options::default() };
+            let options = Options {
+                limits: Limits { states: 2_000, ..Limits::default() },
+                ..Options::default()
+            };
             let answers = check_all(&model, &laws, &options);
             let violated = answers.iter().filter(|it| it.verdict == Verdict::Holds(false));
             broken += usize::from(violated.clone().next().is_some());
@@ -140,7 +146,8 @@ fn a_changed_arc_breaks_a_law_and_the_player_runs_into_it() {
         }
         counts.push((net.name, broken, runs, played));
     }
-    // Nets; mutants that break a law; runs into it, of which some are not played, as a priority or a date prevents them.
+    // Nets; mutants that break a law; runs into it, of which some are not played, as a priority or
+    // a date prevents them.
     let expected = [
         ("door", 23, 23, 21),
         ("watchdog", 23, 37, 22),

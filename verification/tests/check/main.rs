@@ -1,8 +1,9 @@
-//! Answers of the checker's front: by the book on thousands of small nets, by known verdicts on public ones; every
-//! certificate verifies, every run replays, and what is changed is refused.
+//! Answers of the checker's front: by the book on thousands of small nets, by known verdicts on
+//! public ones; every certificate verifies, every run replays, and what is changed is refused.
 //!
-//! Public files are in the folder that `COTAMA_MCC_DIR` names: `*.pnml`, and `properties` with files
-//! `NET.EXAMINATION.xml` and `verdicts.tsv`, whose columns start with file, property and verdict.
+//! Public files are in the folder that `COTAMA_MCC_DIR` names: `*.pnml`, and `properties` with
+//! files `NET.EXAMINATION.xml` and `verdicts.tsv`, whose columns start with file, property and
+//! verdict.
 
 mod contest;
 #[path = "../tpn/discrete.rs"]
@@ -35,7 +36,8 @@ fn folder(what: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from);
     if folder.is_none() {
         // Not by `eprintln`, which says nothing when a test passes.
-        let message = format!("SKIPPED: COTAMA_MCC_DIR names no folder of public nets, to check {what}\n");
+        let message =
+            format!("SKIPPED: COTAMA_MCC_DIR names no folder of public nets, to check {what}\n");
         let _ = std::io::stderr().write_all(message.as_bytes());
     }
     folder

@@ -21,7 +21,12 @@ pub(crate) struct Changed {
 }
 
 /// Changes a certificate in so many ways; the opposite verdict is the first.
-pub(crate) fn change(certificate: &Certificate, ways: usize, random: &mut Random, counts: &mut Changed) {
+pub(crate) fn change(
+    certificate: &Certificate,
+    ways: usize,
+    random: &mut Random,
+    counts: &mut Changed,
+) {
     let json: Value = serde_json::from_str(&certificate.text()).unwrap();
     let opposite = Certificate { verdict: !certificate.verdict, ..certificate.clone() };
     assert!(verify(&opposite.text()).is_err(), "believed: {}", opposite.text());
@@ -61,7 +66,14 @@ fn one(json: &mut Value, way: usize, random: &mut Random) {
     match here {
         Value::Number(number) => {
             let number = number.as_i64().unwrap();
-            *here = json!(*random.choose(&[number + 1, number - 1, -number, 0, 2 * number, number + 7]));
+            *here = json!(*random.choose(&[
+                number + 1,
+                number - 1,
+                -number,
+                0,
+                2 * number,
+                number + 7
+            ]));
         }
         Value::Bool(truth) => *truth = !*truth,
         Value::Array(list) if !list.is_empty() => {
@@ -73,9 +85,11 @@ fn one(json: &mut Value, way: usize, random: &mut Random) {
             }
         }
         Value::Object(fields) if fields.len() == 1 => {
-            let kinds = ["not", "E", "A", "X", "F", "G", "U", "and", "or", "trace", "lasso", "one", "each"];
+            let kinds =
+                ["not", "E", "A", "X", "F", "G", "U", "and", "or", "trace", "lasso", "one", "each"];
             let inner = fields.values().next().unwrap().clone();
-            *here = if random.below(3) == 0 { inner } else { json!({ *random.choose(&kinds): inner }) };
+            *here =
+                if random.below(3) == 0 { inner } else { json!({ *random.choose(&kinds): inner }) };
         }
         here if random.below(2) == 0 => *here = json!({ "not": here.clone() }),
         here => *here = other,
@@ -85,7 +99,9 @@ fn one(json: &mut Value, way: usize, random: &mut Random) {
 fn pointers(value: &Value, at: String, found: &mut Vec<String>) {
     match value {
         Value::Array(list) => {
-            list.iter().enumerate().for_each(|(number, it)| pointers(it, format!("{at}/{number}"), found));
+            list.iter()
+                .enumerate()
+                .for_each(|(number, it)| pointers(it, format!("{at}/{number}"), found));
         }
         Value::Object(fields) => {
             fields.iter().for_each(|(name, it)| pointers(it, format!("{at}/{name}"), found));
@@ -104,15 +120,17 @@ fn truth(certificate: &Certificate) -> Option<bool> {
         certificate::Question::Formula(formula) => {
             let formula = formula_of(formula, &pt);
             let operators = formula.display(&pt).to_string().matches(['X', 'F', 'G', 'U']).count();
-            // A part that speaks of a run outside of quantifiers has no meaning; another part may decide.
+            // A part that speaks of a run outside of quantifiers has no meaning; another part may
+            // decide.
             if all.len() << operators.min(20) > 20_000 || formula.needs_run() {
                 return None;
             }
             oracle::holds(&pt, &formula)
         }
         certificate::Question::Bound { places, most } => {
-            let sum =
-                |it: &Vec<u32>| places.iter().map(|at| i64::from(it[place(at).0 as usize])).sum::<i64>();
+            let sum = |it: &Vec<u32>| {
+                places.iter().map(|at| i64::from(it[place(at).0 as usize])).sum::<i64>()
+            };
             all.iter().map(sum).max() == Some(*most)
         }
         certificate::Question::Unbounded { .. } => false,
@@ -172,8 +190,8 @@ fn formula_of(formula: &certificate::Formula, pt: &Pt) -> Formula {
         Said::Not(it) => Formula::Not(boxed(it)),
         Said::And(all) => Formula::And(list(all)),
         Said::Or(all) => Formula::Or(list(all)),
-        // `X` of a certificate speaks of a run, in which a deadlock is repeated for ever; after `E` and `A` that of the
-        // property language asks for a marking that follows.
+        // `X` of a certificate speaks of a run, in which a deadlock is repeated for ever; after `E`
+        // and `A` that of the property language asks for a marking that follows.
         Said::Exists(it) => match &**it {
             Said::Next(a) if !speaks_of_runs(a) => {
                 let a = formula_of(a, pt);

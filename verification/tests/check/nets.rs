@@ -6,12 +6,14 @@ use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;
 use std::collections::BTreeSet;
 
-/// A net with up to five places and transitions, with weights and read arcs; every other one makes no tokens.
+/// A net with up to five places and transitions, with weights and read arcs; every other one makes
+/// no tokens.
 pub(crate) fn any(random: &mut Random) -> Pt {
     let mut net = OwnedNet::new("any", "");
     let places: Vec<_> = (0..2 + random.below(4))
         .map(|at| {
-            net.place(OwnedPlace::new(&format!("p{at}"), *random.choose(&[0, 0, 1, 1, 1, 2, 3]))).unwrap()
+            net.place(OwnedPlace::new(&format!("p{at}"), *random.choose(&[0, 0, 1, 1, 1, 2, 3])))
+                .unwrap()
         })
         .collect();
     let keeps = random.below(2) == 0;

@@ -18,7 +18,8 @@ pub(crate) fn markings(pt: &Pt, firings: &[TransitionId]) -> Vec<Vec<u32>> {
     markings
 }
 
-/// The markings of a run, and the position to which the last one leads back; `None` where it goes on in any way.
+/// The markings of a run, and the position to which the last one leads back; `None` where it goes
+/// on in any way.
 pub(crate) fn walk(pt: &Pt, run: &Run) -> (Vec<Vec<u32>>, Option<usize>) {
     let back = run.stem.len();
     match &run.rest {
@@ -31,7 +32,12 @@ pub(crate) fn walk(pt: &Pt, run: &Run) -> (Vec<Vec<u32>>, Option<usize>) {
         Rest::Cycle(cycle) => {
             assert!(!cycle.is_empty());
             let mut markings = markings(pt, &[&run.stem[..], cycle].concat());
-            assert_eq!(markings.pop().as_ref(), Some(&markings[back]), "{}: the loop is open", pt.name);
+            assert_eq!(
+                markings.pop().as_ref(),
+                Some(&markings[back]),
+                "{}: the loop is open",
+                pt.name
+            );
             (markings, Some(back))
         }
     }
@@ -41,7 +47,8 @@ fn is_dead(pt: &Pt, marking: &[u32]) -> bool {
     (0..pt.transitions.len() as u32).all(|it| !pt.enabled(marking, it))
 }
 
-/// Replays the run of an answer, on a net of any size; when one marking decides, its last one has to. Whether there is a run.
+/// Replays the run of an answer, on a net of any size; when one marking decides, its last one has
+/// to. Whether there is a run.
 pub(crate) fn replays(pt: &Pt, question: &Question, answer: &Answer) -> bool {
     let Some(run) = &answer.run else { return false };
     let (markings, _) = walk(pt, run);
@@ -77,8 +84,8 @@ pub(crate) fn meets(pt: &Pt, marking: &[u32], goal: &Formula) -> bool {
     }
 }
 
-/// Whether the run of an answer shows the verdict on a formula, by the book: the run itself is as the formula says, or, where
-/// it speaks of all runs, is not. Of several formulas, one is shown.
+/// Whether the run of an answer shows the verdict on a formula, by the book: the run itself is as
+/// the formula says, or, where it speaks of all runs, is not. Of several formulas, one is shown.
 pub(crate) fn shows(space: &Space<'_>, formula: &Formula, holds: bool, run: &Run) -> bool {
     let (pt, run) = (space.net, run.clone().closed(space.net));
     match (formula, holds) {
@@ -88,7 +95,8 @@ pub(crate) fn shows(space: &Space<'_>, formula: &Formula, holds: bool, run: &Run
         }
         (Formula::Exists(path), true) | (Formula::All(path), false) => {
             let (markings, back) = walk(pt, &run);
-            let place = |it: &Vec<u32>| space.markings.iter().position(|other| it == other).unwrap();
+            let place =
+                |it: &Vec<u32>| space.markings.iter().position(|other| it == other).unwrap();
             let run: Vec<usize> = markings.iter().map(place).collect();
             oracle::lasso(space, &run, back.expect("a run that is closed"), path) == holds
         }

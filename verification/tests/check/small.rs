@@ -1,5 +1,5 @@
-//! Ten thousand small nets: what each engine answers is so by the book, every certificate verifies, every run shows its
-//! verdict.
+//! Ten thousand small nets: what each engine answers is so by the book, every certificate verifies,
+//! every run shows its verdict.
 
 use crate::mutations::{self, Changed};
 use crate::oracle::{self, Space};
@@ -93,7 +93,8 @@ const CHOICES: [(&str, Choice); 4] = [
 fn ask(pt: &Pt, random: &mut Random, change: bool, counts: &mut Counts) {
     let model = Model::from(pt.clone());
     let (space, properties) = (Space::new(pt), questions(random, pt));
-    let expected: Vec<Verdict> = properties.iter().map(|it| expected(&space, &it.question)).collect();
+    let expected: Vec<Verdict> =
+        properties.iter().map(|it| expected(&space, &it.question)).collect();
     for (choice, engine) in CHOICES {
         for evidence in [false, true] {
             let options = Options { engine, evidence, ..Options::default() };
@@ -103,8 +104,9 @@ fn ask(pt: &Pt, random: &mut Random, change: bool, counts: &mut Counts) {
                     *counts.unknown.entry(choice).or_default() += 1;
                     continue;
                 }
-                let text =
-                    || format!("{choice}, evidence {evidence}: {}\n{answer:?}\n{pt:#?}", property.name);
+                let text = || {
+                    format!("{choice}, evidence {evidence}: {}\n{answer:?}\n{pt:#?}", property.name)
+                };
                 assert_eq!(&answer.verdict, expected, "{}", text());
                 *counts.answered.entry((choice, answer.engine())).or_default() += 1;
                 counts.runs += usize::from(run_shows(&space, property, answer));
@@ -147,7 +149,10 @@ fn ten_thousand_small_nets_are_as_the_book_says() {
     ] {
         assert!(counts.answered[&(choice, engine)] >= least, "{choice}, {engine}: {counts:?}");
     }
-    assert!(counts.runs > 160_000 && counts.certified > 290_000 && counts.uncertified < 1_500, "{counts:?}");
+    assert!(
+        counts.runs > 160_000 && counts.certified > 290_000 && counts.uncertified < 1_500,
+        "{counts:?}"
+    );
     let Changed { refused, true_again, open } = counts.changed;
     assert!(refused > 47_000 && true_again > 5_000 && open < 200, "{refused} {true_again} {open}");
 }

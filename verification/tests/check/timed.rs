@@ -20,7 +20,8 @@ fn net(random: &mut Random) -> TimeNet {
             let initial = u32::from(at == 0);
             places.push(TimePlace { name: format!("r{ring}p{at}"), label: None, initial });
             for twin in 0..=usize::from(random.below(3) == 0) {
-                let arc = |at: usize| Arc { place: PlaceId((first + at % length) as u32), weight: 1 };
+                let arc =
+                    |at: usize| Arc { place: PlaceId((first + at % length) as u32), weight: 1 };
                 let other = Arc { place: PlaceId(random.below(first + 1) as u32), weight: 1 };
                 let lower = random.below(4) as u64;
                 let upper = (random.below(10) > 0).then_some(lower + random.below(4) as u64);
@@ -44,7 +45,12 @@ fn net(random: &mut Random) -> TimeNet {
 }
 
 /// The most ticks until a place is marked, from each state; `None` without a limit.
-fn longest(states: &States, state: usize, to: usize, known: &mut HashMap<usize, Option<u64>>) -> Option<u64> {
+fn longest(
+    states: &States,
+    state: usize,
+    to: usize,
+    known: &mut HashMap<usize, Option<u64>>,
+) -> Option<u64> {
     if states.list[state].tokens[to] > 0 {
         return Some(0);
     }
@@ -71,7 +77,11 @@ fn responds(states: &States, from: usize, limit: u64, to: usize) -> bool {
 }
 
 /// A question with its answer by the book.
-fn questions(random: &mut Random, net: &TimeNet, states: &States) -> Vec<(&'static str, Property, String)> {
+fn questions(
+    random: &mut Random,
+    net: &TimeNet,
+    states: &States,
+) -> Vec<(&'static str, Property, String)> {
     let untimed = net.untimed();
     let mut all = Vec::new();
     let a = random.below(net.places().len());
@@ -82,13 +92,18 @@ fn questions(random: &mut Random, net: &TimeNet, states: &States) -> Vec<(&'stat
     let tokens = 1 + random.below(2) as u32;
     let limit = random.below(12) as u64;
     let some = |goal: &dyn Fn(&State) -> bool| states.list.iter().any(goal);
-    let parse = |text: &str| property::parse(text, &untimed).unwrap_or_else(|error| panic!("{error}"));
+    let parse =
+        |text: &str| property::parse(text, &untimed).unwrap_or_else(|error| panic!("{error}"));
     let mut ask = |kind, text: String, expected: String| all.push((kind, parse(&text), expected));
     let both = states.markings().iter().any(|it| it[a] >= tokens && it[b] > 0);
     ask("reachable", format!("EF ({one} >= {tokens} & {other})"), both.to_string());
     ask("always", format!("AG !({one} >= {tokens} & {other})"), (!both).to_string());
     ask("deadlock", "EF deadlock".into(), (!states.dead().is_empty()).to_string());
-    ask("one safe", "one_safe".into(), (!some(&|it| it.tokens.iter().any(|&it| it > 1))).to_string());
+    ask(
+        "one safe",
+        "one_safe".into(),
+        (!some(&|it| it.tokens.iter().any(|&it| it > 1))).to_string(),
+    );
     let text = format!("AG {one} + {other} <= 1 | EF ({one} >= {tokens} & {other})");
     let one_of_them = !some(&|it| it.tokens[a] + it.tokens[b] > 1);
     ask("either", text, (one_of_them || both).to_string());
@@ -144,11 +159,18 @@ fn two_thousand_time_nets_are_what_integer_clocks_say() {
                 count[2] += 1;
                 continue;
             }
-            assert_eq!(&shown(&answer.verdict), expected, "{}\n{}", property.name, tina::write(&net));
+            assert_eq!(
+                &shown(&answer.verdict),
+                expected,
+                "{}\n{}",
+                property.name,
+                tina::write(&net)
+            );
             count[usize::from(expected == "true" || expected.contains(".."))] += 1;
             schedules += usize::from(plays(&net, answer));
             if let Ok(certificate) = answer.certificate(model.pt(), property) {
-                verify(&certificate.text()).unwrap_or_else(|error| panic!("{}: {error}", property.name));
+                verify(&certificate.text())
+                    .unwrap_or_else(|error| panic!("{}: {error}", property.name));
                 certified += 1;
             }
         }
@@ -158,9 +180,12 @@ fn two_thousand_time_nets_are_what_integer_clocks_say() {
     assert!(counts.iter().all(|(kind, it)| it[2] == 0 || *kind == "in time"), "{counts:?}");
     // Whether a cause is marked when an effect ends is not always known.
     assert!(no("in time") < 300, "{counts:?}");
-    for (kind, noes, yeses) in
-        [("always", 450, 1_400), ("deadlock", 1_700, 200), ("response", 500, 1_400), ("in time", 1_100, 500)]
-    {
+    for (kind, noes, yeses) in [
+        ("always", 450, 1_400),
+        ("deadlock", 1_700, 200),
+        ("response", 500, 1_400),
+        ("in time", 1_100, 500),
+    ] {
         assert!(counts[kind][0] >= noes && counts[kind][1] >= yeses, "{kind}: {counts:?}");
     }
     assert!(schedules > 1_000 && certified > 5_000, "{schedules} {certified}");

@@ -1,5 +1,5 @@
-//! Nets with infinitely many markings: what is answered is never at odds with the markings that are met first, and a run or a
-//! certificate shows it.
+//! Nets with infinitely many markings: what is answered is never at odds with the markings that are
+//! met first, and a run or a certificate shows it.
 
 use crate::random::{self, Random};
 use crate::{nets, replay};
@@ -37,7 +37,12 @@ fn questions(random: &mut Random, pt: &Pt) -> Vec<Property> {
     let mut all: Vec<Question> = [reached, branching, linear].map(Question::Formula).into();
     all.extend((0..pt.places.len() as u32).map(|it| Question::Bound(vec![PlaceId(it)])));
     all.push(Question::Bound(vec![PlaceId(0), PlaceId(1)]));
-    all.extend([Question::Liveness, Question::QuasiLiveness, Question::StableMarking, Question::OneSafe]);
+    all.extend([
+        Question::Liveness,
+        Question::QuasiLiveness,
+        Question::StableMarking,
+        Question::OneSafe,
+    ]);
     all.into_iter().map(|question| crate::named(question, pt)).collect()
 }
 
@@ -56,9 +61,11 @@ struct Counts {
 }
 
 fn compare(pt: &Pt, random: &mut Random, evidence: bool, counts: &mut Counts) {
-    let (model, properties, first) = (Model::from(pt.clone()), questions(random, pt), first(pt, 200));
+    let (model, properties, first) =
+        (Model::from(pt.clone()), questions(random, pt), first(pt, 200));
     let limits = Limits { states: 1_000, ..Limits::default() };
-    let answers = check_all(&model, &properties, &Options { evidence, limits, ..Options::default() });
+    let answers =
+        check_all(&model, &properties, &Options { evidence, limits, ..Options::default() });
     for (property, answer) in properties.iter().zip(&answers) {
         let text = || format!("{}\n{answer:?}\n{pt:#?}", property.name);
         replay::replays(pt, &property.question, answer);
@@ -69,7 +76,9 @@ fn compare(pt: &Pt, random: &mut Random, evidence: bool, counts: &mut Counts) {
         match (&property.question, &answer.verdict) {
             (_, Verdict::Unknown(_)) => counts.unknown += 1,
             (Question::Bound(places), Verdict::Bound(extent)) => {
-                let sum = |it: &Vec<u32>| places.iter().map(|at| u64::from(it[at.0 as usize])).sum::<u64>();
+                let sum = |it: &Vec<u32>| {
+                    places.iter().map(|at| u64::from(it[at.0 as usize])).sum::<u64>()
+                };
                 let most = first.iter().map(sum).max().unwrap();
                 match extent {
                     Extent::Finite(bound) => {

@@ -8,7 +8,8 @@ use cotama_verification::coverability::{
 use cotama_verification::pt::Pt;
 use std::cell::Cell;
 
-/// A ring of places with many tokens, and a place that counts what one step drops: no sum bounds it.
+/// A ring of places with many tokens, and a place that counts what one step drops: no sum bounds
+/// it.
 fn wide() -> Pt {
     net(
         &[40, 0, 0, 0, 0, 9],
@@ -59,22 +60,29 @@ fn a_sequence_that_is_too_long_is_not_written_out() {
     let limits = Limits { firings: 1_000, ..Limits::default() };
     let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(0), 1_000)], &limits) else { panic!() };
     assert_eq!(way.firings.map(|it| it.len()), Some(1_000));
-    let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(0), u64::MAX - 1)], &limits) else { panic!() };
+    let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(0), u64::MAX - 1)], &limits) else {
+        panic!()
+    };
     assert_eq!((way.length, way.firings), (u128::from(u64::MAX) - 1, None));
     // A stem and a pump are counted one by one.
     let long = net(&[1, 0, 0], &[[&[(0, 1)], &[(1, 3)]], [&[(1, 3)], &[(0, 1), (2, 1)]]]);
     let Bounded::No(growth) = bounded(&long, &Limits { firings: 1, ..limits }) else { panic!() };
-    assert_eq!((growth.stem.firings, growth.pump.length, growth.pump.firings), (Some(vec![]), 2, None));
+    assert_eq!(
+        (growth.stem.firings, growth.pump.length, growth.pump.firings),
+        (Some(vec![]), 2, None)
+    );
     assert_eq!(growth.grows, [(PlaceId(2), 1)]);
 }
 
 #[test]
 fn a_pump_of_astronomic_length_is_still_a_pump() {
-    // A chain in which each place takes 1,000,000 tokens of the one before: the last ones pass any number.
+    // A chain in which each place takes 1,000,000 tokens of the one before: the last ones pass any
+    // number.
     let arcs: Vec<[Vec<(u32, u32)>; 2]> = std::iter::once([vec![], vec![(0, 1)]])
         .chain((0..9).map(|it| [vec![(it, 1_000_000)], vec![(it + 1, 1)]]))
         .collect();
-    let arcs: Vec<[&[(u32, u32)]; 2]> = arcs.iter().map(|it| [it[0].as_slice(), it[1].as_slice()]).collect();
+    let arcs: Vec<[&[(u32, u32)]; 2]> =
+        arcs.iter().map(|it| [it[0].as_slice(), it[1].as_slice()]).collect();
     let pt = net(&[0; 10], &arcs);
     let Bounded::No(growth) = bounded(&pt, &Limits::default()) else { panic!("it is unbounded") };
     assert_eq!((growth.stem.length, growth.pump.length), (0, 1));
@@ -83,6 +91,8 @@ fn a_pump_of_astronomic_length_is_still_a_pump() {
         Coverable::Unknown(unfinished) => assert_eq!(unfinished.limit, Limit::Numbers),
         Coverable::No => panic!("it is coverable"),
     }
-    let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(3), 1)], &Limits::default()) else { panic!() };
+    let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(3), 1)], &Limits::default()) else {
+        panic!()
+    };
     assert_eq!((way.length, way.firings), (1_000_001_000_001_000_001, None));
 }

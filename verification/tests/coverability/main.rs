@@ -1,4 +1,5 @@
-//! Unbounded nets: minimal coverability sets, pumps and coverability of textbook, random and public nets.
+//! Unbounded nets: minimal coverability sets, pumps and coverability of textbook, random and public
+//! nets.
 
 mod limits;
 mod oracle;
@@ -13,8 +14,8 @@ use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::coverability::{CoverabilitySet, Growth, Limits, Sequence};
 use cotama_verification::pt::Pt;
 
-/// A net of places, given by their tokens, and transitions that take and give `(place, weight)`. A place that is both
-/// taken from and given to is needed.
+/// A net of places, given by their tokens, and transitions that take and give `(place, weight)`. A
+/// place that is both taken from and given to is needed.
 fn net(initial: &[u32], transitions: &[[&[(u32, u32)]; 2]]) -> Pt {
     let mut net = OwnedNet::new("net", "");
     for (at, &tokens) in initial.iter().enumerate() {
@@ -39,7 +40,8 @@ fn set(pt: &Pt) -> CoverabilitySet<'_> {
 
 /// The maximal markings, one a line.
 fn shown(set: &CoverabilitySet<'_>) -> Vec<String> {
-    let line = |marking: &[_]| marking.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
+    let line =
+        |marking: &[_]| marking.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
     set.markings().map(line).collect()
 }
 
@@ -58,7 +60,8 @@ fn end(pt: &Pt, way: &Sequence) -> Vec<u32> {
     fired(pt, pt.initial.clone(), firings)
 }
 
-/// Fires the pump ten times after its stem: each time the places that are said to grow do, and no other changes.
+/// Fires the pump ten times after its stem: each time the places that are said to grow do, and no
+/// other changes.
 fn pumps_ten_times(pt: &Pt, growth: &Growth) {
     assert!(!growth.grows.is_empty());
     let mut marking = end(pt, &growth.stem);

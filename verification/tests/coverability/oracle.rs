@@ -35,7 +35,8 @@ pub(crate) fn random(seed: u64) -> Pt {
     let mut draw = Draw(seed);
     let places = 2 + draw.below(5);
     let transitions = 1 + draw.below(7);
-    let initial: Vec<u32> = (0..places).map(|_| [0, 0, 0, 1, 1, 2][draw.below(6) as usize]).collect();
+    let initial: Vec<u32> =
+        (0..places).map(|_| [0, 0, 0, 1, 1, 2][draw.below(6) as usize]).collect();
     let keeps = draw.below(4) == 0;
     let arcs: Vec<[Vec<(u32, u32)>; 2]> = (0..transitions)
         .map(|_| {
@@ -51,7 +52,8 @@ pub(crate) fn random(seed: u64) -> Pt {
             [take, give]
         })
         .collect();
-    let arcs: Vec<[&[(u32, u32)]; 2]> = arcs.iter().map(|it| [it[0].as_slice(), it[1].as_slice()]).collect();
+    let arcs: Vec<[&[(u32, u32)]; 2]> =
+        arcs.iter().map(|it| [it[0].as_slice(), it[1].as_slice()]).collect();
     super::net(&initial, &arcs)
 }
 
@@ -73,9 +75,9 @@ pub(crate) fn reachable(pt: &Pt, most: usize) -> Option<BTreeSet<Vec<u32>>> {
     Some(markings)
 }
 
-/// Whether a marking is coverable, backwards (P. A. Abdulla, K. Cerans, B. Jonsson, Y.-K. Tsay, General decidability
-/// theorems for infinite-state systems, LICS 1996): the smallest markings from which it can be covered, until there are no
-/// new ones. `None` when they get too many.
+/// Whether a marking is coverable, backwards (P. A. Abdulla, K. Cerans, B. Jonsson, Y.-K. Tsay,
+/// General decidability theorems for infinite-state systems, LICS 1996): the smallest markings from
+/// which it can be covered, until there are no new ones. `None` when they get too many.
 pub(crate) fn backward(pt: &Pt, target: &[u64]) -> Option<bool> {
     let mut smallest = vec![target.to_vec()];
     let mut waiting = smallest.clone();
@@ -96,7 +98,8 @@ pub(crate) fn backward(pt: &Pt, target: &[u64]) -> Option<bool> {
             for &(place, tokens) in pt.needs.of(transition) {
                 before[place as usize] = before[place as usize].max(u64::from(tokens));
             }
-            let is_at_most = |one: &[u64], other: &[u64]| one.iter().zip(other).all(|(a, b)| a <= b);
+            let is_at_most =
+                |one: &[u64], other: &[u64]| one.iter().zip(other).all(|(a, b)| a <= b);
             if !smallest.iter().any(|it| is_at_most(it, &before)) {
                 smallest.retain(|it| !is_at_most(&before, it));
                 smallest.push(before.clone());
@@ -114,26 +117,32 @@ pub(crate) fn backward(pt: &Pt, target: &[u64]) -> Option<bool> {
 /// The limit of a marking after a transition, if that is enabled.
 pub(crate) fn after(pt: &Pt, marking: &[Tokens], transition: u32) -> Option<Vec<Tokens>> {
     let needs = pt.needs.of(transition).iter();
-    needs.clone().all(|&(place, tokens)| marking[place as usize] >= Tokens::from(tokens)).then(|| {
-        let mut after = marking.to_vec();
-        for &(place, change) in pt.effects.of(transition) {
-            after[place as usize] = after[place as usize].changed(change).unwrap();
-        }
-        after
-    })
+    needs.clone().all(|&(place, tokens)| marking[place as usize] >= Tokens::from(tokens)).then(
+        || {
+            let mut after = marking.to_vec();
+            for &(place, change) in pt.effects.of(transition) {
+                after[place as usize] = after[place as usize].changed(change).unwrap();
+            }
+            after
+        },
+    )
 }
 
 pub(crate) fn at_most(one: &[Tokens], other: &[Tokens]) -> bool {
     one.iter().zip(other).all(|(one, other)| one <= other)
 }
 
-/// Whether markings cover the initial one and all that follow from them: then they cover all reachable ones.
+/// Whether markings cover the initial one and all that follow from them: then they cover all
+/// reachable ones.
 pub(crate) fn covers_all(pt: &Pt, markings: &[Vec<Tokens>]) -> bool {
     let is_covered = |marking: &[Tokens]| markings.iter().any(|it| at_most(marking, it));
     let start: Vec<Tokens> = pt.initial.iter().map(|&it| Tokens::from(it)).collect();
     let transitions = 0..pt.transitions.len() as u32;
     is_covered(&start)
         && markings.iter().all(|it| {
-            transitions.clone().filter_map(|transition| after(pt, it, transition)).all(|it| is_covered(&it))
+            transitions
+                .clone()
+                .filter_map(|transition| after(pt, it, transition))
+                .all(|it| is_covered(&it))
         })
 }

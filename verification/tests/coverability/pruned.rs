@@ -1,4 +1,5 @@
-//! The minimal coverability tree of 1993, which prunes too much, and nets on which it misses markings.
+//! The minimal coverability tree of 1993, which prunes too much, and nets on which it misses
+//! markings.
 
 use super::oracle::{after, at_most, covers_all, random};
 use super::{net, set, shown};
@@ -11,9 +12,9 @@ struct Node {
     is_removed: bool,
 }
 
-/// What A. Finkel, The minimal coverability graph for Petri nets, Advances in Petri Nets 1993, computes: when a marking is
-/// greater than an ancestor, the ancestor takes its place with ω and loses its subtree; when it is greater than another
-/// node, that one goes with its subtree.
+/// What A. Finkel, The minimal coverability graph for Petri nets, Advances in Petri Nets 1993,
+/// computes: when a marking is greater than an ancestor, the ancestor takes its place with ω and
+/// loses its subtree; when it is greater than another node, that one goes with its subtree.
 pub(crate) fn pruned(pt: &Pt, last_first: bool) -> Vec<Vec<Tokens>> {
     let start = pt.initial.iter().map(|&it| Tokens::from(it)).collect();
     let mut nodes = vec![Node { marking: start, parent: None, is_removed: false }];
@@ -30,7 +31,8 @@ pub(crate) fn pruned(pt: &Pt, last_first: bool) -> Vec<Vec<Tokens>> {
             continue;
         }
         // The highest smaller ancestor takes the place.
-        let ancestors: Vec<usize> = std::iter::successors(nodes[at].parent, |&it| nodes[it].parent).collect();
+        let ancestors: Vec<usize> =
+            std::iter::successors(nodes[at].parent, |&it| nodes[it].parent).collect();
         let mut marking = nodes[at].marking.clone();
         let smaller: Vec<usize> =
             ancestors.iter().copied().filter(|&it| at_most(&nodes[it].marking, &marking)).collect();
@@ -47,9 +49,13 @@ pub(crate) fn pruned(pt: &Pt, last_first: bool) -> Vec<Vec<Tokens>> {
             nodes[at].marking.clone_from(&marking);
             treated.retain(|&it| it != at);
         }
-        let ancestors: Vec<usize> = std::iter::successors(Some(at), |&it| nodes[it].parent).collect();
+        let ancestors: Vec<usize> =
+            std::iter::successors(Some(at), |&it| nodes[it].parent).collect();
         for it in 0..nodes.len() {
-            if !nodes[it].is_removed && !ancestors.contains(&it) && at_most(&nodes[it].marking, &marking) {
+            if !nodes[it].is_removed
+                && !ancestors.contains(&it)
+                && at_most(&nodes[it].marking, &marking)
+            {
                 remove_below(&mut nodes, it);
                 nodes[it].is_removed = true;
             }
@@ -75,9 +81,10 @@ fn remove_below(nodes: &mut [Node], root: usize) {
 
 #[test]
 fn a_loop_found_twice_and_pruned_twice_is_not_lost() {
-    // The loop y1, w1, w2, y2 gives one x each time. Its ω is found after b. A slower branch comes to y2 with five x, and
-    // what follows from there is left out as covered by y1 with ω. Then b with one x takes the place of b, what was found
-    // after it is removed, and y2 with two x is left out as covered by y2 with five.
+    // The loop y1, w1, w2, y2 gives one x each time. Its ω is found after b. A slower branch comes
+    // to y2 with five x, and what follows from there is left out as covered by y1 with ω. Then b
+    // with one x takes the place of b, what was found after it is removed, and y2 with two x is
+    // left out as covered by y2 with five.
     let [i, b, y1, w1, w2, y2, x, slow, g] = [0, 1, 2, 3, 4, 5, 6, 7, 13];
     let pt = net(
         &[1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0],

@@ -1,5 +1,5 @@
-//! Nets of others, in the folder that the environment variable `COTAMA_MCC_DIR` names: files `*.pnml`, and what is known of
-//! them in `facts.tsv`.
+//! Nets of others, in the folder that the environment variable `COTAMA_MCC_DIR` names: files
+//! `*.pnml`, and what is known of them in `facts.tsv`.
 
 use super::pumps_ten_times;
 use cotama_verification::coverability::{Bounded, CoverabilitySet, Limits, bounded};

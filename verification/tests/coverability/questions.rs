@@ -7,7 +7,8 @@ use cotama_verification::coverability::{Coverable, Limits, coverable, reaches};
 use cotama_verification::property::{self, Question, Reachability};
 use cotama_verification::pt::Pt;
 
-/// A lock with two keys, of which one can be copied without end; `both` needs both and a place that is never marked.
+/// A lock with two keys, of which one can be copied without end; `both` needs both and a place that
+/// is never marked.
 fn lock() -> Pt {
     net(
         &[1, 0, 0, 0],
@@ -63,7 +64,9 @@ fn goals_that_more_tokens_keep_true_are_answered_exactly() {
 #[test]
 fn other_goals_are_left_to_other_engines() {
     let pt = lock();
-    for text in ["EF p1 = 4", "EF p1 <= 0", "EF deadlock", "EF p1 >= p2", "AG p1 >= 1", "EF !fireable(t0)"] {
+    for text in
+        ["EF p1 = 4", "EF p1 <= 0", "EF deadlock", "EF p1 >= p2", "AG p1 >= 1", "EF !fireable(t0)"]
+    {
         assert_eq!(answer(&pt, text), NotAsked, "{text}");
     }
 }
@@ -80,13 +83,17 @@ fn transitions_that_can_never_fire_are_named() {
 #[test]
 fn a_place_that_is_not_there_holds_nothing() {
     let pt = lock();
-    let start =
-        Coverable::Yes(cotama_verification::coverability::Sequence { length: 0, firings: Some(vec![]) });
+    let start = Coverable::Yes(cotama_verification::coverability::Sequence {
+        length: 0,
+        firings: Some(vec![]),
+    });
     assert_eq!(coverable(&pt, &[(PlaceId(9), 1)], &Limits::default()), Coverable::No);
     assert_eq!(coverable(&pt, &[(PlaceId(9), 0)], &Limits::default()), start);
     assert_eq!(coverable(&pt, &[], &Limits::default()), start);
     // Places that are there hold any number, or no more than they do.
-    let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(1), u64::MAX)], &Limits::default()) else { panic!() };
+    let Coverable::Yes(way) = coverable(&pt, &[(PlaceId(1), u64::MAX)], &Limits::default()) else {
+        panic!()
+    };
     assert_eq!(way.length, u128::from(u64::MAX));
     assert_eq!(coverable(&pt, &[(PlaceId(2), u64::MAX)], &Limits::default()), Coverable::No);
 }

@@ -7,7 +7,8 @@ use cotama_verification::coverability::{
     Bounded, CoverabilitySet, Coverable, Limits, Tokens, bounded, coverable,
 };
 
-const LIMITS: Limits<'static> = Limits { nodes: 3_000, bytes: 1 << 30, firings: 100_000, stop: &|| false };
+const LIMITS: Limits<'static> =
+    Limits { nodes: 3_000, bytes: 1 << 30, firings: 100_000, stop: &|| false };
 
 #[test]
 fn the_set_covers_all_that_is_reachable_and_nothing_else() {
@@ -27,7 +28,10 @@ fn the_set_covers_all_that_is_reachable_and_nothing_else() {
             let way = set.covers(&target).unwrap();
             if way.firings.is_some() {
                 let marking = end(&pt, &way);
-                assert!(target.iter().all(|it| u64::from(marking[it.0.0 as usize]) >= it.1), "net {seed}");
+                assert!(
+                    target.iter().all(|it| u64::from(marking[it.0.0 as usize]) >= it.1),
+                    "net {seed}"
+                );
                 written += 1;
             }
         }

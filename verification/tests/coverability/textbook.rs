@@ -33,7 +33,11 @@ fn tokens_doubled_by_a_loop_are_unbounded_only_while_the_loop_runs() {
     // Karp and Miller: a -> a + x, a -> b, b + x -> b + 2y
     let pt = net(
         &[1, 0, 0, 0],
-        &[[&[(0, 1)], &[(0, 1), (2, 1)]], [&[(0, 1)], &[(1, 1)]], [&[(1, 1), (2, 1)], &[(1, 1), (3, 2)]]],
+        &[
+            [&[(0, 1)], &[(0, 1), (2, 1)]],
+            [&[(0, 1)], &[(1, 1)]],
+            [&[(1, 1), (2, 1)], &[(1, 1), (3, 2)]],
+        ],
     );
     let set = set(&pt);
     assert_eq!(shown(&set), ["0 1 ω ω", "1 0 ω 0"]);
@@ -70,7 +74,11 @@ fn a_pump_within_a_pump_is_repeated_as_often_as_the_outer_one_needs() {
     // a fills x; three of x give one y; five of y give one z, and a starts again each time.
     let pt = net(
         &[1, 0, 0, 0],
-        &[[&[(0, 1)], &[(0, 1), (1, 1)]], [&[(1, 3)], &[(2, 1)]], [&[(0, 1), (2, 5)], &[(0, 1), (3, 1)]]],
+        &[
+            [&[(0, 1)], &[(0, 1), (1, 1)]],
+            [&[(1, 3)], &[(2, 1)]],
+            [&[(0, 1), (2, 5)], &[(0, 1), (3, 1)]],
+        ],
     );
     let set = set(&pt);
     assert_eq!(shown(&set), ["1 ω ω ω"]);
@@ -103,8 +111,10 @@ fn a_net_of_nothing_has_one_marking() {
 #[test]
 fn a_place_that_grows_only_where_others_shrink_is_bounded() {
     // x and y turn into each other, two for one only ever once.
-    let pt =
-        net(&[3, 0, 1], &[[&[(0, 1)], &[(1, 1)]], [&[(1, 1)], &[(0, 1)]], [&[(2, 1), (0, 1)], &[(1, 2)]]]);
+    let pt = net(
+        &[3, 0, 1],
+        &[[&[(0, 1)], &[(1, 1)]], [&[(1, 1)], &[(0, 1)]], [&[(2, 1), (0, 1)], &[(1, 2)]]],
+    );
     let set = set(&pt);
     assert_eq!(set.bound(&[PlaceId(0), PlaceId(1)]), Some(4));
     assert_eq!(
@@ -116,7 +126,8 @@ fn a_place_that_grows_only_where_others_shrink_is_bounded() {
 
 #[test]
 fn a_repeated_part_of_a_pump_needs_its_tokens_each_time() {
-    // s fills c until it leaves; out, three times c -> d where it came to, and back for three d, which returns three c.
+    // s fills c until it leaves; out, three times c -> d where it came to, and back for three d,
+    // which returns three c.
     let pt = net(
         &[1, 0, 0, 0, 0, 0],
         &[
@@ -134,7 +145,8 @@ fn a_repeated_part_of_a_pump_needs_its_tokens_each_time() {
 
 #[test]
 fn growth_after_a_long_way_is_found() {
-    // 3000 tokens move from one place to the other, one by one; only all of them together start to fill a third.
+    // 3000 tokens move from one place to the other, one by one; only all of them together start to
+    // fill a third.
     let pt = net(&[3_000, 0, 0], &[[&[(0, 1)], &[(1, 1)]], [&[(1, 3_000)], &[(1, 3_000), (2, 1)]]]);
     let Bounded::No(growth) = bounded(&pt, &Limits::default()) else { panic!("it is unbounded") };
     assert_eq!((growth.stem.length, &*growth.grows), (3_000, &[(PlaceId(2), 1)][..]));

@@ -54,17 +54,24 @@ fn an_alarm_is_never_raised() {
     let net = nets::alarm();
     let pt = Pt::from(&net.view().net());
     let mut said = String::new();
-    for text in
-        ["AG (hard_fault -> AF standing)", "AG !(hard_fault & driving)", "AG (soft_fault -> EF !soft_fault)"]
-    {
+    for text in [
+        "AG (hard_fault -> AF standing)",
+        "AG !(hard_fault & driving)",
+        "AG (soft_fault -> EF !soft_fault)",
+    ] {
         let property = parse(&pt, text);
         let Question::Formula(formula) = &property.question else { panic!("not a formula") };
         let limits = Limits { states: 10_000, ..Limits::default() };
         let holds = |it: &Formula| {
-            matches!(temporal::answer(&pt, it, &limits, &|_| ()), Verdict::Known { holds: true, .. })
+            matches!(
+                temporal::answer(&pt, it, &limits, &|_| ()),
+                Verdict::Known { holds: true, .. }
+            )
         };
-        let mut words =
-            vacuous(formula).into_iter().filter(|it| holds(&it.formula)).map(|it| it.words(text, &pt));
+        let mut words = vacuous(formula)
+            .into_iter()
+            .filter(|it| holds(&it.formula))
+            .map(|it| it.words(text, &pt));
         said += &words.next().unwrap_or_else(|| format!("`{text}` is put to the test."));
         said += "\n";
     }
@@ -103,11 +110,13 @@ fn two_transitions_are_never_used() {
 
 #[test]
 fn a_long_run_is_shown_without_its_middle() {
-    let places: Vec<(String, u32)> = (0..60).map(|at| (format!("stage_{at}"), u32::from(at == 0))).collect();
+    let places: Vec<(String, u32)> =
+        (0..60).map(|at| (format!("stage_{at}"), u32::from(at == 0))).collect();
     let places: Vec<_> = places.iter().map(|it| (it.0.as_str(), it.1, "")).collect();
     let mut net = nets::Sketch::new("pipeline", "", &places);
     for at in 1..60 {
-        net = net.line(&format!("advance_{at}"), &format!("stage_{} -> stage_{at}", at - 1), "", "");
+        net =
+            net.line(&format!("advance_{at}"), &format!("stage_{} -> stage_{at}", at - 1), "", "");
     }
     golden("pipeline.txt", &diagnosis(&net.0, "AG !stage_59").to_string());
 }
@@ -117,7 +126,8 @@ fn other_questions_have_their_own_words() {
     let net = nets::belts();
     let view = net.view();
     let pt = Pt::from(&view.net());
-    let fire = |names: &[&str]| names.iter().map(|it| pt.transition(it).unwrap()).collect::<Vec<_>>();
+    let fire =
+        |names: &[&str]| names.iter().map(|it| pt.transition(it).unwrap()).collect::<Vec<_>>();
     let say = |text: &str, holds: bool, names: &[&str]| {
         let property = parse(&pt, text);
         let run = Run::to(fire(names));

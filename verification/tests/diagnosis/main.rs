@@ -1,6 +1,7 @@
 //! What a person sees of a verdict, byte for byte, on small nets; and that what is shown is so.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test diagnosis` writes the expected files anew.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test diagnosis` writes the expected files
+//! anew.
 
 mod goldens;
 mod nets;
@@ -27,8 +28,8 @@ fn golden(file: &str, text: &str) {
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::write(&path, text).unwrap();
     }
-    let expected =
-        std::fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let expected = std::fs::read_to_string(&path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
     let help = "set UPDATE_GOLDEN=1 and look at the difference";
     assert!(text == expected, "{} is out of date: {help}\n{text}", path.display());
 }
@@ -79,5 +80,6 @@ fn timed_diagnosis(net: &OwnedNet, text: &str) -> Diagnosis {
     let net = view.net();
     let run = Run::to(schedule.steps.iter().map(|it| it.transition).collect());
     let pt = Pt::from(&net);
-    Diagnosis::new(&Case::new(&pt, &property, holds, &run).with_net(&net).with_schedule(&schedule)).unwrap()
+    Diagnosis::new(&Case::new(&pt, &property, holds, &run).with_net(&net).with_schedule(&schedule))
+        .unwrap()
 }

@@ -27,7 +27,8 @@ impl Sketch {
         let (from, to) = arcs.split_once("->").unwrap();
         let arcs = |side: &str| -> Vec<(bool, u32, PlaceId)> {
             let arc = |text: &str| {
-                let (read, text) = text.strip_prefix('?').map_or((false, text), |text| (true, text));
+                let (read, text) =
+                    text.strip_prefix('?').map_or((false, text), |text| (true, text));
                 let (weight, place) =
                     text.split_once(' ').map_or((1, text), |it| (it.0.parse().unwrap(), it.1));
                 (read, weight, self.place(place))
@@ -72,9 +73,17 @@ pub(crate) fn philosophers() -> OwnedNet {
     let mut places = Vec::new();
     for at in ["a", "b", "c"] {
         places.push((format!("{at}_thinks"), 1, format!("Philosopher {at} holds no fork.")));
-        places.push((format!("{at}_has_left"), 0, format!("Philosopher {at} holds the left fork.")));
+        places.push((
+            format!("{at}_has_left"),
+            0,
+            format!("Philosopher {at} holds the left fork."),
+        ));
         places.push((format!("{at}_eats"), 0, format!("Philosopher {at} holds both forks.")));
-        places.push((format!("fork_{at}"), 1, format!("The fork to the left of {at} lies on the table.")));
+        places.push((
+            format!("fork_{at}"),
+            1,
+            format!("The fork to the left of {at} lies on the table."),
+        ));
     }
     let places: Vec<_> = places.iter().map(|it| (it.0.as_str(), it.1, it.2.as_str())).collect();
     let mut net = Sketch::new("philosophers", "Three philosophers and three forks.", &places);
@@ -130,7 +139,11 @@ pub(crate) fn mailbox() -> OwnedNet {
     let places = [
         ("planner_idle", 1, "The planner waits for a message."),
         ("planner_busy", 0, "The planner works on a message."),
-        ("mailbox", 0, "Messages from the sensor that wait for the planner; there is room for three."),
+        (
+            "mailbox",
+            0,
+            "Messages from the sensor that wait for the planner; there is room for three.",
+        ),
     ];
     Sketch::new("mailbox", "A sensor that writes to a planner.", &places)
         .line("post", "-> mailbox", "Measured", "")
@@ -173,7 +186,8 @@ pub(crate) fn server() -> OwnedNet {
         .0
 }
 
-/// A watchdog whose timer starts anew when the log is rotated, not only when the module says that it is alive.
+/// A watchdog whose timer starts anew when the log is rotated, not only when the module says that
+/// it is alive.
 pub(crate) fn watchdog() -> OwnedNet {
     let places = [
         ("alive", 1, "The module works."),
@@ -221,7 +235,8 @@ pub(crate) fn charger() -> OwnedNet {
     let switch = overheat.take.iter().position(|it| it.place.0 == on).unwrap();
     let switch = overheat.take.remove(switch);
     overheat.read.push(switch);
-    let off = net.places.iter().position(|it| it.role == cotama_core::net::Role::Complement(PlaceId(on)));
+    let off =
+        net.places.iter().position(|it| it.role == cotama_core::net::Role::Complement(PlaceId(on)));
     overheat.give.retain(|it| Some(it.place.0 as usize) != off);
     net.laws.clear();
     net
@@ -239,7 +254,12 @@ pub(crate) fn alarm() -> OwnedNet {
     Sketch::new("faults", "What faults of the motors do.", &places)
         .line("warm_up", "?driving -> soft_fault", "Warm", "")
         .line("cool_down", "soft_fault ->", "Cool", "")
-        .line("emergency_stop", "driving + hard_fault -> standing + hard_fault", "Fault", "MotorsOff")
+        .line(
+            "emergency_stop",
+            "driving + hard_fault -> standing + hard_fault",
+            "Fault",
+            "MotorsOff",
+        )
         .line("log", "hard_fault + standing -> logged", "", "")
         .line("halt", "driving -> standing", "Stop", "")
         .line("go", "standing -> driving", "Start", "")

@@ -39,7 +39,8 @@ fn a_short_run_of_a_small_net_is_drawn_step_by_step() {
     ] {
         let drawing = it.svg();
         let elements = xml::parse(&drawing).unwrap();
-        let frames = elements.iter().filter(|it| it.get("class").is_some_and(|it| it.starts_with("frame")));
+        let frames =
+            elements.iter().filter(|it| it.get("class").is_some_and(|it| it.starts_with("frame")));
         assert_eq!(frames.count(), it.trace.len() + 1, "{file}");
         let mut ids: Vec<_> = elements.iter().filter_map(|it| it.get("id")).collect();
         let count = ids.len();
@@ -54,11 +55,13 @@ fn a_short_run_of_a_small_net_is_drawn_step_by_step() {
 fn of_a_long_run_the_last_step_is_drawn_and_the_others_are_lines() {
     let it = diagnosis(&nets::philosophers(), "AG !deadlock");
     assert!(it.svg().contains("class=\"frame last\""));
-    let places: Vec<(String, u32)> = (0..20).map(|at| (format!("stage_{at}"), u32::from(at == 0))).collect();
+    let places: Vec<(String, u32)> =
+        (0..20).map(|at| (format!("stage_{at}"), u32::from(at == 0))).collect();
     let places: Vec<_> = places.iter().map(|it| (it.0.as_str(), it.1, "")).collect();
     let mut net = nets::Sketch::new("pipeline", "", &places);
     for at in 1..20 {
-        net = net.line(&format!("advance_{at}"), &format!("stage_{} -> stage_{at}", at - 1), "", "");
+        net =
+            net.line(&format!("advance_{at}"), &format!("stage_{} -> stage_{at}", at - 1), "", "");
     }
     let drawing = diagnosis(&net.0, "AG !stage_19").svg();
     let elements = xml::parse(&drawing).unwrap();
@@ -75,8 +78,9 @@ fn a_lost_timeout_on_a_page() {
 #[test]
 fn markup_in_names_is_text() {
     let places = [("<b>&\"'`", 1, "<script>alert(1)</script>"), ("]]>\u{1}", 0, "\u{7}")];
-    let net =
-        nets::Sketch::new("<i>", "</style>", &places).line("</td>", "<b>&\"'` -> ]]>\u{1}", "<e>", "<o>").0;
+    let net = nets::Sketch::new("<i>", "</style>", &places)
+        .line("</td>", "<b>&\"'` -> ]]>\u{1}", "<e>", "<o>")
+        .0;
     let it = diagnosis(&net, "AF (\"<b>&\\\"'`\" & \"]]>\\u{1}\")");
     let page = check(&it);
     assert!(xml::parse(&it.svg()).is_ok());

@@ -12,8 +12,8 @@ use cotama_verification::tpn;
 /// More than any of these nets has.
 const CLOCKS: usize = 16;
 
-/// Plays a net: each firing of an event by offering it, all others by letting time pass. Compares what fires, and the tokens in
-/// the end.
+/// Plays a net: each firing of an event by offering it, all others by letting time pass. Compares
+/// what fires, and the tokens in the end.
 fn replay(net: &OwnedNet, run: &Run, dates: &[tpn::Step]) {
     let view = net.view();
     let net = view.net();
@@ -32,7 +32,8 @@ fn play<const W: usize>(net: &cotama_core::net::Net<'_>, run: &Run, dates: &[tpn
     let mut fired = Vec::new();
     let mut observer =
         |it: &cotama_core::net::Firing<'_, EventId, TransitionId, _>| fired.push((it.id, it.at.0));
-    let mut player = Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
+    let mut player =
+        Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
     for (at, transition) in expected.iter().enumerate() {
         let now = dates.get(at).map(|it| {
             assert_eq!(it.date.per_unit, 1);
@@ -40,7 +41,8 @@ fn play<const W: usize>(net: &cotama_core::net::Net<'_>, run: &Run, dates: &[tpn
         });
         if let Some(event) = net.transitions[transition.0 as usize].on {
             let outcome = player.offer_with(now.unwrap_or(player.now()), &event, &mut observer);
-            let is_it = matches!(outcome, Outcome::Fired { transition: it, .. } if it == *transition);
+            let is_it =
+                matches!(outcome, Outcome::Fired { transition: it, .. } if it == *transition);
             assert!(is_it, "step {}: {outcome:?}", at + 1);
         } else {
             let until = now.or(player.wake_at()).unwrap_or(player.now());
@@ -88,7 +90,11 @@ fn the_player_runs_into_every_counterexample_in_time() {
     for (net, text) in cases {
         let (_, holds, schedule) = timed(&net, text);
         assert!(!holds);
-        replay(&net, &Run::to(schedule.steps.iter().map(|it| it.transition).collect()), &schedule.steps);
+        replay(
+            &net,
+            &Run::to(schedule.steps.iter().map(|it| it.transition).collect()),
+            &schedule.steps,
+        );
     }
 }
 
@@ -104,10 +110,17 @@ fn the_player_follows_witnesses_of_the_shipped_nets() {
     ];
     for (name, text) in cases {
         let net = find(name).unwrap();
-        let text =
-            if name == "door" { format!("EF {}", net.places.last().unwrap().name) } else { text.to_owned() };
+        let text = if name == "door" {
+            format!("EF {}", net.places.last().unwrap().name)
+        } else {
+            text.to_owned()
+        };
         let (_, holds, schedule) = timed(&net, &text);
         assert!(holds);
-        replay(&net, &Run::to(schedule.steps.iter().map(|it| it.transition).collect()), &schedule.steps);
+        replay(
+            &net,
+            &Run::to(schedule.steps.iter().map(|it| it.transition).collect()),
+            &schedule.steps,
+        );
     }
 }

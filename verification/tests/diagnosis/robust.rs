@@ -19,7 +19,10 @@ fn what_is_no_run_is_refused_with_its_place() {
     let error = |cycle, stem| diagnosed(cycle, stem).unwrap_err().to_string();
     assert_eq!(error(None, &[0, 3, 3]), "firing 3: `serve` is not enabled there");
     assert_eq!(error(None, &[9]), "firing 1 is of a transition that the net does not have");
-    assert_eq!(error(Some(&[1]), &[0]), "the cycle does not lead back to the marking in which it begins");
+    assert_eq!(
+        error(Some(&[1]), &[0]),
+        "the cycle does not lead back to the marking in which it begins"
+    );
     assert_eq!(error(Some(&[]), &[0]), "the run does not end in a deadlock: `poll` can fire there");
     assert!(diagnosed(Some(&[1, 2]), &[]).is_ok());
 }
@@ -66,8 +69,14 @@ fn no_line_is_wider_than_a_hundred_characters() {
 
 #[test]
 fn every_kind_of_formula_is_explained_on_every_run() {
-    let atoms =
-        ["request", "!served", "idle + polling <= 1", "fireable(serve)", "deadlock", "2 * quiet >= served"];
+    let atoms = [
+        "request",
+        "!served",
+        "idle + polling <= 1",
+        "fireable(serve)",
+        "deadlock",
+        "2 * quiet >= served",
+    ];
     let forms = [
         "AG (a -> AF b)",
         "EF (a & EG b)",
@@ -114,7 +123,11 @@ fn every_kind_of_formula_is_explained_on_every_run() {
                         "{}",
                         it.summary
                     );
-                    assert!(!it.to_string().is_empty() && !it.html().is_empty() && !it.json().is_empty());
+                    assert!(
+                        !it.to_string().is_empty()
+                            && !it.html().is_empty()
+                            && !it.json().is_empty()
+                    );
                     explained += 1;
                 }
             }

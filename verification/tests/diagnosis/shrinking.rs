@@ -10,7 +10,8 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, end: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as usize % end
     }
 }
@@ -47,7 +48,9 @@ fn a_long_walk_to_a_collision_becomes_the_four_firings_that_matter() {
 fn what_is_left_still_meets_the_goal_and_needs_every_firing() {
     let mut random = Random(7);
     let mut shorter = 0;
-    for net in [nets::trains(), nets::mailbox(), nets::belts(), nets::server(), nets::philosophers()] {
+    for net in
+        [nets::trains(), nets::mailbox(), nets::belts(), nets::server(), nets::philosophers()]
+    {
         let pt = Pt::from(&net.view().net());
         for _ in 0..40 {
             let long = walk(&pt, &mut random, 60);
@@ -59,7 +62,8 @@ fn what_is_left_still_meets_the_goal_and_needs_every_firing() {
             assert_eq!(short, shrink(&pt, &long, goal));
             let meets = |trace: &[TransitionId]| {
                 let mut end = pt.initial.clone();
-                let walked = Run::to(trace.to_vec()).walk(&pt, |_, marking| end.copy_from_slice(marking));
+                let walked =
+                    Run::to(trace.to_vec()).walk(&pt, |_, marking| end.copy_from_slice(marking));
                 walked.is_ok() && goal(&end)
             };
             assert!(meets(&short));

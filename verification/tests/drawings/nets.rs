@@ -24,7 +24,8 @@ impl Sketch {
             ..OwnedPlace::new(name, u32::from(set)).at_most(1).doc("A flag.")
         };
         let set = self.net.place(place(name, is_set, role)).unwrap();
-        let clear = self.net.place(place(&format!("no_{name}"), !is_set, Role::Complement(set))).unwrap();
+        let clear =
+            self.net.place(place(&format!("no_{name}"), !is_set, Role::Complement(set))).unwrap();
         (set, clear)
     }
 
@@ -46,7 +47,8 @@ impl Sketch {
         on: &str,
         emits: &[&str],
     ) -> &mut OwnedTransition {
-        let name = format!("{}_{}", if on.is_empty() { "t" } else { on }, self.net.transitions.len());
+        let name =
+            format!("{}_{}", if on.is_empty() { "t" } else { on }, self.net.transitions.len());
         let mut it = OwnedTransition::new(&name).take(from, 1).give(to, 1);
         it.on = (!on.is_empty()).then(|| self.event(on));
         it.emits = emits.iter().map(|name| self.output(name)).collect();
@@ -55,7 +57,14 @@ impl Sketch {
     }
 
     /// One line of the definition: from each of these states to one.
-    pub(crate) fn one_line(&mut self, states: &[PlaceId], to: PlaceId, on: &str, emits: &[&str], doc: &str) {
+    pub(crate) fn one_line(
+        &mut self,
+        states: &[PlaceId],
+        to: PlaceId,
+        on: &str,
+        emits: &[&str],
+        doc: &str,
+    ) {
         let line = self.net.transitions.len() as u32;
         for &from in states {
             let it = self.step(from, to, on, emits);
@@ -78,10 +87,12 @@ pub(crate) fn door() -> OwnedNet {
     let closing = it.state("Closing", 0, "The motor closes the door.");
     let fault = it.state("Fault", 0, "Nothing moves until someone resets the door.");
     let (blocked, free) = it.flag("blocked", Role::Data, false);
-    "Someone wants to pass.".clone_into(&mut it.step(closed, opening, "button", &["motor_open"]).doc);
+    "Someone wants to pass."
+        .clone_into(&mut it.step(closed, opening, "button", &["motor_open"]).doc);
     it.step(opening, open, "end_reached", &["motor_off"]);
     it.step(open, closing, "", &["motor_close"]).read.push(one(free));
-    it.net.transitions[2].within = Some(cotama_core::net::Within { earliest: 5000, latest: Some(5000) });
+    it.net.transitions[2].within =
+        Some(cotama_core::net::Within { earliest: 5000, latest: Some(5000) });
     it.step(closing, closed, "end_reached", &["motor_off", "lock"]);
     it.step(closing, opening, "barrier_broken", &["motor_open"]);
     for (state, line) in [(open, 5), (closing, 6)] {
@@ -138,9 +149,11 @@ pub(crate) fn philosophers() -> OwnedNet {
         let thinks = it.state(&format!("thinks{at}"), 1, "No fork in hand.");
         let eats = it.state(&format!("eats{at}"), 0, "Both forks in hand.");
         let (left, right) = (forks[at], forks[(at + 1) % 3]);
-        let take = OwnedTransition::new(&format!("take{at}")).take(thinks, 1).take(left, 1).take(right, 1);
+        let take =
+            OwnedTransition::new(&format!("take{at}")).take(thinks, 1).take(left, 1).take(right, 1);
         it.net.transition(take.give(eats, 1)).unwrap();
-        let put = OwnedTransition::new(&format!("put{at}")).take(eats, 1).give(left, 1).give(right, 1);
+        let put =
+            OwnedTransition::new(&format!("put{at}")).take(eats, 1).give(left, 1).give(right, 1);
         it.net.transition(put.give(thinks, 1)).unwrap();
     }
     it.net
@@ -162,7 +175,12 @@ pub(crate) fn crates() -> OwnedNet {
     let stock = place("stock", 9, u32::MAX, Role::State);
     let empty = net.event("bottle_full", "The scale says so.").unwrap();
     let mut add = |it: OwnedTransition| net.transition(it).unwrap();
-    add(OwnedTransition::new("fill").on(empty).take(ready, 1).read(power, 1).take(stock, 1).give(filled, 1));
+    add(OwnedTransition::new("fill")
+        .on(empty)
+        .take(ready, 1)
+        .read(power, 1)
+        .take(stock, 1)
+        .give(filled, 1));
     add(OwnedTransition::new("put")
         .take(filled, 1)
         .take(room, 1)
@@ -180,8 +198,10 @@ pub(crate) fn crates() -> OwnedNet {
         .give(waiting, 1)
         .give(stock, 6)
         .within(3000, Some(4000)));
-    let overfull =
-        OwnedTransition::new("warn").read(belt, 10).read(room, 1).doc("Between ten and eleven bottles.");
+    let overfull = OwnedTransition::new("warn")
+        .read(belt, 10)
+        .read(room, 1)
+        .doc("Between ten and eleven bottles.");
     add(overfull.take(power, 1).give(power, 1));
     net
 }
@@ -189,7 +209,14 @@ pub(crate) fn crates() -> OwnedNet {
 /// Names that every format has to escape.
 pub(crate) fn odd() -> OwnedNet {
     let mut it = Sketch::new("<odd> & \"names\"", "]]> --> \\N; %% #35; \u{1}");
-    let names = ["a \"b\" <c> & d", "end", "日本語の状態", "one\ntwo", "", "state: x; y | z {w} \\ `t` [*]"];
+    let names = [
+        "a \"b\" <c> & d",
+        "end",
+        "日本語の状態",
+        "one\ntwo",
+        "",
+        "state: x; y | z {w} \\ `t` [*]",
+    ];
     let states: Vec<PlaceId> =
         names.iter().map(|name| it.state(name, u32::from(name.starts_with('a')), name)).collect();
     let (flag, clear) = it.flag("is <5> & \"ok\"", Role::Data, false);

@@ -35,14 +35,19 @@ pub(crate) fn parse(text: &str) -> Result<Vec<Element>, String> {
         } else {
             let (tag, is_empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
             let (name, attributes) = tag.split_once(' ').unwrap_or((tag, ""));
-            let element = Element { name: name.to_owned(), attributes: parse_attributes(attributes)? };
+            let element =
+                Element { name: name.to_owned(), attributes: parse_attributes(attributes)? };
             elements.push(element);
             if !is_empty {
                 open.push(name.to_owned());
             }
         }
         if open.is_empty() {
-            return if rest.is_empty() { Ok(elements) } else { Err(format!("{rest} after the end")) };
+            return if rest.is_empty() {
+                Ok(elements)
+            } else {
+                Err(format!("{rest} after the end"))
+            };
         }
     }
 }
@@ -67,7 +72,8 @@ fn parse_attributes(mut rest: &str) -> Result<Vec<(String, String)>, String> {
 
 /// Only characters of XML 1.0, and only entities that need no declaration.
 fn characters(text: &str) -> Result<(), String> {
-    let allowed = |c: char| matches!(c, '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'..) && c != '<';
+    let allowed =
+        |c: char| matches!(c, '\t' | '\n' | '\r' | ' '..='\u{fffd}' | '\u{10000}'..) && c != '<';
     if let Some(bad) = text.chars().find(|&c| !allowed(c)) {
         return Err(format!("character {bad:?}"));
     }

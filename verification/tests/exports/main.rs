@@ -1,6 +1,7 @@
 //! Nets as files of other tools: SCXML, JANI, tables of matrices, JSON.
 //!
-//! The texts of four small nets stand in `tests/golden/exports`; `UPDATE_GOLDEN=1` writes them anew.
+//! The texts of four small nets stand in `tests/golden/exports`; `UPDATE_GOLDEN=1` writes them
+//! anew.
 
 mod nets;
 mod properties;
@@ -42,7 +43,10 @@ fn a_timed_light_keeps_the_intervals_that_start_with_a_state_and_reports_the_oth
     check_all("light", &net);
     check_golden("light.scxml", &scxml::write(&net.view().net()).unwrap());
     // `stop early` needs what `ask` changes meanwhile; `extend` needs an event.
-    assert_eq!(scxml::unkept_intervals(&net.view().net()), Ok(vec![TransitionId(3), TransitionId(4)]));
+    assert_eq!(
+        scxml::unkept_intervals(&net.view().net()),
+        Ok(vec![TransitionId(3), TransitionId(4)])
+    );
 }
 
 #[test]
@@ -60,7 +64,10 @@ fn philosophers_are_several_machines() {
 fn a_producer_and_a_consumer_with_weights_and_reads() {
     let net = nets::producer_consumer();
     check_all("producer_consumer", &net);
-    assert_eq!(refusal(&net), "transition `pack` takes or reads no state: it must take or read exactly one");
+    assert_eq!(
+        refusal(&net),
+        "transition `pack` takes or reads no state: it must take or read exactly one"
+    );
 }
 
 fn refusal(net: &OwnedNet) -> String {
@@ -86,15 +93,31 @@ fn a_net_that_is_no_state_machine_is_refused_with_the_reason() {
     let net = two_states(|net| net.places[0].initial = 0);
     assert_eq!(refusal(&net), "no state has a token at the start: exactly one must");
     let net = two_states(|net| net.transitions[0].take.clear());
-    assert_eq!(refusal(&net), "transition `go` takes or reads no state: it must take or read exactly one");
+    assert_eq!(
+        refusal(&net),
+        "transition `go` takes or reads no state: it must take or read exactly one"
+    );
     let net = two_states(|net| net.transitions[0].read = net.transitions[0].give.clone());
-    assert_eq!(refusal(&net), "transition `go` takes or reads `a`, `b`: it must take or read exactly one");
+    assert_eq!(
+        refusal(&net),
+        "transition `go` takes or reads `a`, `b`: it must take or read exactly one"
+    );
     let net = two_states(|net| net.transitions[0].give.clear());
-    assert_eq!(refusal(&net), "transition `go` takes `a` and gives no state: it must give exactly one");
-    let net = two_states(|net| net.transitions[0].read = std::mem::take(&mut net.transitions[0].take));
-    assert_eq!(refusal(&net), "transition `go` reads `a` and gives `b`: it must take `a` to leave it");
+    assert_eq!(
+        refusal(&net),
+        "transition `go` takes `a` and gives no state: it must give exactly one"
+    );
+    let net =
+        two_states(|net| net.transitions[0].read = std::mem::take(&mut net.transitions[0].take));
+    assert_eq!(
+        refusal(&net),
+        "transition `go` reads `a` and gives `b`: it must take `a` to leave it"
+    );
     let net = two_states(|net| net.transitions[0].give[0].weight = 2);
-    assert_eq!(refusal(&net), "transition `go` needs or gives more than one token of `b`, which is a state");
+    assert_eq!(
+        refusal(&net),
+        "transition `go` needs or gives more than one token of `b`, which is a state"
+    );
     let net = two_states(|net| net.transitions[0].give[0].weight = 0);
     assert_eq!(
         scxml::write(&net.view().net()),
@@ -137,7 +160,8 @@ fn odd_names_become_identifiers_and_stay_readable() {
     net.places[4].role = Role::Data;
     let events = ["door.open", "door open", "door_open"].map(|name| net.event(name, "").unwrap());
     for (event, place) in events.into_iter().zip(&places[1..]) {
-        net.transition(OwnedTransition::new("-- \t?").on(event).take(places[0], 1).give(*place, 1)).unwrap();
+        net.transition(OwnedTransition::new("-- \t?").on(event).take(places[0], 1).give(*place, 1))
+            .unwrap();
     }
     net.transitions[0] = net.transitions[0].clone().give(places[4], 1).read(places[4], 2);
     let view = net.view();
@@ -205,7 +229,10 @@ fn json_that_is_no_net_is_refused_with_the_reason() {
         json_refusal("\"within\": null", "\"within\": { \"earliest\": 2, \"latest\": 1 }"),
         "transition `start` has an interval that ends before it begins, or after 4294967294 ms"
     );
-    assert_eq!(json::read("").unwrap_err().to_string(), "line 1, column 0: EOF while parsing a value");
+    assert_eq!(
+        json::read("").unwrap_err().to_string(),
+        "line 1, column 0: EOF while parsing a value"
+    );
     assert_eq!(
         json::read(&"[".repeat(100_000)).unwrap_err().to_string(),
         "line 1, column 1: invalid type: sequence, expected a string"

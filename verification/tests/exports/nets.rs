@@ -49,8 +49,10 @@ fn stay(name: &str, state: PlaceId) -> OwnedTransition {
 
 /// A state machine with a flag, a counter and a group of states that one event aborts.
 pub(crate) fn door() -> OwnedNet {
-    let mut net =
-        Build(OwnedNet::new("cell door", "The door of a cell -- it counts its openings & wears out."));
+    let mut net = Build(OwnedNet::new(
+        "cell door",
+        "The door of a cell -- it counts its openings & wears out.",
+    ));
     let closed = net.state("closed", "Shut.", 1);
     let moving = net.state("moving", "", 0);
     let open = net.state("open", "", 0);
@@ -65,14 +67,18 @@ pub(crate) fn door() -> OwnedNet {
     let motor = net.output("motor on");
     let alarm = net.output("alarm");
     net.add(
-        emitting(motor, move_("start", closed, moving)).on(press).read(unlocked, 1).doc("Starts <motor>."),
+        emitting(motor, move_("start", closed, moving))
+            .on(press)
+            .read(unlocked, 1)
+            .doc("Starts <motor>."),
     );
     net.add(move_("opened", moving, open).on(limit).take(left, 1).give(cycles, 1));
     net.add(move_("wear", moving, worn).on(limit).read(cycles, 3));
     net.add(move_("close", open, closed).on(press));
     net.add(stay("lock", closed).on(key).take(unlocked, 1).give(locked, 1));
     net.add(stay("unlock", closed).on(key).take(locked, 1).give(unlocked, 1));
-    for (place, name) in [(closed, "abort closed"), (moving, "abort moving"), (open, "abort open")] {
+    for (place, name) in [(closed, "abort closed"), (moving, "abort moving"), (open, "abort open")]
+    {
         let transition = emitting(alarm, move_(name, place, aborted).on(abort));
         net.add(OwnedTransition { priority: 10, ..transition });
     }
@@ -107,7 +113,12 @@ pub(crate) fn traffic_light() -> OwnedNet {
     net.add(move_("go", red, green).within(30_000, Some(30_000)));
     net.add(stay("ask", green).on(button).take(nobody, 1).give(waiting, 1));
     net.add(move_("stop", green, amber).within(20_000, Some(25_000)));
-    net.add(move_("stop early", green, amber).take(waiting, 1).give(nobody, 1).within(5_000, Some(6_000)));
+    net.add(
+        move_("stop early", green, amber)
+            .take(waiting, 1)
+            .give(nobody, 1)
+            .within(5_000, Some(6_000)),
+    );
     net.add(move_("extend", green, green).on(extend).within(0, Some(10_000)));
     net.add(emitting(beep, stay("tick", amber).within(1_000, Some(1_000))));
     net.add(move_("rest", amber, red).within(3_000, None));

@@ -18,7 +18,8 @@ fn name() -> impl Strategy<Value = String> {
 
 /// Names that differ: each ends with its position, a digit.
 fn names(count: u32) -> impl Strategy<Value = Vec<String>> {
-    let number = |names: Vec<String>| names.iter().zip(0..).map(|(name, i)| format!("{name}{i}")).collect();
+    let number =
+        |names: Vec<String>| names.iter().zip(0..).map(|(name, i)| format!("{name}{i}")).collect();
     vec(name(), count as usize).prop_map(number)
 }
 
@@ -41,7 +42,12 @@ fn transition(places: u32, signals: u32) -> impl Strategy<Value = OwnedTransitio
     let within = (0..100u32, option::of(0..100u32))
         .prop_map(|(earliest, more)| Within { earliest, latest: more.map(|more| earliest + more) });
     let arcs = (arcs(0, places / 2), arcs(places / 2, places), arcs(0, places));
-    let rest = (vec((0..signals).prop_map(OutputId), 0..3), option::of(within), any::<i16>(), any::<u32>());
+    let rest = (
+        vec((0..signals).prop_map(OutputId), 0..3),
+        option::of(within),
+        any::<i16>(),
+        any::<u32>(),
+    );
     (name(), name(), option::of((0..signals).prop_map(EventId)), arcs, rest).prop_map(
         |(name, doc, on, (take, read, give), (emits, within, priority, line))| OwnedTransition {
             name,
@@ -61,7 +67,8 @@ fn transition(places: u32, signals: u32) -> impl Strategy<Value = OwnedTransitio
 fn law(places: u32) -> impl Strategy<Value = OwnedLaw> {
     let place = || (0..places).prop_map(PlaceId);
     prop_oneof![
-        (arcs(0, places), any::<u32>()).prop_map(|(sum, equals)| OwnedLaw::Invariant { sum, equals }),
+        (arcs(0, places), any::<u32>())
+            .prop_map(|(sum, equals)| OwnedLaw::Invariant { sum, equals }),
         (place(), place()).prop_map(|(a, b)| OwnedLaw::NeverBoth(a, b)),
         place().prop_map(OwnedLaw::Reachable),
         place().prop_map(OwnedLaw::AlwaysCan),
@@ -99,11 +106,13 @@ fn places() -> impl Strategy<Value = Vec<OwnedPlace>> {
     })
 }
 
-/// A net whose transitions, laws and ignored events name places below `reach` and signals below `signals`.
+/// A net whose transitions, laws and ignored events name places below `reach` and signals below
+/// `signals`.
 fn net_reaching(reach: u32, signal_reach: u32) -> impl Strategy<Value = OwnedNet> {
-    let ignored =
-        (0..signal_reach, 0..reach).prop_map(|(e, p)| Ignored { event: EventId(e), place: PlaceId(p) });
-    let lists = (vec(transition(reach, signal_reach), 0..6), vec(ignored, 0..3), vec(law(reach), 0..5));
+    let ignored = (0..signal_reach, 0..reach)
+        .prop_map(|(e, p)| Ignored { event: EventId(e), place: PlaceId(p) });
+    let lists =
+        (vec(transition(reach, signal_reach), 0..6), vec(ignored, 0..3), vec(law(reach), 0..5));
     ((name(), name()), places(), (signals(), signals()), lists).prop_map(
         |((name, doc), places, (events, outputs), (transitions, ignored, laws))| OwnedNet {
             name,
@@ -146,7 +155,8 @@ fn machine() -> impl Strategy<Value = OwnedNet> {
     })
 }
 
-/// Two states, then variables with complements: `v0` up to 1, `v1` up to 5, and `v2` up to 1 without one.
+/// Two states, then variables with complements: `v0` up to 1, `v1` up to 5, and `v2` up to 1
+/// without one.
 fn complemented() -> impl Strategy<Value = OwnedNet> {
     let moves = vec((0..2u32, option::of(0..2u32), vec((0..6u8, 1..3u32), 3)), 1..8);
     (0..2u32, 0..6u32, moves).prop_map(|(v0, v1, moves)| {
@@ -161,8 +171,10 @@ fn complemented() -> impl Strategy<Value = OwnedNet> {
             ..data(name, initial, bound)
         };
         let states = [state("a", 1), state("b", 0)].map(|it| net.place(it).unwrap());
-        let v = [data("v0", v0, 1), data("v1", v1, 5), data("v2", 0, 1)].map(|it| net.place(it).unwrap());
-        let c = [rest("c0", v[0], 1 - v0, 1), rest("c1", v[1], 5 - v1, 5)].map(|it| net.place(it).unwrap());
+        let v = [data("v0", v0, 1), data("v1", v1, 5), data("v2", 0, 1)]
+            .map(|it| net.place(it).unwrap());
+        let c = [rest("c0", v[0], 1 - v0, 1), rest("c1", v[1], 5 - v1, 5)]
+            .map(|it| net.place(it).unwrap());
         for (from, to, uses) in moves {
             let it = OwnedTransition::new(&format!("t{}", net.transitions.len()));
             let mut it = match to {
@@ -334,7 +346,8 @@ fn value(expression: &Value, variables: &BTreeMap<&str, i64>) -> i64 {
     if let Some(name) = expression.as_str() {
         return variables[name];
     }
-    let (left, right) = (value(&expression["left"], variables), value(&expression["right"], variables));
+    let (left, right) =
+        (value(&expression["left"], variables), value(&expression["right"], variables));
     match expression["op"].as_str().unwrap() {
         "+" => left + right,
         "-" => left - right,
@@ -370,13 +383,18 @@ fn tags(text: &str) -> Result<Vec<String>, String> {
     if let Some(c) = text.chars().find(|&c| !allowed(c)) {
         return Err(format!("{c:?} is not allowed"));
     }
-    let mut rest =
-        text.strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>").ok_or("no declaration")?.trim_start();
+    let mut rest = text
+        .strip_prefix("<?xml version=\"1.0\" encoding=\"UTF-8\"?>")
+        .ok_or("no declaration")?
+        .trim_start();
     let (mut open, mut all) = (Vec::new(), Vec::new());
     while !rest.is_empty() {
         if let Some(comment) = rest.strip_prefix("<!--") {
             let (inside, after) = comment.split_once("--").ok_or("a comment without an end")?;
-            rest = after.strip_prefix('>').ok_or_else(|| format!("two hyphens in {inside}"))?.trim_start();
+            rest = after
+                .strip_prefix('>')
+                .ok_or_else(|| format!("two hyphens in {inside}"))?
+                .trim_start();
             continue;
         }
         let (tag, after) =
@@ -391,8 +409,8 @@ fn tags(text: &str) -> Result<Vec<String>, String> {
         let (tag, empty) = tag.strip_suffix('/').map_or((tag, false), |tag| (tag, true));
         let pieces: Vec<&str> = tag.split('"').collect();
         let name = pieces[0].split(' ').next().unwrap_or_default().to_owned();
-        let quoted =
-            pieces.len() == 1 || pieces[..pieces.len() - 1].iter().step_by(2).all(|it| it.ends_with('='));
+        let quoted = pieces.len() == 1
+            || pieces[..pieces.len() - 1].iter().step_by(2).all(|it| it.ends_with('='));
         if !quoted || pieces.len().is_multiple_of(2) || pieces.iter().any(|it| it.contains('<')) {
             return Err(format!("attributes of <{tag}>"));
         }

@@ -1,13 +1,16 @@
-//! The files of the Model Checking Contest. What is said of broken ones is in `tests/golden/properties/files.txt`;
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test properties` writes it again. Public files are in the folder
-//! that the environment variable `COTAMA_MCC_DIR` names: `*.pnml`, and `properties` with files `NET.EXAMINATION.xml` and
+//! The files of the Model Checking Contest. What is said of broken ones is in
+//! `tests/golden/properties/files.txt`; `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test
+//! properties` writes it again. Public files are in the folder that the environment variable
+//! `COTAMA_MCC_DIR` names: `*.pnml`, and `properties` with files `NET.EXAMINATION.xml` and
 //! `verdicts.tsv`, whose columns start with file, property and verdict.
 
 use crate::oracle::{self, Space};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::pnml::{Limits, read_within};
-use cotama_verification::property::{Formula, Ids, MAX_DEPTH, Property, PropertyError, Question, mcc, parse};
+use cotama_verification::property::{
+    Formula, Ids, MAX_DEPTH, Property, PropertyError, Question, mcc, parse,
+};
 use cotama_verification::pt::Pt;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -174,15 +177,22 @@ fn broken_files_are_refused_with_their_place_and_what_to_do() {
     let mut said = String::new();
     for file in broken {
         let error = read(&file).expect_err(&file);
-        let shown: String =
-            file.lines().last().filter(|_| file.lines().count() < 2).unwrap_or("").chars().take(80).collect();
+        let shown: String = file
+            .lines()
+            .last()
+            .filter(|_| file.lines().count() < 2)
+            .unwrap_or("")
+            .chars()
+            .take(80)
+            .collect();
         let formula = file
             .split_once("<formula>")
             .map_or(shown.as_str(), |(_, rest)| rest.lines().next().unwrap_or(""));
         let formula: String = formula.chars().take(80).collect();
         writeln!(said, "{formula}\n{error}\n").unwrap();
     }
-    let not_text = mcc::read("file.xml", b"<property-set>\n\xff", &net(), Ids::default()).unwrap_err();
+    let not_text =
+        mcc::read("file.xml", b"<property-set>\n\xff", &net(), Ids::default()).unwrap_err();
     writeln!(said, "{not_text}").unwrap();
     let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/properties/files.txt");
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
@@ -199,7 +209,8 @@ fn a_deep_formula_is_read_on_a_small_stack() {
         "</negation>".repeat(MAX_DEPTH - 1)
     ));
     let read = move || read(&deep).unwrap()[0].question.clone();
-    let question = std::thread::Builder::new().stack_size(1 << 20).spawn(read).unwrap().join().unwrap();
+    let question =
+        std::thread::Builder::new().stack_size(1 << 20).spawn(read).unwrap().join().unwrap();
     let Question::Formula(formula) = question else { panic!("not a formula") };
     assert_eq!(formula.simplified(), Formula::FALSE);
 }
@@ -211,11 +222,14 @@ fn public() -> Option<Vec<(PathBuf, PathBuf)>> {
         return None;
     };
     let folder = Path::new(&folder);
-    let files = std::fs::read_dir(folder.join("properties")).unwrap().map(|entry| entry.unwrap().path());
-    let mut files: Vec<_> = files.filter(|file| file.extension().is_some_and(|it| it == "xml")).collect();
+    let files =
+        std::fs::read_dir(folder.join("properties")).unwrap().map(|entry| entry.unwrap().path());
+    let mut files: Vec<_> =
+        files.filter(|file| file.extension().is_some_and(|it| it == "xml")).collect();
     files.sort();
     let net = |file: PathBuf| {
-        let model = file.file_stem().unwrap().to_str().unwrap().split_once('.').unwrap().0.to_owned();
+        let model =
+            file.file_stem().unwrap().to_str().unwrap().split_once('.').unwrap().0.to_owned();
         (folder.join(model + ".pnml"), file)
     };
     Some(files.into_iter().map(net).collect())
@@ -264,13 +278,17 @@ fn public_verdicts_on_small_nets_are_those_of_the_oracle() {
         }
         let (net, properties) = with_properties(&net, &file);
         for property in properties {
-            let Some(expected) = verdicts.get(&(name.clone(), property.name.clone())) else { continue };
+            let Some(expected) = verdicts.get(&(name.clone(), property.name.clone())) else {
+                continue;
+            };
             let found = match &property.question {
                 Question::Bound(places) => oracle::bound(&net, places).to_string(),
                 // The oracle takes a while with long formulas of LTL; simplified, many are short.
                 Question::Formula(formula) if linear => {
                     let simplified = formula.simplified();
-                    if simplified.display(&net).to_string().matches(['X', 'F', 'G', 'U']).count() > 7 {
+                    if simplified.display(&net).to_string().matches(['X', 'F', 'G', 'U']).count()
+                        > 7
+                    {
                         continue;
                     }
                     Space::new(&net).satisfying(&simplified)[0].to_string().to_uppercase()
@@ -297,5 +315,8 @@ fn global_properties_are_those_of_the_book() {
         let property = mcc::examination(name).unwrap();
         assert_eq!(oracle::verdict(&net, &property.question), Some(expected), "{name}");
     }
-    assert_eq!(oracle::verdict(&net, &Question::Response { from: TransitionId(0), to: PlaceId(0) }), None);
+    assert_eq!(
+        oracle::verdict(&net, &Question::Response { from: TransitionId(0), to: PlaceId(0) }),
+        None
+    );
 }

@@ -106,7 +106,11 @@ fn a_hundred_thousand_mutated_texts_are_read_or_refused() {
                 Ok(property) => {
                     read += 1;
                     let written = property.question.display(&net).to_string();
-                    assert_eq!(parse(&written, &net).map(|it| it.question), Ok(property.question), "{text}");
+                    assert_eq!(
+                        parse(&written, &net).map(|it| it.question),
+                        Ok(property.question),
+                        "{text}"
+                    );
                 }
                 Err(error) => {
                     refused += 1;

@@ -52,8 +52,11 @@ fn at_most(constant: i64, weights: &[(PlaceId, i64)]) -> Formula {
 fn every_question_can_be_asked() {
     assert_eq!(question("bounds(p + q)"), Question::Bound(vec![P, Q]));
     assert_eq!(question("bound(stop -> p)"), Question::Response { from: TransitionId(1), to: P });
-    let assumed =
-        Assumptions { weak: vec![START], strong: vec![STOP, START], often: vec![marked(P), marked(Q)] };
+    let assumed = Assumptions {
+        weak: vec![START],
+        strong: vec![STOP, START],
+        often: vec![marked(P), marked(Q)],
+    };
     let text = "AF q assuming weak(start), often(p), strong(stop), strong(start), often(q)";
     assert_eq!(question(text), Question::Fair(formula("AF q"), assumed));
     assert_eq!(question("live"), Question::Liveness);
@@ -84,7 +87,10 @@ fn comparisons_become_inequalities() {
 fn operators_bind_as_the_table_says() {
     let (p, q) = (marked(P), marked(Q));
     let not = |a: &Formula| Formula::Not(a.clone().into());
-    assert_eq!(formula("p | q & p"), Formula::Or(vec![p.clone(), Formula::And(vec![q.clone(), p.clone()])]));
+    assert_eq!(
+        formula("p | q & p"),
+        Formula::Or(vec![p.clone(), Formula::And(vec![q.clone(), p.clone()])])
+    );
     assert_eq!(formula("p and q && p"), Formula::And(vec![p.clone(), q.clone(), p.clone()]));
     assert_eq!(
         formula("(p & q) & p"),
@@ -271,7 +277,9 @@ fn broken_texts_are_refused_with_their_place_and_what_to_do() {
     let mut said = String::new();
     for text in broken {
         match parse(text, &net()) {
-            Ok(property) => writeln!(said, "{text:?}\n  is {}\n", property.question.display(&net())),
+            Ok(property) => {
+                writeln!(said, "{text:?}\n  is {}\n", property.question.display(&net()))
+            }
             Err(error) => writeln!(said, "{text:?}\n{error}\n"),
         }
         .unwrap();
@@ -331,7 +339,9 @@ fn a_text_may_be_long_and_no_longer() {
 #[test]
 fn equivalences_may_not_double_a_formula_for_ever() {
     assert!(parse(&("p <-> ".repeat(12) + "p"), &net()).is_ok());
-    for text in ["p <-> ".repeat(40) + "p", format!("({}p) & ", "p <-> ".repeat(12)).repeat(1_000) + "p"] {
+    for text in
+        ["p <-> ".repeat(40) + "p", format!("({}p) & ", "p <-> ".repeat(12)).repeat(1_000) + "p"]
+    {
         let error = parse(&text, &net()).unwrap_err();
         assert_eq!(error.message, "the formula is too long when its equivalences are written out");
     }

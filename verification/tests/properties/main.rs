@@ -1,4 +1,5 @@
-//! What is asked of a net: the language, the files of the Model Checking Contest, and the forms that engines read.
+//! What is asked of a net: the language, the files of the Model Checking Contest, and the forms
+//! that engines read.
 
 mod contest;
 mod fuzz;

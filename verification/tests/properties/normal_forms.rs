@@ -1,4 +1,5 @@
-//! Simpler formulas and normal forms say what the formula said, in every reachable marking of random nets.
+//! Simpler formulas and normal forms say what the formula said, in every reachable marking of
+//! random nets.
 
 use crate::oracle::{self, Space};
 use crate::random::{Random, branching, net, path, quantified, state};
@@ -49,7 +50,8 @@ fn a_simplified_formula_holds_where_the_formula_holds() {
         }
         compared += 1;
         let simplified = formula.simplified();
-        let shown = || format!("{} as {} on {net:?}", formula.display(&net), simplified.display(&net));
+        let shown =
+            || format!("{} as {} on {net:?}", formula.display(&net), simplified.display(&net));
         assert_eq!(space.satisfying(&simplified), space.satisfying(&formula), "{}", shown());
         assert!(!simplified.needs_run());
         shorter += u32::from(simplified != formula);
@@ -82,7 +84,9 @@ fn evaluated(space: &Space<'_>, ctl: &Ctl) -> Vec<bool> {
             CtlNode::Next(a) => markings.map(|at| some(of(a), at)).collect(),
             CtlNode::Until(a, b) => {
                 let mut set = of(b).clone();
-                while let Some(at) = markings.clone().find(|&at| !set[at] && of(a)[at] && some(&set, at)) {
+                while let Some(at) =
+                    markings.clone().find(|&at| !set[at] && of(a)[at] && some(&set, at))
+                {
                     set[at] = true;
                 }
                 set
@@ -90,7 +94,9 @@ fn evaluated(space: &Space<'_>, ctl: &Ctl) -> Vec<bool> {
             CtlNode::Globally(a) => {
                 let mut set = of(a).clone();
                 let ends = |at: usize| space.successors[at].is_empty();
-                while let Some(at) = markings.clone().find(|&at| set[at] && !ends(at) && !some(&set, at)) {
+                while let Some(at) =
+                    markings.clone().find(|&at| set[at] && !ends(at) && !some(&set, at))
+                {
                     set[at] = false;
                 }
                 set
@@ -138,7 +144,10 @@ fn the_normal_form_of_ltl_and_of_its_negation_are_true_of_the_right_runs() {
         let net = net(&mut random);
         let space = Space::new(&net);
         let path = path(&mut random, &net, 3, false);
-        if temporal_parts(&path) > 4 || space.markings.len() > 10 || matches!(path, Formula::Next(_)) {
+        if temporal_parts(&path) > 4
+            || space.markings.len() > 10
+            || matches!(path, Formula::Next(_))
+        {
             continue;
         }
         compared += 1;
@@ -213,7 +222,10 @@ fn conditions_count_without_overflow() {
 fn a_formula_with_operators_of_time_has_no_normal_form() {
     let within = Formula::All(Formula::Within(5, Formula::Atom(Atom::Deadlock).into()).into());
     assert_eq!(within.kind(), Kind::Timed);
-    assert_eq!((Ctl::new(&within), Ltl::new(&within), Reachability::new(&within)), (None, None, None));
+    assert_eq!(
+        (Ctl::new(&within), Ltl::new(&within), Reachability::new(&within)),
+        (None, None, None)
+    );
 }
 
 #[test]
@@ -230,7 +242,9 @@ fn long_rows_of_operators_are_simplified_in_proportion() {
             parts += 1;
             match formula {
                 Formula::And(all) | Formula::Or(all) => stack.extend(all),
-                Formula::Not(a) | Formula::Next(a) | Formula::Exists(a) | Formula::All(a) => stack.push(a),
+                Formula::Not(a) | Formula::Next(a) | Formula::Exists(a) | Formula::All(a) => {
+                    stack.push(a)
+                }
                 _ => {}
             }
         }

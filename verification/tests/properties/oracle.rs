@@ -1,5 +1,5 @@
-//! The meaning of formulas by the book, on all reachable markings of a small net: slow, and written to be obviously
-//! right. Engines are compared with it.
+//! The meaning of formulas by the book, on all reachable markings of a small net: slow, and written
+//! to be obviously right. Engines are compared with it.
 
 use cotama_core::net::PlaceId;
 use cotama_verification::property::{Atom, Formula, Linear, Question};
@@ -13,7 +13,8 @@ pub(crate) fn holds(net: &Pt, formula: &Formula) -> bool {
 
 /// The most tokens that these places ever hold together.
 pub(crate) fn bound(net: &Pt, places: &[PlaceId]) -> u64 {
-    let tokens = |marking: &Vec<u32>| places.iter().map(|it| u64::from(marking[it.0 as usize])).sum();
+    let tokens =
+        |marking: &Vec<u32>| places.iter().map(|it| u64::from(marking[it.0 as usize])).sum();
     Space::new(net).markings.iter().map(tokens).max().unwrap()
 }
 
@@ -28,9 +29,9 @@ pub(crate) fn verdict(net: &Pt, question: &Question) -> Option<bool> {
     let always = |place: usize| space.markings.iter().all(|it| it[place] == net.initial[place]);
     match question {
         Question::Formula(formula) => Some(space.satisfying(formula)[0]),
-        Question::Liveness => {
-            Some((0..space.markings.len()).all(|at| transitions.clone().all(|it| fires_from(at, it))))
-        }
+        Question::Liveness => Some(
+            (0..space.markings.len()).all(|at| transitions.clone().all(|it| fires_from(at, it))),
+        ),
         Question::QuasiLiveness => Some(transitions.clone().all(|it| fires_from(0, it))),
         Question::StableMarking => Some((0..net.places.len()).any(always)),
         Question::OneSafe => Some(space.markings.iter().flatten().all(|&tokens| tokens <= 1)),
@@ -132,14 +133,15 @@ impl<'n> Space<'n> {
 }
 
 pub(crate) fn at_most(linear: &Linear, marking: &[u32]) -> bool {
-    let tokens =
-        |&(place, weight): &(PlaceId, i64)| i128::from(marking[place.0 as usize]) * i128::from(weight);
+    let tokens = |&(place, weight): &(PlaceId, i64)| {
+        i128::from(marking[place.0 as usize]) * i128::from(weight)
+    };
     i128::from(linear.constant) + linear.weights.iter().map(tokens).sum::<i128>() <= 0
 }
 
-/// Markings together with a guess which temporal parts of a formula are true of the rest of the run. A guess is right
-/// when it fits to the next one by the expansion laws (`F a = a | X F a` and so on), and when everything that it says
-/// will come does come.
+/// Markings together with a guess which temporal parts of a formula are true of the rest of the
+/// run. A guess is right when it fits to the next one by the expansion laws (`F a = a | X F a` and
+/// so on), and when everything that it says will come does come.
 struct Product<'a> {
     /// The temporal parts; a guess has a bit for each.
     temporal: Vec<Formula>,
@@ -151,7 +153,8 @@ struct Product<'a> {
 
 impl<'a> Product<'a> {
     fn new(space: &'a Space<'a>, path: &Formula) -> Self {
-        let mut product = Self { temporal: Vec::new(), state: HashMap::new(), space, successors: Vec::new() };
+        let mut product =
+            Self { temporal: Vec::new(), state: HashMap::new(), space, successors: Vec::new() };
         product.collect(path);
         let nodes = space.markings.len() << product.temporal.len();
         product.successors = (0..nodes).map(|node| product.fitting(node)).collect();
@@ -205,9 +208,11 @@ impl<'a> Product<'a> {
     fn fitting(&self, node: usize) -> Vec<usize> {
         let guesses = 1 << self.temporal.len();
         let next = self.space.run_successors(self.marking(node));
-        let next =
-            next.into_iter().flat_map(|marking| (0..guesses).map(move |guess| marking * guesses + guess));
-        next.filter(|&next| (0..self.temporal.len()).all(|index| self.fits(index, node, next))).collect()
+        let next = next
+            .into_iter()
+            .flat_map(|marking| (0..guesses).map(move |guess| marking * guesses + guess));
+        next.filter(|&next| (0..self.temporal.len()).all(|index| self.fits(index, node, next)))
+            .collect()
     }
 
     fn fits(&self, index: usize, node: usize, next: usize) -> bool {
@@ -222,7 +227,8 @@ impl<'a> Product<'a> {
         Self::guessed(index, node) == by_law
     }
 
-    /// Whether nothing is outstanding here: what was guessed to come has come, what to end has ended.
+    /// Whether nothing is outstanding here: what was guessed to come has come, what to end has
+    /// ended.
     fn settled(&self, index: usize, node: usize) -> bool {
         match &self.temporal[index] {
             Formula::Finally(goal) | Formula::Until(_, goal) => {
@@ -233,8 +239,9 @@ impl<'a> Product<'a> {
         }
     }
 
-    /// From which nodes a right run goes on for ever: the largest set of nodes from each of which, for each temporal
-    /// part, a node of the set where it is settled is reached after at least one step inside of the set.
+    /// From which nodes a right run goes on for ever: the largest set of nodes from each of which,
+    /// for each temporal part, a node of the set where it is settled is reached after at least one
+    /// step inside of the set.
     fn right(&self) -> Vec<bool> {
         let mut right = vec![true; self.successors.len()];
         loop {
@@ -249,7 +256,8 @@ impl<'a> Product<'a> {
         }
     }
 
-    /// From which nodes of a set a goal in the set is reached after at least one step inside of the set.
+    /// From which nodes of a set a goal in the set is reached after at least one step inside of the
+    /// set.
     fn coming_to(&self, set: &[bool], goal: &dyn Fn(usize) -> bool) -> Vec<bool> {
         let mut coming = vec![false; set.len()];
         loop {
@@ -277,15 +285,22 @@ impl<'a> Product<'a> {
     }
 }
 
-/// Whether a formula is true of the run that goes through markings in this order, and from the last one back to that
-/// at the position `back` for ever.
+/// Whether a formula is true of the run that goes through markings in this order, and from the last
+/// one back to that at the position `back` for ever.
 pub(crate) fn lasso(space: &Space<'_>, run: &[usize], back: usize, path: &Formula) -> bool {
     let next = |at: usize| if at + 1 < run.len() { at + 1 } else { back };
     truth(space, run, &next, path, 0)
 }
 
-fn truth(space: &Space<'_>, run: &[usize], next: &dyn Fn(usize) -> usize, path: &Formula, at: usize) -> bool {
-    // After as many steps as there are positions every position has been passed that is ever passed.
+fn truth(
+    space: &Space<'_>,
+    run: &[usize],
+    next: &dyn Fn(usize) -> usize,
+    path: &Formula,
+    at: usize,
+) -> bool {
+    // After as many steps as there are positions every position has been passed that is ever
+    // passed.
     let rest: Vec<usize> =
         std::iter::successors(Some(at), |&at| Some(next(at))).take(run.len() + 1).collect();
     let is = |path: &Formula, at: usize| truth(space, run, next, path, at);
@@ -345,7 +360,12 @@ mod tests {
             compared += 1;
             let expected = some_lasso(&space, &mut vec![0], 6, &path);
             let exists = Formula::Exists(Box::new(Formula::And(vec![path.clone(), Formula::TRUE])));
-            assert_eq!(space.satisfying(&exists)[0], expected, "{} on {net:?}", exists.display(&net));
+            assert_eq!(
+                space.satisfying(&exists)[0],
+                expected,
+                "{} on {net:?}",
+                exists.display(&net)
+            );
             satisfied += u32::from(expected);
         }
         assert!((80..320).contains(&satisfied), "{satisfied} of {compared} hold");

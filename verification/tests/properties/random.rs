@@ -60,7 +60,8 @@ pub(crate) fn atom(random: &mut Random, net: &Pt) -> Formula {
         0 => Atom::Deadlock,
         1 | 2 => {
             let count = 1 + random.below(2);
-            let transition = |random: &mut Random| TransitionId(random.below(net.transitions.len()) as u32);
+            let transition =
+                |random: &mut Random| TransitionId(random.below(net.transitions.len()) as u32);
             Atom::Fireable((0..count).map(|_| transition(random)).collect())
         }
         3 | 4 => Atom::AtMost(Linear::marked(PlaceId(random.below(net.places.len()) as u32))),
@@ -92,7 +93,8 @@ fn boolean(
             atom(random, net)
         });
     }
-    let several = |random: &mut Random| (0..2 + random.below(2)).map(|_| part(random, depth - 1)).collect();
+    let several =
+        |random: &mut Random| (0..2 + random.below(2)).map(|_| part(random, depth - 1)).collect();
     match random.below(8) {
         0 => Some(Formula::Not(part(random, depth - 1).into())),
         1 => Some(Formula::And(several(random))),
@@ -123,7 +125,11 @@ pub(crate) fn path(random: &mut Random, net: &Pt, depth: usize, quantifiers: boo
     })
 }
 
-fn temporal(random: &mut Random, depth: usize, part: &dyn Fn(&mut Random, usize) -> Formula) -> Formula {
+fn temporal(
+    random: &mut Random,
+    depth: usize,
+    part: &dyn Fn(&mut Random, usize) -> Formula,
+) -> Formula {
     let first = part(random, depth - 1);
     match random.below(5) {
         0 => Formula::Next(first.into()),

@@ -26,7 +26,8 @@ fn random_formulas_are_read_back() {
             net.places[0] = (*random.choose(&NAMES)).to_owned();
         }
         let path = path(&mut random, &net, 5, true);
-        let path = if random.below(9) == 0 { Formula::Within(random.next(), path.into()) } else { path };
+        let path =
+            if random.below(9) == 0 { Formula::Within(random.next(), path.into()) } else { path };
         let formula = quantified(&mut random, path);
         assert_read_back(&Question::Formula(formula.clone()), &net);
         assert_read_back(&Question::Formula(formula.simplified()), &net);
@@ -39,7 +40,10 @@ fn random_assumptions_are_read_back() {
     for _ in 0..2_000 {
         let net = net(&mut random);
         let some = |random: &mut Random| -> Vec<_> {
-            (0..net.transitions.len() as u32).map(TransitionId).filter(|_| random.below(3) == 0).collect()
+            (0..net.transitions.len() as u32)
+                .map(TransitionId)
+                .filter(|_| random.below(3) == 0)
+                .collect()
         };
         let (weak, strong) = (some(&mut random), some(&mut random));
         let often = (0..=random.below(2)).map(|_| state(&mut random, &net, 2)).collect();

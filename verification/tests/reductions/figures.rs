@@ -6,7 +6,9 @@ use crate::net::{keep, net, reduced, text};
 use crate::space::{is_dead, run};
 use cotama_core::net::TransitionId;
 use cotama_verification::pt::Pt;
-use cotama_verification::reductions::Goal::{Bounds, Ctl, Deadlock, Reachability, StutterInvariantLtl};
+use cotama_verification::reductions::Goal::{
+    Bounds, Ctl, Deadlock, Reachability, StutterInvariantLtl,
+};
 use cotama_verification::reductions::{
     Goal, Keep, LiftError, Limits, Reduced, Rule, Tokens, reduce, reduce_within,
 };
@@ -99,7 +101,13 @@ fn a_place_in_proportion_to_another_is_told_from_it() {
     );
     assert_eq!(value(&before, &after, "c").as_deref(), Some("1 + 2 a"));
     // One token less, and it is `c` that holds up.
-    becomes("a:1 b c:1 | t: a c*2 -> b; u: b -> a c*2", rule, Ctl, &[], "b c:1 | t: c*2 -> b; u: b -> c*2");
+    becomes(
+        "a:1 b c:1 | t: a c*2 -> b; u: b -> a c*2",
+        rule,
+        Ctl,
+        &[],
+        "b c:1 | t: c*2 -> b; u: b -> c*2",
+    );
     // Seen, `a` would be half of `c`.
     stays("a:1 b c:1 | t: a c*2 -> b; u: b -> a c*2", rule, Ctl, &["a"]);
 }
@@ -195,8 +203,13 @@ fn a_place_with_a_source_holds_as_much_as_one_likes() {
 fn tokens_that_move_freely_on_a_cycle_are_in_one_place() {
     let rule = Rule::FreeCycle;
     let cycle = "a:1 b c:1 d | t: a -> b; u: b -> c; v: c -> a; w: b*2 -> d";
-    let (before, after) =
-        becomes(cycle, rule, Reachability, &["d"], "a:2 d | t: ?a ->; u: ?a ->; v: ?a ->; w: a*2 -> d");
+    let (before, after) = becomes(
+        cycle,
+        rule,
+        Reachability,
+        &["d"],
+        "a:2 d | t: ?a ->; u: ?a ->; v: ?a ->; w: a*2 -> d",
+    );
     assert_eq!(lifted(&before, &after, "w"), "t v t w");
     stays(cycle, rule, Reachability, &["c"]);
     stays(cycle, rule, Deadlock, &[]);
@@ -207,7 +220,8 @@ fn tokens_that_move_freely_on_a_cycle_are_in_one_place() {
 fn what_follows_at_once_is_joined_to_what_comes_before() {
     let rule = Rule::PostAgglomeration;
     let line = "a:1 p b c | h: a -> p; f: p -> b; g: p -> c";
-    let (before, after) = becomes(line, rule, Deadlock, &["a"], "a:1 b c | h.f: a -> b; h.g: a -> c");
+    let (before, after) =
+        becomes(line, rule, Deadlock, &["a"], "a:1 b c | h.f: a -> b; h.g: a -> c");
     assert_eq!(lifted(&before, &after, "h.g"), "h g");
     becomes(line, rule, StutterInvariantLtl, &["a"], "a:1 b c | h.f: a -> b; h.g: a -> c");
     stays(line, rule, StutterInvariantLtl, &["a", "b"]);
@@ -301,7 +315,8 @@ fn doubling_again_and_again_is_too_long_to_lift() {
         (0..31).map(|it| if it == 0 { "p0:1".to_owned() } else { format!("p{it}") }).collect();
     let doubling: Vec<_> = (0..30).map(|it| format!("t{it}: p{it} -> p{}*2", it + 1)).collect();
     let before = net(&format!("{} | {}", places.join(" "), doubling.join(";")));
-    let after = reduced(&before, &[Rule::PostAgglomeration], &keep(&before, Reachability, &["p30"]));
+    let after =
+        reduced(&before, &[Rule::PostAgglomeration], &keep(&before, Reachability, &["p30"]));
     assert_eq!(text(&after.net), "p29:536870912 p30 | t29: p29 -> p30*2");
     assert_eq!(after.trail.lift(&before, &[]), Err(LiftError::TooLong));
 }
@@ -336,7 +351,8 @@ fn ten_thousand_nodes_in_a_ring_are_reduced_to_one_place() {
     let count = 5_000;
     let places: Vec<_> =
         (0..count).map(|it| if it == 0 { "p0:1".to_owned() } else { format!("p{it}") }).collect();
-    let moves: Vec<_> = (0..count).map(|it| format!("t{it}: p{it} -> p{}", (it + 1) % count)).collect();
+    let moves: Vec<_> =
+        (0..count).map(|it| format!("t{it}: p{it} -> p{}", (it + 1) % count)).collect();
     let before = net(&format!("{} | {}", places.join(" "), moves.join(";")));
     let after = reduce(&before, &Keep::new(StutterInvariantLtl));
     assert_eq!((after.net.places.len(), after.net.transitions.len()), (0, 1));

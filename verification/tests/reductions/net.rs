@@ -1,4 +1,5 @@
-//! Small nets as text: places with their tokens, then transitions, `a:1 b | t: a ?c -> b*2; u: b ->`.
+//! Small nets as text: places with their tokens, then transitions, `a:1 b | t: a ?c -> b*2; u: b
+//! ->`.
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;
@@ -13,7 +14,8 @@ pub(crate) fn net(text: &str) -> Pt {
         ids.insert(name, net.place(OwnedPlace::new(name, tokens.parse().unwrap())).unwrap());
     }
     let arc = |arc: &str| {
-        let (name, weight) = arc.split_once('*').map_or((arc, 1), |it| (it.0, it.1.parse().unwrap()));
+        let (name, weight) =
+            arc.split_once('*').map_or((arc, 1), |it| (it.0, it.1.parse().unwrap()));
         (ids[name], weight)
     };
     for transition in transitions.split(';').filter(|it| !it.trim().is_empty()) {
@@ -44,8 +46,11 @@ pub(crate) fn text(pt: &Pt) -> String {
         _ => format!("{name}:{tokens}"),
     };
     let transition = |(at, name): (u32, &String)| {
-        let effect = |place: u32| pt.effects.of(at).iter().find(|it| it.0 == place).map_or(0, |it| it.1);
-        let need = |place: u32| pt.needs.of(at).iter().find(|it| it.0 == place).map_or(0, |it| it.1.into());
+        let effect =
+            |place: u32| pt.effects.of(at).iter().find(|it| it.0 == place).map_or(0, |it| it.1);
+        let need = |place: u32| {
+            pt.needs.of(at).iter().find(|it| it.0 == place).map_or(0, |it| it.1.into())
+        };
         let input = |&(place, tokens): &(u32, u32)| {
             weighted(if effect(place) == 0 { "?" } else { "" }, place, tokens.into())
         };

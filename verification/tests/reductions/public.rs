@@ -21,16 +21,22 @@ fn public_nets_have_the_known_deadlocks_when_reduced() {
     let header = lines.next().unwrap();
     let column = |name: &str| header.iter().position(|it| *it == name).unwrap();
     let mut decided = 0;
-    eprintln!("{:32} {:>11} {:>11} {:>18} {:>8}", "model", "before", "after", "markings before", "after");
+    eprintln!(
+        "{:32} {:>11} {:>11} {:>18} {:>8}",
+        "model", "before", "after", "markings before", "after"
+    );
     for row in lines {
         let model = row[column("model")];
-        let net = pnml::read(model, &std::fs::read(folder.join(format!("{model}.pnml"))).unwrap()).unwrap();
+        let net = pnml::read(model, &std::fs::read(folder.join(format!("{model}.pnml"))).unwrap())
+            .unwrap();
         let net = Pt::from(&net.view().net());
         let reduced = reduce(&net, &Keep::new(Goal::Deadlock));
         let space = Space::new(&reduced.net, MARKINGS);
         let size = |pt: &Pt| format!("{} x {}", pt.places.len(), pt.transitions.len());
-        let markings = if space.complete { space.markings.len().to_string() } else { "more".to_owned() };
-        let counts: Vec<_> = reduced.counts.iter().map(|it| format!("{} {}", it.1, it.0.name())).collect();
+        let markings =
+            if space.complete { space.markings.len().to_string() } else { "more".to_owned() };
+        let counts: Vec<_> =
+            reduced.counts.iter().map(|it| format!("{} {}", it.1, it.0.name())).collect();
         eprintln!(
             "{model:32} {:>11} {:>11} {:>18} {markings:>8}  {}",
             size(&net),

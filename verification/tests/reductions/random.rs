@@ -15,13 +15,14 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, end: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         let mixed = (self.0 ^ (self.0 >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
         ((mixed >> 32) % u64::from(end)) as u32
     }
 
-    /// A small net, in which transitions and places are split, doubled and summed up, so that rules find what they are
-    /// for; then sometimes another arc, so that they just miss it.
+    /// A small net, in which transitions and places are split, doubled and summed up, so that rules
+    /// find what they are for; then sometimes another arc, so that they just miss it.
     fn net(&mut self) -> Pt {
         let mut net = Sketch::default();
         for _ in 0..=self.below(4) {
@@ -63,7 +64,8 @@ impl Random {
             0 => {
                 net.initial.push(tokens);
                 let weight = 1 + u32::from(self.below(3) == 0);
-                let gives = std::mem::replace(&mut net.arcs[at][1], BTreeMap::from([(new, weight)]));
+                let gives =
+                    std::mem::replace(&mut net.arcs[at][1], BTreeMap::from([(new, weight)]));
                 net.arcs.push([BTreeMap::from([(new, 1)]), gives]);
             }
             // A place that tokens come to by another one; or from which they come back as well.
@@ -99,8 +101,9 @@ impl Random {
             // A sum of places.
             6 | 7 => {
                 let terms = [(place, 1 + self.below(2)), (net.place(self), self.below(2))];
-                let sum =
-                    |tokens: &dyn Fn(u32) -> u32| terms.iter().map(|it| tokens(it.0) * it.1).sum::<u32>();
+                let sum = |tokens: &dyn Fn(u32) -> u32| {
+                    terms.iter().map(|it| tokens(it.0) * it.1).sum::<u32>()
+                };
                 let more = sum(&|it| net.initial[it as usize]) + self.below(2);
                 for side in net.arcs.iter_mut().flatten() {
                     let weight = sum(&|it| side.get(&it).copied().unwrap_or(0));
@@ -142,8 +145,10 @@ impl Sketch {
             self.initial.iter().enumerate().map(place).map(|it| net.place(it).unwrap()).collect();
         for (at, [takes, gives]) in self.arcs.iter().enumerate() {
             let it = OwnedTransition::new(&format!("t{at}"));
-            let it = takes.iter().fold(it, |it, (&place, &weight)| it.take(ids[place as usize], weight));
-            let it = gives.iter().fold(it, |it, (&place, &weight)| it.give(ids[place as usize], weight));
+            let it =
+                takes.iter().fold(it, |it, (&place, &weight)| it.take(ids[place as usize], weight));
+            let it =
+                gives.iter().fold(it, |it, (&place, &weight)| it.give(ids[place as usize], weight));
             net.transition(it).unwrap();
         }
         Pt::from(&net.view().net())
@@ -153,10 +158,20 @@ impl Sketch {
 /// What is seen in each marking of the original net, and in each of the reduced one.
 fn seen(keep: &Keep, reduced: &Reduced, original: &Space, small: &Space) -> [Vec<Seen>; 2] {
     let tokens = |place: &PlaceId, marking: &[u32]| i64::from(marking[place.0 as usize]);
-    let told = |place: &PlaceId, marking: &[u32]| reduced.trail.place(*place).unwrap().of(marking).unwrap();
+    let told = |place: &PlaceId, marking: &[u32]| {
+        reduced.trail.place(*place).unwrap().of(marking).unwrap()
+    };
     [
-        original.markings.iter().map(|it| keep.places.iter().map(|at| tokens(at, it)).collect()).collect(),
-        small.markings.iter().map(|it| keep.places.iter().map(|at| told(at, it)).collect()).collect(),
+        original
+            .markings
+            .iter()
+            .map(|it| keep.places.iter().map(|at| tokens(at, it)).collect())
+            .collect(),
+        small
+            .markings
+            .iter()
+            .map(|it| keep.places.iter().map(|at| told(at, it)).collect())
+            .collect(),
     ]
 }
 
@@ -164,7 +179,8 @@ fn set(seen: &[Seen], at: impl Iterator<Item = usize>) -> BTreeSet<&Seen> {
     at.map(|it| &seen[it]).collect()
 }
 
-/// Compares a net with what these rules make of it; the message tells what differs. `None` when there is nothing to compare.
+/// Compares a net with what these rules make of it; the message tells what differs. `None` when
+/// there is nothing to compare.
 fn compare(pt: &Pt, rules: &[Rule], keep: &Keep) -> Option<Result<bool, String>> {
     let reduced = reduced(pt, rules, keep);
     let small = Space::new(&reduced.net, MARKINGS);
@@ -173,7 +189,10 @@ fn compare(pt: &Pt, rules: &[Rule], keep: &Keep) -> Option<Result<bool, String>>
     let wrong = |what: &str| {
         let places: Vec<_> = keep.places.iter().map(|it| &pt.places[it.0 as usize]).collect();
         let (before, after) = (text(pt), text(&reduced.net));
-        Some(Err(format!("{what}: {:?} of {places:?}\n{before}\n{after}\n{:?}", keep.goal, reduced.counts)))
+        Some(Err(format!(
+            "{what}: {:?} of {places:?}\n{before}\n{after}\n{:?}",
+            keep.goal, reduced.counts
+        )))
     };
     let shrunk = reduced.counts.iter().any(|it| it.1 > 0);
     // Runs lift, whether or not there are more markings than were looked at.
@@ -182,10 +201,17 @@ fn compare(pt: &Pt, rules: &[Rule], keep: &Keep) -> Option<Result<bool, String>>
         let dead = is_dead(&reduced.net, &small.markings[at]);
         let Ok(lifted) = reduced.trail.lift(pt, &small.way(at)) else { return wrong("not lifted") };
         let Some(marking) = run(pt, &lifted) else { return wrong("not a run") };
-        if dead && !is_dead(pt, &marking) && matches!(keep.goal, Goal::Deadlock | Goal::StutterInvariantLtl) {
+        if dead
+            && !is_dead(pt, &marking)
+            && matches!(keep.goal, Goal::Deadlock | Goal::StutterInvariantLtl)
+        {
             return wrong("not dead");
         }
-        if keep.places.iter().zip(&of_small[at]).any(|(it, &told)| i64::from(marking[it.0 as usize]) != told)
+        if keep
+            .places
+            .iter()
+            .zip(&of_small[at])
+            .any(|(it, &told)| i64::from(marking[it.0 as usize]) != told)
         {
             return wrong("other tokens");
         }
@@ -227,7 +253,8 @@ const GOALS: [Goal; 5] =
     [Goal::Reachability, Goal::Deadlock, Goal::StutterInvariantLtl, Goal::Ctl, Goal::Bounds];
 
 fn keep(random: &mut Random, pt: &Pt, goal: Goal) -> Keep {
-    let places: BTreeSet<u32> = (0..random.below(3)).map(|_| random.below(pt.places.len() as u32)).collect();
+    let places: BTreeSet<u32> =
+        (0..random.below(3)).map(|_| random.below(pt.places.len() as u32)).collect();
     Keep { places: places.into_iter().map(PlaceId).collect(), ..Keep::new(goal) }
 }
 
@@ -240,7 +267,8 @@ fn twenty_thousand_random_nets_answer_the_same_when_reduced() {
         // Reachability and deadlocks of each net, and one of the others.
         for goal in [Goal::Reachability, Goal::Deadlock, GOALS[2 + at % 3]] {
             let keep = keep(&mut random, &pt, goal);
-            // All rules, or about half of them, so that each meets nets that another would have changed first.
+            // All rules, or about half of them, so that each meets nets that another would have
+            // changed first.
             let mut rules = Rule::ALL.to_vec();
             rules.retain(|_| at % 2 == 0 || random.below(2) == 0);
             for (rule, count) in reduced(&pt, &rules, &keep).counts {

@@ -16,8 +16,12 @@ pub(crate) struct Space {
 impl Space {
     pub(crate) fn new(pt: &Pt, most: usize) -> Self {
         let mut ids = HashMap::from([(pt.initial.clone(), 0_u32)]);
-        let mut all =
-            Self { markings: vec![pt.initial.clone()], edges: vec![], from: vec![None], complete: true };
+        let mut all = Self {
+            markings: vec![pt.initial.clone()],
+            edges: vec![],
+            from: vec![None],
+            complete: true,
+        };
         while all.edges.len() < all.markings.len() {
             let at = all.edges.len();
             let marking = all.markings[at].clone();
@@ -72,10 +76,12 @@ pub(crate) fn is_dead(pt: &Pt, marking: &[u32]) -> bool {
     (0..pt.transitions.len() as u32).all(|it| !pt.enabled(marking, it))
 }
 
-/// Whether both have the same maximal runs but for repetitions: of what is seen, both sides' by marking.
+/// Whether both have the same maximal runs but for repetitions: of what is seen, both sides' by
+/// marking.
 ///
-/// Both sides are made deterministic over changes of what is seen. Since they are finite, they have the same infinite
-/// runs when they have the same beginnings; the runs that end in the same for ever are compared one by one.
+/// Both sides are made deterministic over changes of what is seen. Since they are finite, they have
+/// the same infinite runs when they have the same beginnings; the runs that end in the same for
+/// ever are compared one by one.
 pub(crate) fn same_stutter_runs(a: (&Space, &[Seen]), b: (&Space, &[Seen])) -> bool {
     let start = (closed(a, &[0]), closed(b, &[0]));
     if a.1[0] != b.1[0] {
@@ -132,7 +138,9 @@ fn stays((space, seen): (&Space, &[Seen]), among: &[u32]) -> bool {
         let goes_on = |&at: &u32| {
             let edges = &space.edges[at as usize];
             edges.is_empty()
-                || edges.iter().any(|it| left.contains(it) && seen[*it as usize] == seen[at as usize])
+                || edges
+                    .iter()
+                    .any(|it| left.contains(it) && seen[*it as usize] == seen[at as usize])
         };
         let next: BTreeSet<u32> = left.iter().copied().filter(goes_on).collect();
         if next.len() == left.len() {

@@ -15,14 +15,16 @@ use cotama_verification::temporal::{Fairness, ctl};
 /// A part of a requirement: its number and a formula.
 type Law = (&'static str, Formula);
 
-/// A requirement that a system breaks, found as cheaply as can be: in what transitions say and look at, in the cells of decisions,
-/// then in the fewest firings of all that speak of a marking or of a firing, then in the graph, then with what it takes to remember.
+/// A requirement that a system breaks, found as cheaply as can be: in what transitions say and look
+/// at, in the cells of decisions, then in the fewest firings of all that speak of a marking or of a
+/// firing, then in the graph, then with what it takes to remember.
 ///
 /// # Errors
 /// When the system is refused.
 pub(crate) fn broken(system: &System<'_>) -> Result<Option<&'static str>, FlatError> {
     let unsaid = |it: &&Requirement| it.said.iter().any(|it| it.unsaid(system).next().is_some());
-    let unguarded = |it: &&Requirement| it.guarded.iter().any(|it| it.unguarded(system).next().is_some());
+    let unguarded =
+        |it: &&Requirement| it.guarded.iter().any(|it| it.unguarded(system).next().is_some());
     if let Some(it) = REQUIREMENTS.iter().find(|it| unsaid(it) || unguarded(it)) {
         return Ok(Some(it.id));
     }
@@ -38,13 +40,15 @@ pub(crate) fn broken(system: &System<'_>) -> Result<Option<&'static str>, FlatEr
     }
     let in_the_graph = || {
         let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-        let holds = |it: &Formula| ctl(&graph, &Ctl::new(it).unwrap(), &Fairness::default()).verdict;
+        let holds =
+            |it: &Formula| ctl(&graph, &Ctl::new(it).unwrap(), &Fairness::default()).verdict;
         others.iter().find(|it| !holds(&it.1)).map(|it| it.0)
     };
     let remembered = || {
         let mut watched_ones = asked().filter(|it| !it.1.watches.is_empty());
         watched_ones.find_map(|(id, asked)| {
-            let pt = Pt::from(&watched(&rounds, asked.watches).unwrap().net().unwrap().view().net());
+            let pt =
+                Pt::from(&watched(&rounds, asked.watches).unwrap().net().unwrap().view().net());
             let (mut always, mut others) = (Vec::new(), Vec::new());
             split((id, formula(&asked, &pt)), &pt, &mut always, &mut others);
             assert!(others.is_empty(), "{id}");
@@ -64,7 +68,9 @@ fn formula(asked: &Asked, pt: &Pt) -> Formula {
 /// Its parts: what always holds, as formulas about one marking, and what is left.
 fn split((id, formula): Law, pt: &Pt, always: &mut Vec<Law>, others: &mut Vec<Law>) {
     match &formula {
-        Formula::And(parts) => parts.iter().for_each(|it| split((id, it.clone()), pt, always, others)),
+        Formula::And(parts) => {
+            parts.iter().for_each(|it| split((id, it.clone()), pt, always, others))
+        }
         Formula::All(path) => match &**path {
             Formula::Globally(law) => {
                 let one = std::slice::from_ref(&**law);

@@ -1,5 +1,5 @@
-//! What the contextual supervisor of a system decides, cell by cell, beside the function: also in cells that are reached only when
-//! two things are reported in one round.
+//! What the contextual supervisor of a system decides, cell by cell, beside the function: also in
+//! cells that are reached only when two things are reported in one round.
 
 use cotama_core::net::{Net, Role};
 use cotama_core::system::System;
@@ -22,14 +22,21 @@ fn situations() -> impl Iterator<Item = Situation> {
     use local::State::{End, Following, HandOver, Idle, Planning, Teleoperated, Teleprogrammed};
     use path_following::State::{Degraded, Odometric, Off, Optimal, Reduced};
     use teleoperation::State as To;
-    let quiet = [Idle, Planning, HandOver, Teleprogrammed, End].map(|local| (local, Off, To::Off, 2));
+    let quiet =
+        [Idle, Planning, HandOver, Teleprogrammed, End].map(|local| (local, Off, To::Off, 2));
     let following = [(Optimal, 2), (Reduced, 1), (Reduced, 0), (Odometric, 2), (Degraded, 2)];
     let following = following.map(|(following, level)| (Following, following, To::Off, level));
     let teleoperated = [To::Full, To::Degraded].map(|it| (Teleoperated, Off, it, 2));
     let all = quiet.into_iter().chain(following).chain(teleoperated);
     let losses = [&[][..], &[Loss::Mcl], &[Loss::Wifi], &[Loss::Mcl, Loss::Wifi]];
     all.flat_map(move |(local, following, teleoperation, level)| {
-        losses.map(|lost| Situation { local, following, teleoperation, level, lost: Losses::of(lost) })
+        losses.map(|lost| Situation {
+            local,
+            following,
+            teleoperation,
+            level,
+            lost: Losses::of(lost),
+        })
     })
 }
 
@@ -90,7 +97,9 @@ fn decided<'n>(net: &Net<'n>, event: &str, at: Situation) -> Option<&'n str> {
         _ => 1,
     };
     let holds = |place: usize| match net.places[place].role {
-        Role::Complement(of) => net.places[of.0 as usize].bound - tokens(net.places[of.0 as usize].name),
+        Role::Complement(of) => {
+            net.places[of.0 as usize].bound - tokens(net.places[of.0 as usize].name)
+        }
         _ => tokens(net.places[place].name),
     };
     let fires = net.transitions.iter().find(|it| {

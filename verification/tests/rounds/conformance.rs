@@ -1,4 +1,5 @@
-//! Two executions of one meaning: players, and the net of rounds, reach the same states by as many steps.
+//! Two executions of one meaning: players, and the net of rounds, reach the same states by as many
+//! steps.
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{EventId, Net, OutputId, Place, PlaceId, Role};
@@ -17,7 +18,10 @@ fn names(system: &System<'_>) -> Vec<(String, Result<Of<PlaceId>, Of<EventId>>)>
     for (it, component) in system.components.iter().zip(0..) {
         for (place, id) in it.net.places.iter().zip(0..) {
             if !matches!(place.role, Role::Complement(_) | Role::Shared) {
-                names.push((format!("{}.{}", it.name, place.name), Ok(Of { component, id: PlaceId(id) })));
+                names.push((
+                    format!("{}.{}", it.name, place.name),
+                    Ok(Of { component, id: PlaceId(id) }),
+                ));
             }
         }
         for (event, id) in it.net.events.iter().zip(0..) {
@@ -77,12 +81,17 @@ fn walked(system: &System<'_>, rounds: &Rounds) -> (States, Size) {
     assert_eq!(net.view().net().defect(), None);
     let pt = Pt::from(&net.view().net());
     let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-    let places: Vec<_> = names(system).iter().map(|it| pt.place(&it.0).unwrap().0 as usize).collect();
+    let places: Vec<_> =
+        names(system).iter().map(|it| pt.place(&it.0).unwrap().0 as usize).collect();
     let markings = (0..graph.states() as u32).map(|it| graph.marking(it));
     for (marking, state) in markings.clone().zip(0..) {
         // In the turns of the system one transition is enabled, neither none nor two.
         let is_outside = marking[rounds.outside().0 as usize] == 1;
-        assert!(is_outside || graph.transitions(state).len() == 1, "{:?}", graph.transitions(state));
+        assert!(
+            is_outside || graph.transitions(state).len() == 1,
+            "{:?}",
+            graph.transitions(state)
+        );
     }
     let between = markings.filter(|it| it[rounds.round().0 as usize] == 1);
     let states = between.map(|it| places.iter().map(|&at| it[at]).collect()).collect();
@@ -94,15 +103,18 @@ struct Draw(u64);
 
 impl Draw {
     fn below(&mut self, count: u32) -> u32 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) as u32) % count
     }
 }
 
-/// A state machine of three states with a counter, on four events; now and then a transition has none.
+/// A state machine of three states with a counter, on four events; now and then a transition has
+/// none.
 fn net(draw: &mut Draw) -> Net<'static> {
     let mut net = OwnedNet::new("random", "");
-    let states = [1, 0, 0].map(|it| net.place(OwnedPlace::new(&format!("s{it}"), it).at_most(1)).unwrap());
+    let states =
+        [1, 0, 0].map(|it| net.place(OwnedPlace::new(&format!("s{it}"), it).at_most(1)).unwrap());
     for (place, name) in net.places.iter_mut().zip(["a", "b", "c"]) {
         name.clone_into(&mut place.name);
     }
@@ -137,15 +149,17 @@ fn net(draw: &mut Draw) -> Net<'static> {
 
 /// Three of them with links: at once to later ones, by mail to any.
 fn system(draw: &mut Draw) -> System<'static> {
-    let components = ["x", "y", "z"].map(|name| Component { name, net: Box::leak(Box::new(net(draw))) });
+    let components =
+        ["x", "y", "z"].map(|name| Component { name, net: Box::leak(Box::new(net(draw))) });
     let (mut links, mut clears) = (Vec::<Link>::new(), Vec::new());
     let mut kinds = [[None; 4]; 3];
     for _ in 0..2 + draw.below(6) {
         let (a, b, event) = (draw.below(3) as u16, draw.below(3) as u16, draw.below(4));
-        let kind = kinds[usize::from(b)][event as usize].get_or_insert_with(|| match draw.below(3) {
-            0 if a < b => Delivery::Now,
-            more => Delivery::Mail { capacity: 1 + (more as u16 % 2) },
-        });
+        let kind =
+            kinds[usize::from(b)][event as usize].get_or_insert_with(|| match draw.below(3) {
+                0 if a < b => Delivery::Now,
+                more => Delivery::Mail { capacity: 1 + (more as u16 % 2) },
+            });
         let from = Of { component: a, id: OutputId(draw.below(4)) };
         let to = Of { component: b, id: EventId(event) };
         let link = Link { from, to, delivery: *kind };
@@ -158,7 +172,10 @@ fn system(draw: &mut Draw) -> System<'static> {
         if let Some(mail) = links.iter().find(is_mail)
             && draw.below(2) == 0
         {
-            clears.push(Clear { on: Of { component, id: EventId(draw.below(4)) }, mailbox: mail.to.id });
+            clears.push(Clear {
+                on: Of { component, id: EventId(draw.below(4)) },
+                mailbox: mail.to.id,
+            });
         }
     }
     System {
@@ -197,7 +214,13 @@ fn players_and_nets_of_rounds_agree() {
 fn the_decisional_level_agrees() {
     let system = cotama_models::cotama::decision::SYSTEM;
     // One word more than it has, and no place without a bound.
-    assert!(system.components.iter().all(|it| it.net.places.iter().all(|it| it.bound != Place::UNBOUNDED)));
+    assert!(
+        system.components.iter().all(|it| it
+            .net
+            .places
+            .iter()
+            .all(|it| it.bound != Place::UNBOUNDED))
+    );
     let rounds = rounds(&system).unwrap();
     let (states, size) = walked(&system, &rounds);
     assert_eq!((states.len(), size), (4_166, Size { states: 4_166, edges: 22_810 }));

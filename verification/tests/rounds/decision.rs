@@ -24,7 +24,10 @@ pub(crate) const LOSSES: [(&str, &str); 5] = [
     ("sonar", "pf.Optimal | pf.Reduced | pf.Odometric | to.Full"),
     ("camera", "to.Full | to.Degraded"),
     ("wifi", "to.Full | to.Degraded"),
-    ("vital", "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded"),
+    (
+        "vital",
+        "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded",
+    ),
 ];
 
 /// The observers: name, when they look, what begins, what ends.
@@ -90,7 +93,11 @@ pub(crate) const ASKED: [Asked; 10] = [
 ];
 
 /// Adds an observer that counts up to `most`.
-pub(crate) fn watch(rounds: &mut Rounds, (name, looks, begins, ends): (&str, Looks, &str, &str), most: u32) {
+pub(crate) fn watch(
+    rounds: &mut Rounds,
+    (name, looks, begins, ends): (&str, Looks, &str, &str),
+    most: u32,
+) {
     rounds.watch(name, looks, (begins, ends), most).unwrap();
 }
 
@@ -100,8 +107,8 @@ pub(crate) fn watch_loss(rounds: &mut Rounds, (lost, used): (&str, &str), most: 
     rounds.watch(&format!("without_{lost}"), Looks::AtEnd, (&begins, &ends), most).unwrap();
 }
 
-/// The rank of what runs, from nothing to `Degraded`; 5 when it became less without a stop. A stop and a start in one round have the
-/// turn of the environment between them.
+/// The rank of what runs, from nothing to `Degraded`; 5 when it became less without a stop. A stop
+/// and a start in one round have the turn of the environment between them.
 fn ranks(rounds: &Rounds) -> Observer {
     let runs = ["pf.Off", "pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Degraded"];
     let steps = (0..5).flat_map(|from| {
@@ -141,7 +148,8 @@ impl Asked {
     }
 }
 
-/// In the fewest rounds to a marking in which it is not so: the events from outside, and which rounds they are.
+/// In the fewest rounds to a marking in which it is not so: the events from outside, and which
+/// rounds they are.
 pub(crate) fn shortest(rounds: &Rounds, pt: &Pt, property: &Property) -> Option<Vec<String>> {
     let Question::Formula(Formula::All(path)) = &property.question else { return None };
     let Formula::Globally(always) = &**path else { return None };
@@ -167,7 +175,8 @@ fn the_decisional_level_has_4166_states_between_rounds() {
     assert_eq!(rounds.size(&graph), Size { states: 4_166, edges: 22_810 });
 }
 
-/// By which engine, with which evidence, of which the small checker is convinced, and with how many transitions.
+/// By which engine, with which evidence, of which the small checker is convinced, and with how many
+/// transitions.
 #[test]
 fn all_ten_properties_hold() {
     let options = Options { evidence: true, ..Options::default() };

@@ -1,7 +1,8 @@
 //! The requirements of the shipped decisional level, as questions to its net of rounds.
 //!
-//! The environment is every sequence of faults, answers and progress, one a round, at any time; so what holds here holds for
-//! every pair of faults, and for all that follow one another, wherever they come.
+//! The environment is every sequence of faults, answers and progress, one a round, at any time; so
+//! what holds here holds for every pair of faults, and for all that follow one another, wherever
+//! they come.
 
 use crate::golden;
 use cotama_models::cotama::{Asked, REQUIREMENTS, Requirement, Watch, delivery};
@@ -45,9 +46,15 @@ fn the_shipped_supervisors_have_31266_states_between_rounds() {
     assert_eq!(rounds.size(&graph), Size { states: 31_266, edges: 327_040 });
 }
 
-/// By which engine, among how many markings, with which evidence; `said` counts what transitions must say. The small checker
-/// looks at the certificate where it is short, or where that is wanted.
-fn known(of: &Requirement, plain: &Rounds, model: &Model, checker: &Checker<'_>, verified: bool) -> String {
+/// By which engine, among how many markings, with which evidence; `said` counts what transitions
+/// must say. The small checker looks at the certificate where it is short, or where that is wanted.
+fn known(
+    of: &Requirement,
+    plain: &Rounds,
+    model: &Model,
+    checker: &Checker<'_>,
+    verified: bool,
+) -> String {
     let mut line = of.id.to_owned();
     if let Some(asked) = of.asked {
         line += &if asked.watches.is_empty() {
@@ -68,7 +75,10 @@ fn known(of: &Requirement, plain: &Rounds, model: &Model, checker: &Checker<'_>,
         line += " guarded";
     }
     if let Some(file) = of.tests {
-        assert!(std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file).exists(), "{file}");
+        assert!(
+            std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(file).exists(),
+            "{file}"
+        );
         let _ = write!(line, " {file}");
     }
     line + "\n"
@@ -111,7 +121,8 @@ fn every_requirement_holds() {
     golden("requirements.txt", &all_known(REQUIREMENTS.iter(), false));
 }
 
-/// Whether it takes no memory, and no deadlock, which the small checker writes out as twenty thousand inequalities.
+/// Whether it takes no memory, and no deadlock, which the small checker writes out as twenty
+/// thousand inequalities.
 fn is_quick(asked: &Asked) -> bool {
     asked.watches.is_empty() && !asked.text.contains("deadlock")
 }
@@ -140,7 +151,8 @@ fn the_small_checker_is_convinced_of_each_of_the_others() {
     assert_eq!(known.lines().filter(|it| it.contains(" graph")).count(), 6, "{known}");
 }
 
-/// The most that the watches in a requirement's text count when they may count further: the worst cases of its duties in rounds.
+/// The most that the watches in a requirement's text count when they may count further: the worst
+/// cases of its duties in rounds.
 fn worst(id: &str) -> Vec<u32> {
     const MANY: u32 = 6;
     let asked = requirement(id).asked.unwrap();
@@ -157,20 +169,22 @@ fn worst(id: &str) -> Vec<u32> {
     watches.iter().enumerate().filter(|it| asked.text.contains(it.1.name)).map(of).collect()
 }
 
-/// GS3: the round in which the event is mailed is the first one. How long the robot takes to stand is for its brakes to say.
+/// GS3: the round in which the event is mailed is the first one. How long the robot takes to stand
+/// is for its brakes to say.
 #[test]
 fn a_global_event_is_answered_in_the_next_round() {
     assert_eq!(worst("GS3"), [1]);
 }
 
-/// LS3: the round of the failure is over once, the round of the decision is over once; then the operator is asked.
+/// LS3: the round of the failure is over once, the round of the decision is over once; then the
+/// operator is asked.
 #[test]
 fn a_hard_failure_is_answered_after_two_rounds() {
     assert_eq!(worst("LS3"), [1]);
 }
 
-/// LS4: what bounds how long the robot waits is the patience of whoever says that no answer comes; no round does. Once it is
-/// said, the mission stops after two rounds.
+/// LS4: what bounds how long the robot waits is the patience of whoever says that no answer comes;
+/// no round does. Once it is said, the mission stops after two rounds.
 #[test]
 fn a_refusal_stops_the_mission_after_two_rounds() {
     assert_eq!(worst("LS4"), [2]);
@@ -187,8 +201,9 @@ fn nobody_waits_for_an_operator_who_cannot_be_reached_for_more_than_two_rounds()
     assert_eq!(worst("CS5"), [2]);
 }
 
-/// AS5 and CS3: in the round after it was mailed an adapter event is read before the contextual supervisor decides again, and a flag
-/// is reported and decided upon before anything else comes from outside.
+/// AS5 and CS3: in the round after it was mailed an adapter event is read before the contextual
+/// supervisor decides again, and a flag is reported and decided upon before anything else comes
+/// from outside.
 #[test]
 fn an_adapter_event_and_a_report_take_one_round() {
     let (pt, graph) = explored(&rounds(&delivery::SYSTEM).unwrap());

@@ -154,7 +154,8 @@ fn line(mutant: &Mutant) -> String {
 
 /// The lines of mutants, found on two threads.
 fn table(mutants: &[&Mutant]) -> String {
-    let half = |from: usize| mutants.iter().skip(from).step_by(2).map(|it| line(it)).collect::<Vec<_>>();
+    let half =
+        |from: usize| mutants.iter().skip(from).step_by(2).map(|it| line(it)).collect::<Vec<_>>();
     let (even, odd) = thread::scope(|scope| {
         let odd = scope.spawn(|| half(1));
         (half(0), odd.join().unwrap())
@@ -171,7 +172,8 @@ fn selected(all: &[Mutant]) -> Vec<&Mutant> {
     kinds.sort_unstable();
     kinds.dedup();
     let of = |kind| {
-        let all: Vec<_> = all.iter().filter(|it| it.kind == kind && harmless(it).is_none()).collect();
+        let all: Vec<_> =
+            all.iter().filter(|it| it.kind == kind && harmless(it).is_none()).collect();
         let step = all.len().div_ceil(EACH);
         all.into_iter().step_by(step).collect::<Vec<_>>()
     };
@@ -185,7 +187,10 @@ fn mutants_of_each_kind_break_a_requirement() {
     let table = table(&selected);
     golden("mutants_selected.txt", &table);
     assert!(table.lines().filter(|it| it.contains(" - breaks ")).count() >= 45);
-    assert!(table.lines().all(|it| it.contains(" - breaks ") || it.contains(" - refused: ")), "{table}");
+    assert!(
+        table.lines().all(|it| it.contains(" - breaks ") || it.contains(" - refused: ")),
+        "{table}"
+    );
 }
 
 #[test]

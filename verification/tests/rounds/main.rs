@@ -1,6 +1,8 @@
-//! A system as a net that acts in rounds: it does what a player does, and COTAMA's decisional level keeps its properties in it.
+//! A system as a net that acts in rounds: it does what a player does, and COTAMA's decisional level
+//! keeps its properties in it.
 //!
-//! `UPDATE_GOLDEN=1` writes the tables in `tests/golden/rounds` anew; that of mutants with `--ignored`.
+//! `UPDATE_GOLDEN=1` writes the tables in `tests/golden/rounds` anew; that of mutants with
+//! `--ignored`.
 #![allow(clippy::type_complexity, clippy::needless_for_each)]
 #![allow(missing_docs)]
 
@@ -20,7 +22,8 @@ mod steps;
 
 /// Compares a table with the one that is kept.
 fn golden(name: &str, text: &str) {
-    let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/rounds").join(name);
+    let path =
+        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/rounds").join(name);
     if std::env::var_os("UPDATE_GOLDEN").is_some() {
         std::fs::create_dir_all(path.parent().unwrap()).unwrap();
         std::fs::write(&path, text).unwrap();

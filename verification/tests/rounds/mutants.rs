@@ -28,14 +28,21 @@ fn unguarded(from: &[&str], guards: &[&str]) -> System<'static> {
             let places = it.net.places;
             let kept = transition.read.iter().copied().filter(|arc| {
                 let place = &places[arc.place.0 as usize];
-                let of = if let Role::Complement(of) = place.role { &places[of.0 as usize] } else { place };
+                let of = if let Role::Complement(of) = place.role {
+                    &places[of.0 as usize]
+                } else {
+                    place
+                };
                 !guards.contains(&of.name)
             });
             let before = transition.read.len();
             transition.read = kept.collect::<Vec<_>>().leak();
             assert_eq!(
                 before - transition.read.len(),
-                guards.iter().filter(|guard| it.net.places.iter().any(|place| place.name == **guard)).count(),
+                guards
+                    .iter()
+                    .filter(|guard| it.net.places.iter().any(|place| place.name == **guard))
+                    .count(),
                 "{name}"
             );
         }
@@ -101,7 +108,8 @@ fn a_start_that_ignores_the_module_status_is_found() {
 fn a_local_event_without_an_operator_is_found() {
     let local = |net: &Net<'_>| net.outputs.iter().position(|it| it.name == "local_event");
     let mutant = with(|it, transition| {
-        let escalated = ["ambiguous2", "ambiguous4", "collision2", "collision4", "planner2", "camera2"];
+        let escalated =
+            ["ambiguous2", "ambiguous4", "collision2", "collision4", "planner2", "camera2"];
         if it.name == "cs" && escalated.contains(&transition.name) {
             let local = local(it.net).unwrap() as u32;
             transition.emits = vec![cotama_core::net::OutputId(local)].leak();
@@ -137,7 +145,8 @@ fn teleoperation_without_a_camera_is_found() {
 fn an_abort_that_keeps_a_pending_start_is_found() {
     let clears = decision::SYSTEM.clears;
     let events = decision::SYSTEM.components[1].net.events;
-    let kept = clears.iter().copied().filter(|it| events[it.mailbox.0 as usize].name != "start_drive");
+    let kept =
+        clears.iter().copied().filter(|it| events[it.mailbox.0 as usize].name != "start_drive");
     let mutant = System { clears: kept.collect::<Vec<_>>().leak(), ..decision::SYSTEM };
     found(
         &mutant,

@@ -10,7 +10,8 @@ pub(crate) struct Mutant {
     pub(crate) system: System<'static>,
 }
 
-/// All mutants of the first so many nets of a system and of their links; test data, which lives to the end.
+/// All mutants of the first so many nets of a system and of their links; test data, which lives to
+/// the end.
 pub(crate) fn mutants(of: System<'static>, nets: u16) -> Vec<Mutant> {
     let mut maker = Maker { of, made: Vec::new() };
     for at in 0..nets {
@@ -53,8 +54,11 @@ impl Maker {
         let mut transitions = net.transitions.to_vec();
         change(&mut transitions[number]);
         let system = self.with(at, Net { transitions: transitions.leak(), ..*net });
-        let name =
-            format!("{}.{}: {how}", self.of.components[usize::from(at)].name, net.transitions[number].name);
+        let name = format!(
+            "{}.{}: {how}",
+            self.of.components[usize::from(at)].name,
+            net.transitions[number].name
+        );
         self.push(kind, name, system);
     }
 
@@ -93,7 +97,8 @@ impl Maker {
                 emits.remove(position);
                 it.emits = emits.leak();
             });
-            let is_decision = |name: &str| ["global_event", "local_event", "adapt_sonar"].contains(&name);
+            let is_decision =
+                |name: &str| ["global_event", "local_event", "adapt_sonar"].contains(&name);
             if self.of.components[usize::from(at)].name != "cs" {
                 continue;
             }
@@ -116,7 +121,8 @@ impl Maker {
     fn does(&mut self, at: u16, number: usize, transition: &'static Transition<'static>) {
         let net = self.net(at);
         let data = |place: PlaceId| net.places[place.0 as usize].role == Role::Data;
-        let changed = transition.take.iter().chain(transition.give).map(|it| it.place).filter(|it| data(*it));
+        let changed =
+            transition.take.iter().chain(transition.give).map(|it| it.place).filter(|it| data(*it));
         let mut changed: Vec<_> = changed.collect();
         changed.sort_unstable();
         changed.dedup();
@@ -126,23 +132,30 @@ impl Maker {
             let name = net.places[place.0 as usize].name;
             self.changed("do dropped", (at, number), &format!("{name} stays"), |it| {
                 let kept: Vec<_> = it.take.iter().copied().filter(is_it).collect();
-                it.take = it.take.iter().copied().filter(|it| !is_it(it)).collect::<Vec<_>>().leak();
-                it.give = it.give.iter().copied().filter(|it| !is_it(it)).collect::<Vec<_>>().leak();
+                it.take =
+                    it.take.iter().copied().filter(|it| !is_it(it)).collect::<Vec<_>>().leak();
+                it.give =
+                    it.give.iter().copied().filter(|it| !is_it(it)).collect::<Vec<_>>().leak();
                 it.read = it.read.iter().copied().chain(kept).collect::<Vec<_>>().leak();
             });
-            let flags = net.places.iter().zip(0..).filter(|it| it.0.role == Role::Data && it.0.bound == 1);
+            let flags =
+                net.places.iter().zip(0..).filter(|it| it.0.role == Role::Data && it.0.bound == 1);
             let flags: Vec<_> = flags.map(|it| PlaceId(it.1)).collect();
             let Some(position) = flags.iter().position(|&it| it == place) else { continue };
             let other = flags[(position + 1) % flags.len()];
             let used = transition.take.iter().chain(transition.give).chain(transition.read);
             if other == place
-                || used.into_iter().any(|arc| arc.place == other || Some(arc.place) == complement(net, other))
+                || used
+                    .into_iter()
+                    .any(|arc| arc.place == other || Some(arc.place) == complement(net, other))
             {
                 continue;
             }
             let instead = |arc: &Arc| match arc.place {
                 it if it == place => Arc { place: other, ..*arc },
-                it if both[1] == Some(it) => Arc { place: complement(net, other).unwrap_or(it), ..*arc },
+                it if both[1] == Some(it) => {
+                    Arc { place: complement(net, other).unwrap_or(it), ..*arc }
+                }
                 _ => *arc,
             };
             let how = format!("{} for {name}", net.places[other.0 as usize].name);
@@ -155,8 +168,12 @@ impl Maker {
 
     fn goes(&mut self, at: u16, number: usize, transition: &'static Transition<'static>) {
         let net = self.net(at);
-        let states: Vec<_> =
-            (0..).map(PlaceId).zip(net.places).filter(|it| it.1.role == Role::State).map(|it| it.0).collect();
+        let states: Vec<_> = (0..)
+            .map(PlaceId)
+            .zip(net.places)
+            .filter(|it| it.1.role == Role::State)
+            .map(|it| it.0)
+            .collect();
         for (position, arc) in transition.give.iter().enumerate() {
             let Some(state) = states.iter().position(|&it| it == arc.place) else { continue };
             let other = states[(state + 1) % states.len()];
@@ -172,14 +189,16 @@ impl Maker {
         }
     }
 
-    /// A link is dropped by tying its end to an output that is never said: an event without link would come from outside.
+    /// A link is dropped by tying its end to an output that is never said: an event without link
+    /// would come from outside.
     fn links(&mut self, nets: u16) {
         let links = self.of.links;
         for (position, link) in links.iter().enumerate().filter(|it| it.1.from.component < nets) {
             let net = self.net(link.from.component);
             let mut outputs = net.outputs.to_vec();
             outputs.push(Signal { name: "nothing", doc: "" });
-            let silent = Of { component: link.from.component, id: OutputId(outputs.len() as u32 - 1) };
+            let silent =
+                Of { component: link.from.component, id: OutputId(outputs.len() as u32 - 1) };
             let system = self.with(link.from.component, Net { outputs: outputs.leak(), ..*net });
             let tied = Link { from: silent, ..*link };
             let mut kept = links.to_vec();
@@ -188,8 +207,9 @@ impl Maker {
             let (from, to) = (self.output(link.from), self.event(link.to));
             let name = format!("{from} => {to}");
             self.push("link dropped", name.clone(), System { links: kept, ..system });
-            let is_alike =
-                |it: &&Link| it.from.component == link.from.component && it.delivery == link.delivery;
+            let is_alike = |it: &&Link| {
+                it.from.component == link.from.component && it.delivery == link.delivery
+            };
             let alike: Vec<_> = links.iter().filter(is_alike).map(|it| it.to).collect();
             let at = alike.iter().position(|&it| it == link.to).unwrap_or(0);
             let other = alike[(at + 1) % alike.len()];
@@ -219,10 +239,14 @@ impl Maker {
     /// What is shared is another flag of the same net.
     fn shared(&mut self, nets: u16) {
         let bindings = self.of.bindings;
-        for (position, binding) in bindings.iter().enumerate().filter(|it| it.1.shared.component < nets) {
+        for (position, binding) in
+            bindings.iter().enumerate().filter(|it| it.1.shared.component < nets)
+        {
             let Target::Place(place) = binding.target else { continue };
             let alike = bindings.iter().filter_map(|it| match it.target {
-                Target::Place(of) if of.component == place.component && of.id != place.id => Some(of),
+                Target::Place(of) if of.component == place.component && of.id != place.id => {
+                    Some(of)
+                }
                 _ => None,
             });
             let net = self.net(place.component);
@@ -239,7 +263,8 @@ impl Maker {
                 let it = self.of.components[usize::from(of.component)];
                 format!("{}.{}", it.name, it.net.places[of.id.0 as usize].name)
             };
-            let name = format!("{} = {}, not {}", shown(binding.shared), shown(other), shown(place));
+            let name =
+                format!("{} = {}, not {}", shown(binding.shared), shown(other), shown(place));
             self.push("shared wrong", name, System { bindings: all.leak(), ..self.of });
         }
     }

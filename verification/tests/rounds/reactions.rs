@@ -1,11 +1,14 @@
-//! How long it takes at worst from a fault to its reaction, by the report and by where the drive is.
+//! How long it takes at worst from a fault to its reaction, by the report and by where the drive
+//! is.
 //!
-//! A fault shows after the latency of its detection (the FMECA's largest of all rows with that report). A flag can be raised just
-//! after a round has looked, so that up to one period passes until the next one; in it the observation module reports and the
-//! contextual supervisor decides. The supervisor that is told reads its mailbox in the round after that, one period later.
-//! A fault is recorded only where what came before it has moved the drive by the time of the decision, or where nothing needs to
-//! react. Here rounds are counted exactly, over every marking in which a fault can come and whatever comes after it; that the longest
-//! time is the number of rounds times the period is checked with state classes of the net with time.
+//! A fault shows after the latency of its detection (the FMECA's largest of all rows with that
+//! report). A flag can be raised just after a round has looked, so that up to one period passes
+//! until the next one; in it the observation module reports and the contextual supervisor decides.
+//! The supervisor that is told reads its mailbox in the round after that, one period later. A fault
+//! is recorded only where what came before it has moved the drive by the time of the decision, or
+//! where nothing needs to react. Here rounds are counted exactly, over every marking in which a
+//! fault can come and whatever comes after it; that the longest time is the number of rounds times
+//! the period is checked with state classes of the net with time.
 
 use crate::delivery::explored;
 use crate::golden;
@@ -23,8 +26,8 @@ use std::fmt::Write;
 /// The executive's loop.
 const PERIOD_MS: u32 = 100;
 
-/// By the event from outside, the report whose rows of the FMECA it stands for. A hard failure without one can be that of any
-/// row that is answered by the local supervisor.
+/// By the event from outside, the report whose rows of the FMECA it stands for. A hard failure
+/// without one can be that of any row that is answered by the local supervisor.
 const CLASSES: [(&str, Option<Report>); 11] = [
     ("faults.overload", Some(Report::Slow)),
     ("faults.lose_mcl", Some(Report::Mcl)),
@@ -47,7 +50,11 @@ const DECISIONS: [(&str, &str, &[&str]); 7] = [
     ("adapter (fewer particles)", "pf.adapt_rt.waiting", &["pf.Reduced", "pf.Off"]),
     ("adapter (odometry)", "pf.adapt_mcl.waiting", &["pf.Odometric", "pf.Degraded", "pf.Off"]),
     ("adapter (no avoidance)", "pf.adapt_sonar.waiting", &["pf.Degraded", "pf.Off"]),
-    ("adapter (slower)", "pf.adapt_bump.waiting", &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Off"]),
+    (
+        "adapter (slower)",
+        "pf.adapt_bump.waiting",
+        &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Off"],
+    ),
     ("adapter (no avoidance)", "to.adapt_sonar.waiting", &["to.Degraded", "to.Off"]),
     ("local", "ls.local_event.waiting", &["ls.HandOver", "gs.Security", "gs.Safe"]),
     ("global", "gs.global_event.waiting", &["gs.Security", "gs.Safe"]),
@@ -77,7 +84,8 @@ impl Explored {
         after.map(|&it| self.to_outside(it)).collect()
     }
 
-    /// After how many rounds, at least one, one of these places is marked, whatever comes from outside.
+    /// After how many rounds, at least one, one of these places is marked, whatever comes from
+    /// outside.
     fn rounds_until(&self, from: u32, places: &[&str]) -> u32 {
         let mut states = BTreeSet::from([from]);
         for rounds in 1..=5 {
@@ -113,22 +121,28 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
             continue;
         }
         let Some(mode) = MODES.iter().position(|mode| it.marked(state, mode)) else { continue };
-        for (transition, &after) in it.graph.transitions(state).into_iter().zip(it.graph.successors(state)) {
-            let Some(class) = CLASSES.iter().position(|class| Some(class.0) == event(transition)) else {
+        for (transition, &after) in
+            it.graph.transitions(state).into_iter().zip(it.graph.successors(state))
+        {
+            let Some(class) = CLASSES.iter().position(|class| Some(class.0) == event(transition))
+            else {
                 continue;
             };
             let decided = it.to_outside(after);
             let decision = DECISIONS.iter().find(|decision| it.marked(decided, decision.1));
             let cell = cells.entry((class, mode)).or_default();
-            let (name, told) = decision.map_or(("recorded", 0), |of| (of.0, it.rounds_until(decided, of.2)));
+            let (name, told) =
+                decision.map_or(("recorded", 0), |of| (of.0, it.rounds_until(decided, of.2)));
             let worst = cell.entry(name).or_default();
             *worst = (1, told.max(worst.1));
         }
     }
-    let mut table = String::from("fault in mode: decision; worst detection, decision, reaction in ms\n");
+    let mut table =
+        String::from("fault in mode: decision; worst detection, decision, reaction in ms\n");
     for ((class, mode), cell) in cells {
         let (event, report) = CLASSES[class];
-        let (fault, mode) = (event.split('.').nth(1).unwrap(), MODES[mode].split('.').nth(1).unwrap());
+        let (fault, mode) =
+            (event.split('.').nth(1).unwrap(), MODES[mode].split('.').nth(1).unwrap());
         for (decision, (decided, told)) in cell {
             let detected = latency(report);
             let decided = detected + decided * PERIOD_MS;
@@ -137,14 +151,16 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
             } else {
                 (decided + told * PERIOD_MS).to_string()
             };
-            let _ = writeln!(table, "{fault} in {mode}: {decision}; {detected} {decided} {reaction}");
+            let _ =
+                writeln!(table, "{fault} in {mode}: {decision}; {detected} {decided} {reaction}");
         }
     }
     golden("reactions.txt", &table);
 }
 
-/// The net of rounds with time: a round begins each period and takes none, what is outside acts within the period, and of it only
-/// one event and nothing; from the first marking between rounds in which this place is marked and nothing waits.
+/// The net of rounds with time: a round begins each period and takes none, what is outside acts
+/// within the period, and of it only one event and nothing; from the first marking between rounds
+/// in which this place is marked and nothing waits.
 fn timed(event: &str, mode: &str) -> TimeNet {
     let rounds = rounds(&delivery::SYSTEM).unwrap();
     let net = rounds.net().unwrap();
@@ -166,7 +182,8 @@ fn timed(event: &str, mode: &str) -> TimeNet {
     let round = rounds.round();
     let mut transitions = Vec::new();
     for (it, id) in untimed.transitions().iter().zip((0..).map(cotama_core::net::TransitionId)) {
-        let on = net.transitions[id.0 as usize].on.map(|on| net.events[on.0 as usize].name.as_str());
+        let on =
+            net.transitions[id.0 as usize].on.map(|on| net.events[on.0 as usize].name.as_str());
         let mut it = it.clone();
         if rounds.part(id) == Some(Part::Outside) {
             if on.is_some_and(|on| on != event) {

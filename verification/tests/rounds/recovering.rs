@@ -1,5 +1,5 @@
-//! The decisional level where modules may return, at any time and any number of times: what it is still required to do, and that
-//! it does not go up and down by itself.
+//! The decisional level where modules may return, at any time and any number of times: what it is
+//! still required to do, and that it does not go up and down by itself.
 
 use crate::delivery::{explored, watched};
 use cotama_core::net::{Arc, Net, PlaceId, Role, Transition};
@@ -45,7 +45,11 @@ fn what_is_required_without_returns_still_is_but_two() {
 fn what_is_required_of_returns_holds() {
     assert_eq!(broken(RECOVERY_REQUIREMENTS), [] as [&str; 0]);
     for it in REQUIREMENTS.iter().chain(RECOVERY_REQUIREMENTS) {
-        assert!(it.said.iter().all(|said| said.unsaid(&recovering::SYSTEM).next().is_none()), "{}", it.id);
+        assert!(
+            it.said.iter().all(|said| said.unsaid(&recovering::SYSTEM).next().is_none()),
+            "{}",
+            it.id
+        );
     }
 }
 
@@ -55,7 +59,8 @@ fn worst(rounds: &Rounds, watch: &str) -> u32 {
     graph.tokens(pt.place(watch).unwrap()).max().unwrap()
 }
 
-/// The worst cases of the duties in a requirement, in rounds; a watch that counts in how many rounds another one did is beside it.
+/// The worst cases of the duties in a requirement, in rounds; a watch that counts in how many
+/// rounds another one did is beside it.
 fn duties(id: &str) -> Vec<u32> {
     const MANY: u32 = 6;
     let mut all = REQUIREMENTS.iter().chain(RECOVERY_REQUIREMENTS);
@@ -90,11 +95,13 @@ const RANKS: [(&str, &[&str]); 2] = [
 ];
 
 /// What waits at the end of a round in which something returned, and then only.
-const RETURNED: &str = "(gom.sonar_sound.waiting | gom.mcl_sound.waiting | gom.avoidance_sound.waiting)";
+const RETURNED: &str =
+    "(gom.sonar_sound.waiting | gom.mcl_sound.waiting | gom.avoidance_sound.waiting)";
 
-/// It remembers what runs, and whether something had returned in the round before. It comes to its largest state when an adapter
-/// goes up to which nothing returned two rounds before. As what is outside does one thing a round, no two of those answer the same
-/// return. A stop and a start in one round have the turn of what is outside between them.
+/// It remembers what runs, and whether something had returned in the round before. It comes to its
+/// largest state when an adapter goes up to which nothing returned two rounds before. As what is
+/// outside does one thing a round, no two of those answer the same return. A stop and a start in
+/// one round have the turn of what is outside between them.
 fn rising(rounds: &Rounds, (name, ranks): (&str, &[&str])) -> Observer {
     let state = |rank: usize, returned: usize| (2 * rank + returned) as u32;
     let most = state(ranks.len(), 0);
@@ -148,16 +155,18 @@ fn place(net: &Net<'_>, name: &str) -> PlaceId {
 fn without(name: &str, flag: &str) -> System<'static> {
     with(name, |net, it| {
         let flag = place(net, flag);
-        let is_it =
-            |arc: &Arc| arc.place == flag || net.places[arc.place.0 as usize].role == Role::Complement(flag);
+        let is_it = |arc: &Arc| {
+            arc.place == flag || net.places[arc.place.0 as usize].role == Role::Complement(flag)
+        };
         it.read = it.read.iter().copied().filter(|arc| !is_it(arc)).collect::<Vec<_>>().leak();
     })
 }
 
 /// It comes from or goes to other places.
 fn moved(name: &str, from: &str, to: &str) -> System<'static> {
-    let one =
-        |net: &Net<'_>, name| -> &'static [Arc] { vec![Arc { place: place(net, name), weight: 1 }].leak() };
+    let one = |net: &Net<'_>, name| -> &'static [Arc] {
+        vec![Arc { place: place(net, name), weight: 1 }].leak()
+    };
     with(name, |net, it| (it.take, it.give) = (one(net, from), one(net, to)))
 }
 
@@ -174,9 +183,21 @@ fn wrong_ways_up_are_found() {
         ("up to localisation that is lost", without("pf.u1", "mcl"), "RC4"),
         ("up from the hand-over", moved("pf.u1", "Off", "Optimal"), "RC5"),
         ("the adapter is told, wherever it is", without("cs.better1", "degraded"), "RC8"),
-        ("the operator's adapter is told, whoever drives", without("cs.better2", "teleoperated"), "RC5"),
-        ("localisation is there again though it was given up", without("gom.mcl_back", "given_up"), "RC7"),
-        ("nothing is done about what is there again", moved("pf.u3", "Odometric", "Odometric"), "RC9"),
+        (
+            "the operator's adapter is told, whoever drives",
+            without("cs.better2", "teleoperated"),
+            "RC5",
+        ),
+        (
+            "localisation is there again though it was given up",
+            without("gom.mcl_back", "given_up"),
+            "RC7",
+        ),
+        (
+            "nothing is done about what is there again",
+            moved("pf.u3", "Odometric", "Odometric"),
+            "RC9",
+        ),
     ];
     let unfound = mutants.iter().filter(|(_, mutant, id)| !breaks(mutant, id));
     assert_eq!(unfound.map(|it| (it.0, it.2)).collect::<Vec<_>>(), []);

@@ -9,8 +9,8 @@ use cotama_verification::pt::Pt;
 use cotama_verification::temporal::{Fairness, ctl};
 use std::collections::BTreeSet;
 
-/// The same formula without `AX` and `EX`, so that it can be looked at while markings are met; `None` where other operators
-/// remain.
+/// The same formula without `AX` and `EX`, so that it can be looked at while markings are met;
+/// `None` where other operators remain.
 pub(crate) fn in_one_marking(formula: &Formula, pt: &Pt) -> Option<Formula> {
     let list = |all: &[Formula]| all.iter().map(|it| in_one_marking(it, pt)).collect::<Option<_>>();
     let not = |it: Formula| Formula::Not(it.into());
@@ -31,8 +31,8 @@ pub(crate) fn in_one_marking(formula: &Formula, pt: &Pt) -> Option<Formula> {
     })
 }
 
-/// That it holds after each transition that is enabled: Dijkstra's weakest precondition. A firing adds the same to a sum of tokens
-/// wherever it happens.
+/// That it holds after each transition that is enabled: Dijkstra's weakest precondition. A firing
+/// adds the same to a sum of tokens wherever it happens.
 fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
     if !then.is_state() {
         return None;
@@ -44,16 +44,19 @@ fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
         Some(Formula::TRUE)
     })?;
     let unless = |enabled: Vec<u32>, then: Formula| {
-        let enabled = Formula::Atom(Atom::Fireable(enabled.into_iter().map(TransitionId).collect()));
+        let enabled =
+            Formula::Atom(Atom::Fireable(enabled.into_iter().map(TransitionId).collect()));
         Formula::Or(vec![then, Formula::Not(enabled.into())])
     };
     let others = (0..pt.transitions.len() as u32).filter(|it| !changers.contains(it));
     let mut all = vec![unless(others.collect(), then.clone())];
     for &changer in &changers {
-        let change = |place| pt.effects.of(changer).iter().find(|it| it.0 == place).map_or(0, |it| it.1);
+        let change =
+            |place| pt.effects.of(changer).iter().find(|it| it.0 == place).map_or(0, |it| it.1);
         let after = |atom: &Atom| {
             let Atom::AtMost(sum) = atom else { return None };
-            let added: i64 = sum.weights.iter().map(|&(place, weight)| weight * change(place.0)).sum();
+            let added: i64 =
+                sum.weights.iter().map(|&(place, weight)| weight * change(place.0)).sum();
             let after = Linear { constant: sum.constant + added, weights: sum.weights.clone() };
             Some(Formula::Atom(Atom::AtMost(after)))
         };
@@ -65,16 +68,22 @@ fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
 #[test]
 fn what_holds_after_the_next_firing_is_told_before_it() {
     let (pt, graph) = explored(&rounds(&decision::SYSTEM).unwrap());
-    let asked = |formula: Formula| ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default()).verdict;
+    let asked =
+        |formula: Formula| ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default()).verdict;
     let not = |it: &Formula| Formula::Not(it.clone().into());
     let some = |it: Formula| Formula::Exists(Formula::Finally(it.into()).into());
-    for text in
-        ["ls.Planning -> AX ls.Planning", "EX (pf.Reduced & pf.level <= 1)", "AX (ls.Idle + pf.Off = 2)"]
-    {
-        let Question::Formula(formula) = parse(text, &pt).unwrap().question else { panic!("{text}") };
+    for text in [
+        "ls.Planning -> AX ls.Planning",
+        "EX (pf.Reduced & pf.level <= 1)",
+        "AX (ls.Idle + pf.Off = 2)",
+    ] {
+        let Question::Formula(formula) = parse(text, &pt).unwrap().question else {
+            panic!("{text}")
+        };
         let told = in_one_marking(&formula, &pt).unwrap();
         assert!(told.is_state() && asked(some(told.clone())) && asked(some(not(&told))), "{text}");
-        let differ = [[not(&formula), told.clone()], [formula, not(&told)]].map(|it| Formula::And(it.into()));
+        let differ = [[not(&formula), told.clone()], [formula, not(&told)]]
+            .map(|it| Formula::And(it.into()));
         assert!(!asked(some(Formula::Or(differ.into()))), "{text}");
     }
 }

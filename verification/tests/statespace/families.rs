@@ -77,7 +77,8 @@ fn a_transition_that_only_reads_leads_back_to_its_marking() {
 fn chain(places: u32) -> Pt {
     let mut initial = vec![0; places as usize];
     initial[0] = 1;
-    let arcs: Vec<[[(u32, u32); 1]; 2]> = (1..places).map(|to| [[(to - 1, 1)], [(to, 1)]]).collect();
+    let arcs: Vec<[[(u32, u32); 1]; 2]> =
+        (1..places).map(|to| [[(to - 1, 1)], [(to, 1)]]).collect();
     let moves: Vec<[&[(u32, u32)]; 3]> =
         arcs.iter().map(|[take, give]| [&take[..], &[], &give[..]]).collect();
     net(&initial, &moves)
@@ -92,11 +93,12 @@ fn the_only_token_of_nine_thousand_places_bounds_them_all() {
 fn of_thousands_of_transitions_none_fires_with_the_token_of_one_place_alone() {
     // Two tokens that move side by side, so that none is ever one place ahead of the other.
     let places: u32 = 2_000;
-    let side_by_side =
-        (1..places).map(|it| (vec![(it - 1, 1), (places + it - 1, 1)], vec![(it, 1), (places + it, 1)]));
+    let side_by_side = (1..places)
+        .map(|it| (vec![(it - 1, 1), (places + it - 1, 1)], vec![(it, 1), (places + it, 1)]));
     let ahead = (1..places).map(|it| (vec![(it - 1, 1), (places + it, 1)], vec![]));
     let all: Vec<(Vec<_>, Vec<_>)> = side_by_side.chain(ahead).collect();
-    let all: Vec<[&[(u32, u32)]; 3]> = all.iter().map(|(take, give)| [&take[..], &[], &give[..]]).collect();
+    let all: Vec<[&[(u32, u32)]; 3]> =
+        all.iter().map(|(take, give)| [&take[..], &[], &give[..]]).collect();
     let initial: Vec<u32> = (0..2 * places).map(|it| u32::from(it % places == 0)).collect();
     let space = super::space(&super::net(&initial, &all));
     assert_eq!((space.states, space.arcs, space.dead_markings), (2_000, 1_999, 1));
@@ -114,9 +116,13 @@ fn a_level_of_five_thousand_large_markings_is_counted_whole() {
     let mut initial = vec![0; 5_001];
     initial[0] = 1;
     let gives: Vec<[(u32, u32); 1]> = (1..=5_000).map(|it| [(it, 1)]).collect();
-    let moves: Vec<[&[(u32, u32)]; 3]> = gives.iter().map(|give| [&[(0, 1)][..], &[], &give[..]]).collect();
+    let moves: Vec<[&[(u32, u32)]; 3]> =
+        gives.iter().map(|give| [&[(0, 1)][..], &[], &give[..]]).collect();
     let star = space(&net(&initial, &moves));
-    assert_eq!((star.states, star.arcs, star.dead_markings, star.limit), (5_001, 5_000, 5_000, None));
+    assert_eq!(
+        (star.states, star.arcs, star.dead_markings, star.limit),
+        (5_001, 5_000, 5_000, None)
+    );
 }
 
 #[test]
@@ -124,7 +130,8 @@ fn a_marking_of_more_than_128_words_is_a_limit() {
     // Places of 32 bits and one more each, which nothing bounds: 256 of them are too many.
     let counters = |count: u32| {
         let gives: Vec<[(u32, u32); 1]> = (0..count).map(|it| [(it, 1 << 31)]).collect();
-        let moves: Vec<[&[(u32, u32)]; 3]> = gives.iter().map(|it| [&[][..], &[], &it[..]]).collect();
+        let moves: Vec<[&[(u32, u32)]; 3]> =
+            gives.iter().map(|it| [&[][..], &[], &it[..]]).collect();
         space(&net(&vec![0; count as usize], &moves)).limit
     };
     assert_eq!((counters(4), counters(256)), (Some(Limit::Tokens), Some(Limit::Words)));

@@ -65,8 +65,9 @@ fn a_chain_of_a_million_markings_has_a_million_components() {
 #[test]
 fn a_graph_that_passes_a_limit_is_that_limit() {
     let pt = Pt::from(&kanban(3).unwrap().view().net());
-    let with =
-        |limits: Limits| Graph::new(&pt, &limits, &|_| ()).map(|it| it.states()).map_err(|it| it.limit);
+    let with = |limits: Limits| {
+        Graph::new(&pt, &limits, &|_| ()).map(|it| it.states()).map_err(|it| it.limit)
+    };
     assert_eq!(with(Limits { states: 58_399, ..Limits::default() }), Err(Limit::States));
     assert_eq!(with(Limits { states: 58_400, ..Limits::default() }), Ok(58_400));
     assert_eq!(with(Limits { bytes: 1 << 20, ..Limits::default() }), Err(Limit::Bytes));

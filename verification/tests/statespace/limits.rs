@@ -3,7 +3,9 @@
 use super::{at_least, net, space};
 use cotama_core::net::TransitionId;
 use cotama_models::nets::families::{kanban, philosophers};
-use cotama_verification::explicit::{Goal, Graph, Growth, Limit, Limits, Reached, reach, statespace};
+use cotama_verification::explicit::{
+    Goal, Graph, Growth, Limit, Limits, Reached, reach, statespace,
+};
 use cotama_verification::property::{Atom, Formula};
 use cotama_verification::pt::Pt;
 use std::cell::Cell;
@@ -25,7 +27,10 @@ fn one_state_too_many_is_a_limit_and_counts_stay_those_of_whole_levels() {
         assert!(space.states <= states && space.limit == Some(Limit::States));
         assert_eq!(space.bounded, Some(true), "the structure bounds every place");
         let again = statespace(&pt, &limits, 4, &|_| ());
-        assert_eq!((again.states, again.arcs, again.depth), (space.states, space.arcs, space.depth));
+        assert_eq!(
+            (again.states, again.arcs, again.depth),
+            (space.states, space.arcs, space.depth)
+        );
     }
 }
 
@@ -38,12 +43,18 @@ fn memory_that_is_too_small_is_a_limit_and_never_passed() {
         let limits = Limits { bytes, ..Limits::default() };
         for jobs in [1, 3] {
             let space = statespace(&pt, &limits, jobs, &|_| ());
-            assert!(space.limit == Some(Limit::Bytes) || jobs > 1 && space.limit.is_none(), "{bytes} bytes");
+            assert!(
+                space.limit == Some(Limit::Bytes) || jobs > 1 && space.limit.is_none(),
+                "{bytes} bytes"
+            );
             assert!(space.peak <= bytes, "{} of {bytes} bytes", space.peak);
             assert!(space.states <= all.states);
         }
         let reached = reach(&pt, Goal::new(&goal).unwrap(), &limits, 1, &|_| ());
-        assert!(matches!(reached, Reached::Unknown { limit: Limit::Bytes, .. }), "{bytes}: {reached:?}");
+        assert!(
+            matches!(reached, Reached::Unknown { limit: Limit::Bytes, .. }),
+            "{bytes}: {reached:?}"
+        );
     }
     let enough = statespace(&pt, &Limits { bytes: all.peak, ..Limits::default() }, 1, &|_| ());
     assert_eq!(enough, all);
@@ -97,7 +108,8 @@ fn a_place_without_a_proved_bound_is_widened_until_its_tokens_fit() {
 
 #[test]
 fn a_place_beyond_its_first_guess_does_not_spill_into_its_neighbours() {
-    // Reads keep any sum of tokens from bounding the first place; the neighbours hold one token each.
+    // Reads keep any sum of tokens from bounding the first place; the neighbours hold one token
+    // each.
     let grow: [&[(u32, u32)]; 3] = [&[(3, 1)], &[(1, 1)], &[(0, 3)]];
     let shrink: [&[(u32, u32)]; 3] = [&[(0, 2)], &[(2, 1)], &[]];
     let swap: [&[(u32, u32)]; 3] = [&[(1, 1), (2, 1)], &[], &[(1, 1), (2, 1)]];
@@ -115,7 +127,10 @@ fn more_tokens_than_a_place_may_hold_are_a_limit() {
     let goal = at_least(1, 4);
     let reached = reach(&pt, Goal::new(&goal).unwrap(), &Limits::default(), 1, &|_| ());
     assert_eq!(reached, Reached::Unknown { limit: Limit::Tokens, states: 2 });
-    assert_eq!(Graph::new(&pt, &Limits::default(), &|_| ()).err().map(|it| it.limit), Some(Limit::Tokens));
+    assert_eq!(
+        Graph::new(&pt, &Limits::default(), &|_| ()).err().map(|it| it.limit),
+        Some(Limit::Tokens)
+    );
 }
 
 #[test]
@@ -130,7 +145,8 @@ fn a_net_that_grows_without_end_is_unbounded() {
 
 #[test]
 fn weights_whose_products_pass_64_bits_are_no_invariant() {
-    // Each of the transitions fires once; the sums of places that they leave as they are have weights of more than 64 bits.
+    // Each of the transitions fires once; the sums of places that they leave as they are have
+    // weights of more than 64 bits.
     let [a, b, c, d] = [4_294_967_291, 4_294_967_279, 4_294_967_231, 4_294_967_197];
     let pt = net(
         &[a, 0, 0, 0],

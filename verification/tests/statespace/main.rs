@@ -1,4 +1,5 @@
-//! The explicit engine: counts, shortest ways, graphs and liveness of textbook nets, families, random and public nets.
+//! The explicit engine: counts, shortest ways, graphs and liveness of textbook nets, families,
+//! random and public nets.
 
 mod families;
 mod graphs;
@@ -14,7 +15,8 @@ use cotama_verification::explicit::{Limits, StateSpace, statespace};
 use cotama_verification::property::{Atom, Formula, Linear};
 use cotama_verification::pt::Pt;
 
-/// A net of places, given by their tokens, and transitions that take, read and give `(place, weight)`.
+/// A net of places, given by their tokens, and transitions that take, read and give `(place,
+/// weight)`.
 fn net(initial: &[u32], transitions: &[[&[(u32, u32)]; 3]]) -> Pt {
     let mut net = OwnedNet::new("net", "");
     for (at, &tokens) in initial.iter().enumerate() {

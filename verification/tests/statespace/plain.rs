@@ -24,7 +24,8 @@ pub(crate) fn plain(pt: &Pt, most: usize) -> Plain {
     let mut level = 0..1;
     while !level.is_empty() {
         for from in level.clone() {
-            let enabled = (0..pt.transitions.len() as u32).filter(|it| pt.enabled(&markings[from], *it));
+            let enabled =
+                (0..pt.transitions.len() as u32).filter(|it| pt.enabled(&markings[from], *it));
             let mut out = Vec::new();
             for transition in enabled.collect::<Vec<_>>() {
                 let after = pt.fire(&markings[from], transition).unwrap();
@@ -55,7 +56,9 @@ impl Plain {
     /// The most tokens of each place.
     pub(crate) fn bounds(&self) -> Vec<u64> {
         let places = 0..self.markings[0].len();
-        places.map(|place| self.markings.iter().map(|it| u64::from(it[place])).max().unwrap()).collect()
+        places
+            .map(|place| self.markings.iter().map(|it| u64::from(it[place])).max().unwrap())
+            .collect()
     }
 
     /// For each marking those that can be reached from it, in a search from each.

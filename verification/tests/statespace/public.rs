@@ -1,5 +1,5 @@
-//! Nets of others, in the folder that the environment variable `COTAMA_MCC_DIR` names: files `*.pnml`, and what is known of
-//! them in `facts.tsv`.
+//! Nets of others, in the folder that the environment variable `COTAMA_MCC_DIR` names: files
+//! `*.pnml`, and what is known of them in `facts.tsv`.
 
 use cotama_verification::explicit::{Graph, Limit, Limits, statespace};
 use cotama_verification::pnml;
@@ -66,7 +66,11 @@ fn check(range: std::ops::Range<u64>, jobs: usize) -> usize {
         assert_eq!(dead, fact["quasi_live"], "{model}");
         drop(space);
         let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-        assert_eq!([graph.states() as u64, graph.arcs() as u64], [counts[0].1, counts[1].1], "{model}");
+        assert_eq!(
+            [graph.states() as u64, graph.arcs() as u64],
+            [counts[0].1, counts[1].1],
+            "{model}"
+        );
         let liveness = graph.liveness();
         let live = match (liveness.is_live(), fact["live"].as_str()) {
             (true, _) => "yes".to_owned(),

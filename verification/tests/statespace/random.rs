@@ -62,7 +62,8 @@ fn random(seed: u64) -> Pt {
             [take, read, give]
         })
         .collect();
-    let arcs: Vec<[&[(u32, u32)]; 3]> = arcs.iter().map(|it| it.each_ref().map(Vec::as_slice)).collect();
+    let arcs: Vec<[&[(u32, u32)]; 3]> =
+        arcs.iter().map(|it| it.each_ref().map(Vec::as_slice)).collect();
     net(&initial, &arcs)
 }
 
@@ -76,7 +77,11 @@ fn counts_are_those_of_a_plain_search_on_one_and_on_three_threads() {
         let space = statespace(&pt, &limits, 1, &|_| ());
         assert_eq!(statespace(&pt, &limits, 3, &|_| ()).arcs, space.arcs, "seed {seed}");
         assert_eq!(space.states, expected.markings.len() as u64, "seed {seed}");
-        assert_eq!(space.arcs, expected.arcs.iter().map(Vec::len).sum::<usize>() as u64, "seed {seed}");
+        assert_eq!(
+            space.arcs,
+            expected.arcs.iter().map(Vec::len).sum::<usize>() as u64,
+            "seed {seed}"
+        );
         assert_eq!(space.bounds, expected.bounds(), "seed {seed}");
         assert_eq!(space.max_place, expected.bounds().into_iter().max().unwrap(), "seed {seed}");
         let sum = |it: &Vec<u32>| it.iter().copied().map(u64::from).sum::<u64>();
@@ -99,7 +104,10 @@ fn counts_are_those_of_a_plain_search_on_one_and_on_three_threads() {
                 let before = fired(&pt, &growth.first);
                 let all: Vec<_> = growth.first.iter().chain(&growth.repeated).copied().collect();
                 let after = fired(&pt, &all);
-                assert!(before.iter().zip(&after).all(|(a, b)| a <= b) && before != after, "seed {seed}");
+                assert!(
+                    before.iter().zip(&after).all(|(a, b)| a <= b) && before != after,
+                    "seed {seed}"
+                );
             }
             None if expected.is_complete => assert_eq!(space.bounded, Some(true), "seed {seed}"),
             None => assert_eq!(space.limit, Some(Limit::States), "seed {seed}"),
@@ -119,19 +127,25 @@ fn ways_are_shortest_and_the_same_on_three_threads() {
             0 => Formula::Atom(Atom::Deadlock),
             1 if !pt.transitions.is_empty() => {
                 let transition = draw.below(pt.transitions.len() as u32);
-                Formula::Not(Box::new(Formula::Atom(Atom::Fireable(vec![TransitionId(transition)]))))
+                Formula::Not(Box::new(Formula::Atom(Atom::Fireable(vec![TransitionId(
+                    transition,
+                )]))))
             }
             _ => {
                 // A marking of the last levels, at least: far away.
                 let marking = &expected.markings[expected.markings.len() - 1];
                 let part = marking.iter().enumerate().take(4);
-                Formula::And(part.map(|(place, tokens)| at_least(place as u32, (*tokens).into())).collect())
+                Formula::And(
+                    part.map(|(place, tokens)| at_least(place as u32, (*tokens).into())).collect(),
+                )
             }
         };
         let holds = |at: &usize| match &goal {
             Formula::Atom(_) => expected.arcs[*at].is_empty(),
             Formula::Not(inner) => match &**inner {
-                Formula::Atom(Atom::Fireable(ids)) => expected.arcs[*at].iter().all(|it| it.0 != ids[0].0),
+                Formula::Atom(Atom::Fireable(ids)) => {
+                    expected.arcs[*at].iter().all(|it| it.0 != ids[0].0)
+                }
                 _ => unreachable!(),
             },
             Formula::And(all) => all.iter().all(|it| match it {
@@ -145,7 +159,11 @@ fn ways_are_shortest_and_the_same_on_three_threads() {
         let first = (0..expected.markings.len()).find(holds);
         let limits = Limits { states: MOST as u64, ..Limits::default() };
         let reached = reach(&pt, Goal::new(&goal).unwrap(), &limits, 1, &|_| ());
-        assert_eq!(reach(&pt, Goal::new(&goal).unwrap(), &limits, 3, &|_| ()), reached, "seed {seed}");
+        assert_eq!(
+            reach(&pt, Goal::new(&goal).unwrap(), &limits, 3, &|_| ()),
+            reached,
+            "seed {seed}"
+        );
         match (&reached, first) {
             (Reached::Trace { transitions, .. }, Some(first)) => {
                 found += 1;
@@ -156,10 +174,17 @@ fn ways_are_shortest_and_the_same_on_three_threads() {
             }
             (Reached::Never { states }, None) => {
                 never += 1;
-                assert!(expected.is_complete && *states == expected.markings.len() as u64, "seed {seed}");
+                assert!(
+                    expected.is_complete && *states == expected.markings.len() as u64,
+                    "seed {seed}"
+                );
             }
             (Reached::Unknown { limit, states }, None) => {
-                assert_eq!((*limit, *states), (Limit::States, expected.markings.len() as u64), "seed {seed}");
+                assert_eq!(
+                    (*limit, *states),
+                    (Limit::States, expected.markings.len() as u64),
+                    "seed {seed}"
+                );
             }
             other => panic!("seed {seed}: {other:?}"),
         }
@@ -198,7 +223,10 @@ fn graphs_are_those_of_a_plain_search_with_the_same_numbers() {
                 for (b, to) in reachable.iter().enumerate() {
                     let same = components.of[a] == components.of[b];
                     assert_eq!(same, from[b] && to[a], "seed {seed}: {a} and {b}");
-                    assert!(!from[b] || components.of[b] <= components.of[a], "seed {seed}: {a} to {b}");
+                    assert!(
+                        !from[b] || components.of[b] <= components.of[a],
+                        "seed {seed}: {a} to {b}"
+                    );
                 }
             }
             let liveness = graph.liveness();
@@ -206,7 +234,8 @@ fn graphs_are_those_of_a_plain_search_with_the_same_numbers() {
             let all = || 0..expected.markings.len();
             let mut sorted = [Vec::new(), Vec::new(), Vec::new()];
             for transition in 0..pt.transitions.len() as u32 {
-                let again = |from: usize| all().any(|to| reachable[from][to] && fires(transition, to));
+                let again =
+                    |from: usize| all().any(|to| reachable[from][to] && fires(transition, to));
                 let kind = if all().all(again) { 0 } else { 1 + usize::from(!again(0)) };
                 sorted[kind].push(TransitionId(transition));
             }

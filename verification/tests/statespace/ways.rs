@@ -21,7 +21,8 @@ fn the_initial_marking_is_reached_by_nothing() {
 fn philosophers_starve_after_each_took_one_fork() {
     for n in 2..=9 {
         let pt = Pt::from(&philosophers(n).unwrap().view().net());
-        let Reached::Trace { transitions, .. } = search(&pt, &Formula::Atom(Atom::Deadlock), 1) else {
+        let Reached::Trace { transitions, .. } = search(&pt, &Formula::Atom(Atom::Deadlock), 1)
+        else {
             panic!("no deadlock of {n}")
         };
         assert_eq!(transitions.len(), n as usize);
@@ -62,7 +63,9 @@ fn of_two_shortest_ways_the_one_with_the_first_last_transition_is_told() {
 fn ways_are_the_same_on_any_number_of_threads() {
     let pt = Pt::from(&kanban(4).unwrap().view().net());
     let places = 0..pt.places.len() as u32;
-    for goal in places.step_by(5).map(|it| Formula::And(vec![at_least(it, 4), at_least((it + 3) % 16, 2)])) {
+    for goal in
+        places.step_by(5).map(|it| Formula::And(vec![at_least(it, 4), at_least((it + 3) % 16, 2)]))
+    {
         let one = search(&pt, &goal, 1);
         assert!((2..=5).all(|jobs| search(&pt, &goal, jobs) == one), "{goal:?}");
         if let Reached::Trace { transitions, .. } = &one {
@@ -73,5 +76,7 @@ fn ways_are_the_same_on_any_number_of_threads() {
 
 #[test]
 fn a_temporal_formula_is_no_goal() {
-    assert!(Goal::new(&Formula::Exists(Box::new(Formula::Finally(Box::new(at_least(0, 1)))))).is_none());
+    assert!(
+        Goal::new(&Formula::Exists(Box::new(Formula::Finally(Box::new(at_least(0, 1)))))).is_none()
+    );
 }

@@ -10,8 +10,10 @@ use std::path::{Path, PathBuf};
 fn folder() -> Option<PathBuf> {
     let folder = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from);
     if folder.is_none() {
-        let _ =
-            writeln!(std::io::stderr(), "SKIPPED: set COTAMA_MCC_DIR to the folder of the published nets");
+        let _ = writeln!(
+            std::io::stderr(),
+            "SKIPPED: set COTAMA_MCC_DIR to the folder of the published nets"
+        );
     }
     folder
 }
@@ -26,7 +28,8 @@ fn facts(folder: &Path, columns: &[&str]) -> Vec<Vec<String>> {
     let text = std::fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut rows = text.lines().map(|it| it.split('\t').collect::<Vec<_>>());
     let names = rows.next().unwrap();
-    let at: Vec<_> = columns.iter().map(|it| names.iter().position(|name| name == it).unwrap()).collect();
+    let at: Vec<_> =
+        columns.iter().map(|it| names.iter().position(|name| name == it).unwrap()).collect();
     rows.map(|row| at.iter().map(|&it| row[it].to_owned()).collect()).collect()
 }
 

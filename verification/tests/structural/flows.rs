@@ -46,12 +46,15 @@ fn dense(flow: &[(u32, i64)], length: usize) -> Vec<i128> {
 
 fn is_flow(rows: &[Vec<i128>], flow: &[i128]) -> bool {
     let width = rows.first().map_or(0, Vec::len);
-    (0..width)
-        .all(|column| rows.iter().zip(flow).map(|(row, weight)| row[column] * weight).sum::<i128>() == 0)
+    (0..width).all(|column| {
+        rows.iter().zip(flow).map(|(row, weight)| row[column] * weight).sum::<i128>() == 0
+    })
 }
 
 fn transposed(rows: &[Vec<i128>]) -> Vec<Vec<i128>> {
-    (0..rows.first().map_or(0, Vec::len)).map(|at| rows.iter().map(|row| row[at]).collect()).collect()
+    (0..rows.first().map_or(0, Vec::len))
+        .map(|at| rows.iter().map(|row| row[at]).collect())
+        .collect()
 }
 
 proptest! {

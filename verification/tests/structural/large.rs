@@ -8,7 +8,8 @@ use cotama_verification::structural::{Answer, Limits, Structure};
 fn a_kanban_system_of_2000_cards_is_bounded_and_never_stops() {
     let pt = kanban(2_000);
     let mut structure = Structure::new(&pt, Limits::default());
-    let bounds: Vec<_> = structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
+    let bounds: Vec<_> =
+        structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     assert_eq!(bounds, [Some(2_000); 16]);
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     assert!(proof.holds(&pt, structure.dead()));

@@ -1,5 +1,5 @@
-//! The engine that looks at the structure of nets: textbook nets with known results, random nets against a plain search,
-//! large nets, and the published nets of the Model Checking Contest.
+//! The engine that looks at the structure of nets: textbook nets with known results, random nets
+//! against a plain search, large nets, and the published nets of the Model Checking Contest.
 
 mod contest;
 mod flows;

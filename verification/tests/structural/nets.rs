@@ -33,8 +33,8 @@ pub(crate) fn net(initial: &[u32], transitions: &[(Arcs<'_>, Arcs<'_>, Arcs<'_>)
     Pt::from(&net.view().net())
 }
 
-/// Philosophers who take one fork after the other. If they keep an order, the last one is the only one to begin on the
-/// other side. Places of each: thinks, fork, has the first fork, eats.
+/// Philosophers who take one fork after the other. If they keep an order, the last one is the only
+/// one to begin on the other side. Places of each: thinks, fork, has the first fork, eats.
 pub(crate) fn philosophers(count: usize, ordered: bool) -> Pt {
     let mut net = OwnedNet::new("philosophers", "");
     for at in 0..count {
@@ -46,23 +46,26 @@ pub(crate) fn philosophers(count: usize, ordered: bool) -> Pt {
     for at in 0..count {
         let [thinks, mine, waits, eats] = [0, 1, 2, 3].map(|which| place(at, which));
         let theirs = place(at + 1, 1);
-        let (first, second) = if ordered && at + 1 == count { (theirs, mine) } else { (mine, theirs) };
+        let (first, second) =
+            if ordered && at + 1 == count { (theirs, mine) } else { (mine, theirs) };
         let named = |what: &str| OwnedTransition::new(&format!("{what} {at}"));
         net.transition(named("begin").take(thinks, 1).take(first, 1).give(waits, 1)).unwrap();
         net.transition(named("eat").take(waits, 1).take(second, 1).give(eats, 1)).unwrap();
-        net.transition(named("end").take(eats, 1).give(thinks, 1).give(mine, 1).give(theirs, 1)).unwrap();
+        net.transition(named("end").take(eats, 1).give(thinks, 1).give(mine, 1).give(theirs, 1))
+            .unwrap();
     }
     Pt::from(&net.view().net())
 }
 
-/// The Kanban system of four cells with `cards` cards each (Ciardo and Tilgner). Places of each cell: works, broken,
-/// done, cards.
+/// The Kanban system of four cells with `cards` cards each (Ciardo and Tilgner). Places of each
+/// cell: works, broken, done, cards.
 pub(crate) fn kanban(cards: u32) -> Pt {
     let mut initial = [0; 16];
     for cell in 0..4 {
         initial[4 * cell + 3] = cards;
     }
-    let [works, broken, done, free] = [0, 1, 2, 3].map(|which| move |cell: usize| (4 * cell + which, 1));
+    let [works, broken, done, free] =
+        [0, 1, 2, 3].map(|which| move |cell: usize| (4 * cell + which, 1));
     let mut arcs: Vec<(Vec<_>, Vec<_>)> = vec![
         (vec![free(0)], vec![works(0)]),
         (vec![done(0), free(1), free(2)], vec![free(0), works(1), works(2)]),

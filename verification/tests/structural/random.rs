@@ -19,8 +19,12 @@ fn with_goal() -> impl Strategy<Value = (Pt, Vec<Linear>)> {
     let goal = vec((-4..=6_i64, vec(-2..=2_i64, 5)), 1..=3);
     (any_net(), goal).prop_map(|(pt, goal)| {
         let linear = |(constant, weights): (i64, Vec<i64>)| {
-            let weights = weights.into_iter().take(pt.places.len()).enumerate().filter(|it| it.1 != 0);
-            Linear { constant, weights: weights.map(|(at, weight)| (PlaceId(at as u32), weight)).collect() }
+            let weights =
+                weights.into_iter().take(pt.places.len()).enumerate().filter(|it| it.1 != 0);
+            Linear {
+                constant,
+                weights: weights.map(|(at, weight)| (PlaceId(at as u32), weight)).collect(),
+            }
         };
         let goal = goal.into_iter().map(linear).collect();
         (pt, goal)

@@ -1,4 +1,5 @@
-//! Siphons and traps of random nets, against their definitions and against what markings are reachable.
+//! Siphons and traps of random nets, against their definitions and against what markings are
+//! reachable.
 
 use super::nets::{any_net, enabled, explore, net};
 use cotama_core::net::PlaceId;
@@ -37,7 +38,8 @@ fn is_trap(pt: &Pt, set: &[u32]) -> bool {
 }
 
 fn subsets(of: &[u32]) -> Vec<Vec<u32>> {
-    let pick = |code: usize| of.iter().enumerate().filter(move |it| code >> it.0 & 1 == 1).map(|it| *it.1);
+    let pick =
+        |code: usize| of.iter().enumerate().filter(move |it| code >> it.0 & 1 == 1).map(|it| *it.1);
     (0..1 << of.len()).map(|code| pick(code).collect()).collect()
 }
 
@@ -119,7 +121,8 @@ proptest! {
 
 #[test]
 fn a_trap_without_tokens_keeps_no_siphon_marked() {
-    // From the marked place to the other one and back; what comes back leaves a token there, so that the other one is a trap.
+    // From the marked place to the other one and back; what comes back leaves a token there, so
+    // that the other one is a trap.
     let around: [(super::nets::Arcs<'_>, super::nets::Arcs<'_>, super::nets::Arcs<'_>); 2] =
         [(&[(0, 1)], &[], &[(1, 1)]), (&[], &[(1, 1)], &[(0, 1)])];
     let found = minimal_siphons(&net(&[1, 0], &around), 100, 1_000_000);

@@ -33,7 +33,9 @@ fn philosophers_who_keep_an_order_never_starve() {
     for count in 2..8 {
         let pt = philosophers(count, true);
         let mut structure = Structure::new(&pt, Limits::default());
-        let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved for {count}") };
+        let Answer::Impossible(proof) = structure.deadlock() else {
+            panic!("not proved for {count}")
+        };
         assert!(proof.holds(&pt, structure.dead()));
         let siphons = minimal_siphons(&pt, 1_000, 10_000_000);
         assert!(siphons.complete);
@@ -81,7 +83,8 @@ fn a_proof_with_a_wrong_number_is_refused() {
     assert!(bound.holds(&pt, structure.dead()));
     assert!(!Bound { at_most: 1, ..bound.clone() }.holds(&pt, structure.dead()));
     let Refutation::Sum(sum) = bound.refutation.clone() else { panic!("not a sum") };
-    let stronger = LinearInvariant { constant: sum.invariant.constant - 1, ..sum.invariant.clone() };
+    let stronger =
+        LinearInvariant { constant: sum.invariant.constant - 1, ..sum.invariant.clone() };
     let forged = Refutation::Sum(Sum { invariant: stronger, ..sum });
     assert!(!Bound { refutation: forged, ..bound }.holds(&pt, structure.dead()));
 }
@@ -133,7 +136,8 @@ fn what_never_gets_its_tokens_is_dead() {
     structure.find_dead_transitions();
     assert_eq!(structure.dead().transitions, [0, 1, 3, 4].map(TransitionId));
     assert!(structure.dead().holds(&pt));
-    let bounds: Vec<_> = structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
+    let bounds: Vec<_> =
+        structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     assert_eq!(bounds, [0, 0, 1, 1, 0].map(Some));
 }
 
@@ -141,7 +145,8 @@ fn what_never_gets_its_tokens_is_dead() {
 fn a_place_that_grows_without_limit_has_no_bound() {
     let pt = net(&[1, 0], &[(&[], &[(0, 1)], &[(1, 1)])]);
     let mut structure = Structure::new(&pt, Limits::default());
-    let bounds: Vec<_> = structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
+    let bounds: Vec<_> =
+        structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     assert_eq!(bounds, [Some(1), None]);
     let Answer::Reachable(trace) = structure.one_safe() else { panic!("not found") };
     assert_eq!(replay(&pt, &trace), [1, 2]);
@@ -151,7 +156,10 @@ fn a_place_that_grows_without_limit_has_no_bound() {
 
 #[test]
 fn a_net_without_transitions_is_dead_and_one_without_places_is_not() {
-    assert_eq!(Structure::new(&net(&[1], &[]), Limits::default()).deadlock(), Answer::Reachable(Vec::new()));
+    assert_eq!(
+        Structure::new(&net(&[1], &[]), Limits::default()).deadlock(),
+        Answer::Reachable(Vec::new())
+    );
     let free = net(&[], &[(&[], &[], &[])]);
     let mut structure = Structure::new(&free, Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
@@ -161,8 +169,9 @@ fn a_net_without_transitions_is_dead_and_one_without_places_is_not() {
 #[test]
 fn numbers_that_pass_63_bits_are_no_answer() {
     let most = u32::MAX;
-    let arcs: Vec<[(usize, u32); 1]> =
-        (0..8).flat_map(|at| [[(at, most - at as u32)], [(at + 1, most - 7 * at as u32)]]).collect();
+    let arcs: Vec<[(usize, u32); 1]> = (0..8)
+        .flat_map(|at| [[(at, most - at as u32)], [(at + 1, most - 7 * at as u32)]])
+        .collect();
     let transitions: Vec<_> = arcs.chunks(2).map(|it| (&it[0][..], &[][..], &it[1][..])).collect();
     let pt = net(&[most; 9], &transitions);
     assert_eq!(place_invariants(&pt), None);
@@ -176,14 +185,18 @@ fn numbers_that_pass_63_bits_are_no_answer() {
 fn classes_are_told_apart() {
     let ring = class(&net(&[1, 0], &[(&[(0, 1)], &[], &[(1, 1)]), (&[(1, 1)], &[], &[(0, 1)])]));
     assert!(ring.state_machine && ring.marked_graph && ring.free_choice);
-    let fork =
-        class(&net(&[1, 0, 0], &[(&[(0, 1)], &[], &[(1, 1), (2, 1)]), (&[(1, 1), (2, 1)], &[], &[(0, 1)])]));
+    let fork = class(&net(
+        &[1, 0, 0],
+        &[(&[(0, 1)], &[], &[(1, 1), (2, 1)]), (&[(1, 1), (2, 1)], &[], &[(0, 1)])],
+    ));
     assert!(!fork.state_machine && fork.marked_graph);
-    let both = class(&net(&[1, 1], &[(&[(0, 1), (1, 1)], &[], &[]), (&[(0, 1), (1, 1)], &[], &[])]));
+    let both =
+        class(&net(&[1, 1], &[(&[(0, 1), (1, 1)], &[], &[]), (&[(0, 1), (1, 1)], &[], &[])]));
     assert!(!both.free_choice && both.extended_free_choice);
     let one_more = class(&net(&[1, 1], &[(&[(0, 1), (1, 1)], &[], &[]), (&[(0, 1)], &[], &[])]));
     assert!(!one_more.extended_free_choice && one_more.asymmetric_choice);
-    let crossed = [&[(0, 1), (1, 1)][..], &[(0, 1)], &[(1, 1)]].map(|take| (take, &[][..], &[][..]));
+    let crossed =
+        [&[(0, 1), (1, 1)][..], &[(0, 1)], &[(1, 1)]].map(|take| (take, &[][..], &[][..]));
     let crossed = class(&net(&[1, 1], &crossed));
     assert!(crossed.ordinary && !crossed.asymmetric_choice);
     assert!(!class(&net(&[1], &[(&[(0, 2)], &[], &[])])).ordinary);
@@ -191,7 +204,10 @@ fn classes_are_told_apart() {
 
 #[test]
 fn a_free_choice_net_with_a_siphon_that_runs_dry_is_not_live() {
-    let pt = net(&[1, 0], &[(&[(0, 1)], &[], &[(1, 1)]), (&[(1, 1)], &[], &[(0, 1)]), (&[(1, 1)], &[], &[])]);
+    let pt = net(
+        &[1, 0],
+        &[(&[(0, 1)], &[], &[(1, 1)]), (&[(1, 1)], &[], &[(0, 1)]), (&[(1, 1)], &[], &[])],
+    );
     let siphons = minimal_siphons(&pt, 10, 1_000);
     assert_eq!(siphons.siphons.len(), 1);
     assert_eq!(siphons.controlled(), Some(false));
@@ -215,12 +231,16 @@ fn some_siphons_alone_prove_nothing() {
     let some = minimal_siphons(&ordered, 1, 10_000_000);
     assert!(!some.complete && some.siphons.iter().all(|it| it.trap.is_some()));
     assert_eq!((some.controlled(), commoner(&ordered, &some).deadlock_free), (None, None));
-    assert_eq!(minimal_siphons(&philosophers(3, false), 1_000, 10_000_000).controlled(), Some(false));
+    assert_eq!(
+        minimal_siphons(&philosophers(3, false), 1_000, 10_000_000).controlled(),
+        Some(false)
+    );
 }
 
 #[test]
 fn a_forged_proof_is_refused() {
-    // A source adds one token at a time: no marking of its place is out of reach, whatever is written down.
+    // A source adds one token at a time: no marking of its place is out of reach, whatever is
+    // written down.
     let pt = net(&[0], &[(&[], &[], &[(0, 1)])]);
     let refuses = |goal: Linear, sum: Sum| {
         !unreachable(&pt, &DeadTransitions::default(), &[goal], &Refutation::Sum(sum))

@@ -25,7 +25,8 @@ fn rows(file: PathBuf) -> Vec<Vec<String>> {
 }
 
 fn net(file: PathBuf) -> (Pt, pnml::Imported) {
-    let imported = read_within("net", &std::fs::read(file).unwrap(), pnml::Limits::default()).unwrap();
+    let imported =
+        read_within("net", &std::fs::read(file).unwrap(), pnml::Limits::default()).unwrap();
     (Pt::from(&imported.net.view().net()), imported)
 }
 
@@ -94,12 +95,16 @@ fn reachability_verdicts_of_public_files_are_those_of_the_table() {
 #[test]
 fn two_processes_are_never_in_their_critical_section_at_once() {
     let Some(folder) = folder() else { return };
-    for (name, prefix, places) in [("LamportFastMutEx-PT-3", "P-CS_", 4), ("Peterson-PT-3", "cs_", 4)] {
+    for (name, prefix, places) in
+        [("LamportFastMutEx-PT-3", "P-CS_", 4), ("Peterson-PT-3", "cs_", 4)]
+    {
         let (pt, _) = net(folder.join(name.to_owned() + ".pnml"));
-        let critical = (0..pt.places.len() as u32).filter(|it| pt.places[*it as usize].starts_with(prefix));
+        let critical =
+            (0..pt.places.len() as u32).filter(|it| pt.places[*it as usize].starts_with(prefix));
         let weights: Vec<_> = critical.map(|it| (PlaceId(it), -1)).collect();
         assert_eq!(weights.len(), places);
-        let inside = |constant| Formula::Atom(Atom::AtMost(Linear { constant, weights: weights.clone() }));
+        let inside =
+            |constant| Formula::Atom(Atom::AtMost(Linear { constant, weights: weights.clone() }));
         let started = std::time::Instant::now();
         let one = reach_reduced(&pt, &inside(1), &Limits::default(), &|_| ()).unwrap();
         assert!(matches!(one, Reached::Trace { .. }), "{name}: {one:?}");
@@ -107,8 +112,10 @@ fn two_processes_are_never_in_their_critical_section_at_once() {
             eprintln!("{name} one {} {:?}", one.states(), started.elapsed());
         }
         // A release build takes seconds for all of Peterson's markings, a debug build minutes.
-        let limits =
-            Limits { states: if cfg!(debug_assertions) { 30_000 } else { u64::MAX }, ..Limits::default() };
+        let limits = Limits {
+            states: if cfg!(debug_assertions) { 30_000 } else { u64::MAX },
+            ..Limits::default()
+        };
         let two = reach_reduced(&pt, &inside(2), &limits, &|_| ()).unwrap();
         if std::env::var_os("TIMES").is_some() {
             eprintln!("{name} two {} {:?}", two.states(), started.elapsed());

@@ -13,7 +13,8 @@ use cotama_verification::stubborn::{deadlock, reach_reduced};
 
 const DEADLOCK: Formula = Formula::Atom(Atom::Deadlock);
 
-/// A net with more places and concurrency than those of the formulas: up to 7 places, tokens and weights up to 3.
+/// A net with more places and concurrency than those of the formulas: up to 7 places, tokens and
+/// weights up to 3.
 fn larger(random: &mut Random) -> Pt {
     let mut net = OwnedNet::new("larger", "");
     let places: Vec<_> = (0..3 + random.below(5))
@@ -83,7 +84,8 @@ fn reachable_markings_are_those_of_the_oracle() {
             let expected = space.satisfying(&goal).contains(&true);
             let reached = reach_reduced(&pt, &goal, &Limits::default(), &|_| ()).unwrap();
             let less = compared(&pt, &goal, &reached, space.markings.len(), expected);
-            (smaller, never) = if expected { (smaller, never) } else { (smaller + less, never + 1) };
+            (smaller, never) =
+                if expected { (smaller, never) } else { (smaller + less, never + 1) };
         }
     }
     assert!(smaller > 1_000 && never > 2_000, "{smaller} {never}");
@@ -137,7 +139,9 @@ fn a_philosopher_eats_whatever_the_others_do() {
 #[test]
 fn a_kanban_system_never_stops() {
     let pt = Pt::from(&kanban(2).unwrap().view().net());
-    let Reached::Never { states } = deadlock(&pt, &Limits::default(), &|_| ()) else { panic!("a deadlock") };
+    let Reached::Never { states } = deadlock(&pt, &Limits::default(), &|_| ()) else {
+        panic!("a deadlock")
+    };
     assert!(states < 4_600, "{states}");
 }
 
@@ -163,9 +167,13 @@ fn fountain() -> Pt {
 
 #[test]
 fn an_unbounded_place_is_followed_beyond_the_first_guess_of_its_width() {
-    let full = Formula::Atom(Atom::AtMost(Linear { constant: 1_000, weights: vec![(PlaceId(0), -1)] }));
+    let full =
+        Formula::Atom(Atom::AtMost(Linear { constant: 1_000, weights: vec![(PlaceId(0), -1)] }));
     let reached = reach_reduced(&fountain(), &full, &Limits::default(), &|_| ()).unwrap();
-    assert_eq!(reached, Reached::Trace { transitions: vec![TransitionId(0); 1_000], states: 1_001 });
+    assert_eq!(
+        reached,
+        Reached::Trace { transitions: vec![TransitionId(0); 1_000], states: 1_001 }
+    );
 }
 
 #[test]
@@ -174,7 +182,8 @@ fn limits_are_answers() {
     let unknown = Reached::Unknown { limit: Limit::States, states: 50 };
     assert_eq!(deadlock(&fountain(), &limits, &|_| ()), unknown);
     let limits = Limits { bytes: 100_000, ..Limits::default() };
-    let Reached::Unknown { limit: Limit::Bytes, states } = deadlock(&fountain(), &limits, &|_| ()) else {
+    let Reached::Unknown { limit: Limit::Bytes, states } = deadlock(&fountain(), &limits, &|_| ())
+    else {
         panic!("no limit")
     };
     assert!(states > 100);

@@ -58,17 +58,23 @@ fn labels_and_ranks_are_right_in_every_marking() {
         let form = Ctl::new(&said).unwrap();
         let found = ctl(&graph, &form, &Fairness::default());
         let states = 0..graph.states();
-        let number =
-            |at: usize| space.markings.iter().position(|it| *it == graph.marking(at as u32)).unwrap();
+        let number = |at: usize| {
+            space.markings.iter().position(|it| *it == graph.marking(at as u32)).unwrap()
+        };
         let expected = space.satisfying(&said);
         if let Some(label) = &found.labels[form.root() as usize] {
-            assert!(states.clone().all(|it| label[it] == expected[number(it)]), "{}", said.display(&pt));
+            assert!(
+                states.clone().all(|it| label[it] == expected[number(it)]),
+                "{}",
+                said.display(&pt)
+            );
         }
         for (node, ranks) in form.nodes().iter().zip(&found.ranks) {
             let (CtlNode::Until(a, b), Some(ranks)) = (node, ranks) else { continue };
             let [a, b] = [a, b].map(|it| found.labels[*it as usize].as_ref().unwrap());
             for state in states.clone() {
-                let next = graph.successors(state as u32).iter().map(|it| ranks[*it as usize]).min();
+                let next =
+                    graph.successors(state as u32).iter().map(|it| ranks[*it as usize]).min();
                 let expected = match next {
                     _ if b[state] => 0,
                     Some(rank) if a[state] && rank < u32::MAX => rank + 1,

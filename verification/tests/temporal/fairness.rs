@@ -47,12 +47,14 @@ impl Small {
     fn is_fair(&self, set: u32) -> bool {
         let members = || self.states().filter(|it| Self::is_in(set, *it));
         let inside = |transition: Option<TransitionId>| {
-            let is =
-                |it: &(TransitionId, usize)| Self::is_in(set, it.1) && transition.is_none_or(|id| it.0 == id);
+            let is = |it: &(TransitionId, usize)| {
+                Self::is_in(set, it.1) && transition.is_none_or(|id| it.0 == id)
+            };
             members().any(|state| self.arcs[state].iter().any(is))
         };
         let is_dead = set.is_power_of_two() && members().all(|it| self.arcs[it].is_empty());
-        let is_connected = inside(None) && members().all(|it| self.reaching(set, 1 << it) & set == set);
+        let is_connected =
+            inside(None) && members().all(|it| self.reaching(set, 1 << it) & set == set);
         (is_dead || is_connected)
             && self.recurring.iter().all(|it| it & set != 0)
             && self
@@ -66,7 +68,8 @@ impl Small {
     }
 
     fn always(&self, region: u32) -> u32 {
-        let sets = (1..1_u32 << self.arcs.len()).filter(|set| set & !region == 0 && self.is_fair(*set));
+        let sets =
+            (1..1_u32 << self.arcs.len()).filter(|set| set & !region == 0 && self.is_fair(*set));
         sets.fold(0, |all, set| all | self.reaching(region, set))
     }
 
@@ -83,7 +86,8 @@ impl Small {
                 CtlNode::Or(parts) => parts.iter().fold(0, |label, it| label | of(it)),
                 CtlNode::Next(a) => {
                     let goal = of(a) & fair;
-                    let some = |state: &usize| self.arcs[*state].iter().any(|it| Self::is_in(goal, it.1));
+                    let some =
+                        |state: &usize| self.arcs[*state].iter().any(|it| Self::is_in(goal, it.1));
                     self.states().filter(some).fold(0, |label, it| label | 1 << it)
                 }
                 CtlNode::Until(a, b) => self.reaching(of(a), of(b) & fair),
@@ -97,7 +101,9 @@ impl Small {
 
 /// Fires a run; the states of its loop, and the transitions fired there.
 fn looped(small: &Small, run: &Run) -> (Vec<usize>, Vec<TransitionId>) {
-    let fire = |state: usize, it: &TransitionId| small.arcs[state].iter().find(|arc| arc.0 == *it).unwrap().1;
+    let fire = |state: usize, it: &TransitionId| {
+        small.arcs[state].iter().find(|arc| arc.0 == *it).unwrap().1
+    };
     let first = run.stem.iter().fold(0, fire);
     match &run.rest {
         Rest::Any => panic!("a fair run goes on in a fair way"),
@@ -133,7 +139,8 @@ fn verdicts_on_fair_runs_are_those_of_trying_all_sets() {
             all.filter(|_| random.below(4) < most).collect()
         };
         let (weak, strong) = (some(1), some(2));
-        let recurring: Vec<Formula> = (0..random.below(2)).map(|_| state(&mut random, &pt, 1)).collect();
+        let recurring: Vec<Formula> =
+            (0..random.below(2)).map(|_| state(&mut random, &pt, 1)).collect();
         let atoms = |formula: &Formula| {
             let holds = graph.satisfying(Goal::new(formula).unwrap());
             holds.iter().enumerate().fold(0_u32, |set, (at, it)| set | u32::from(*it) << at)
@@ -151,7 +158,8 @@ fn verdicts_on_fair_runs_are_those_of_trying_all_sets() {
         let recurring = recurring.iter().map(|it| Goal::new(it).unwrap()).collect();
         let form = Ctl::new(&said).unwrap();
         let found = ctl(&graph, &form, &Fairness { recurring, weak, strong });
-        let text = || format!("{} on {pt:?}, {:?} {:?}", said.display(&pt), small.weak, small.strong);
+        let text =
+            || format!("{} on {pt:?}, {:?} {:?}", said.display(&pt), small.weak, small.strong);
         let expected = small.labels(&form, &atoms);
         assert_eq!(found.verdict, expected[form.root() as usize] & 1 == 1, "{}", text());
         for (label, expected) in found.labels.iter().zip(&expected) {
@@ -167,7 +175,11 @@ fn verdicts_on_fair_runs_are_those_of_trying_all_sets() {
         shown += 1;
         let (states, fired) = looped(&small, &witness.run);
         let some = |holds: &dyn Fn(usize) -> bool| states.iter().any(|it| holds(*it));
-        assert!(small.recurring.iter().all(|it| some(&|state| Small::is_in(*it, state))), "{}", text());
+        assert!(
+            small.recurring.iter().all(|it| some(&|state| Small::is_in(*it, state))),
+            "{}",
+            text()
+        );
         for it in &small.weak {
             assert!(fired.contains(it) || some(&|state| !small.enables(state, *it)), "{}", text());
         }

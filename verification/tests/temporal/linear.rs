@@ -12,17 +12,19 @@ use cotama_verification::temporal::{Reason, Rest, Run, Verdict, all_runs, answer
 
 /// Asks about a path in both ways, and compares verdicts and runs; how many markings were met.
 fn compare(pt: &Pt, space: &Space<'_>, path: &Formula) -> [bool; 2] {
-    let exists =
-        space.satisfying(&Formula::Exists(Formula::And(vec![path.clone(), Formula::TRUE]).into()))[0];
+    let exists = space
+        .satisfying(&Formula::Exists(Formula::And(vec![path.clone(), Formula::TRUE]).into()))[0];
     let not = Formula::Not(path.clone().into());
-    let counter =
-        space.satisfying(&Formula::Exists(Formula::And(vec![not.clone(), Formula::TRUE]).into()))[0];
+    let counter = space
+        .satisfying(&Formula::Exists(Formula::And(vec![not.clone(), Formula::TRUE]).into()))[0];
     let text = || format!("{} on {pt:?}", path.display(pt));
     for (verdict, found, expected, shown) in [
         (some_runs(pt, path, &Limits::default(), &|_| ()), true, exists, path),
         (all_runs(pt, path, &Limits::default(), &|_| ()), false, counter, &not),
     ] {
-        let Verdict::Known { holds, run, states } = verdict else { panic!("{verdict:?}: {}", text()) };
+        let Verdict::Known { holds, run, states } = verdict else {
+            panic!("{verdict:?}: {}", text())
+        };
         assert_eq!(holds == found, expected, "{}", text());
         assert!(states <= space.markings.len() as u64);
         assert_eq!(run.is_some(), expected);
@@ -73,7 +75,9 @@ fn side_by_side(random: &mut Random) -> Pt {
     let mut all = OwnedNet::new("all", "");
     for part in 0..2 + random.below(2) {
         let places: Vec<_> = (0..2 + random.below(2))
-            .map(|at| all.place(OwnedPlace::new(&format!("{part}.{at}"), u32::from(at == 0))).unwrap())
+            .map(|at| {
+                all.place(OwnedPlace::new(&format!("{part}.{at}"), u32::from(at == 0))).unwrap()
+            })
             .collect();
         for at in 0..=random.below(3) {
             let (from, to) = (*random.choose(&places), *random.choose(&places));
@@ -131,12 +135,14 @@ fn a_loop_is_as_short_as_it_can_be() {
 #[test]
 fn what_others_do_is_not_followed_without_need() {
     let mut net = OwnedNet::new("lamp and chains", "");
-    let [off, on] = ["off", "on"].map(|it| net.place(OwnedPlace::new(it, u32::from(it == "off"))).unwrap());
+    let [off, on] =
+        ["off", "on"].map(|it| net.place(OwnedPlace::new(it, u32::from(it == "off"))).unwrap());
     net.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
     net.transition(OwnedTransition::new("release").take(on, 1).give(off, 1)).unwrap();
     for chain in 0..8 {
-        let [a, b, c] = [0, 1, 2]
-            .map(|at| net.place(OwnedPlace::new(&format!("{chain}.{at}"), u32::from(at == 0))).unwrap());
+        let [a, b, c] = [0, 1, 2].map(|at| {
+            net.place(OwnedPlace::new(&format!("{chain}.{at}"), u32::from(at == 0))).unwrap()
+        });
         net.transition(OwnedTransition::new(&format!("{chain}:0")).take(a, 1).give(b, 1)).unwrap();
         net.transition(OwnedTransition::new(&format!("{chain}:1")).take(b, 1).give(c, 1)).unwrap();
     }
@@ -153,14 +159,17 @@ fn what_others_do_is_not_followed_without_need() {
 #[test]
 fn a_firing_that_is_not_seen_does_not_hide_a_seen_one_that_it_competes_with() {
     let mut net = OwnedNet::new("fork", "One of two ways, and something else.");
-    let [fork, left, right, idle, done] = ["fork", "left", "right", "idle", "done"]
-        .map(|it| net.place(OwnedPlace::new(it, u32::from(matches!(it, "fork" | "idle")))).unwrap());
+    let [fork, left, right, idle, done] = ["fork", "left", "right", "idle", "done"].map(|it| {
+        net.place(OwnedPlace::new(it, u32::from(matches!(it, "fork" | "idle")))).unwrap()
+    });
     net.transition(OwnedTransition::new("go left").take(fork, 1).give(left, 1)).unwrap();
     net.transition(OwnedTransition::new("go right").take(fork, 1).give(right, 1)).unwrap();
     net.transition(OwnedTransition::new("finish").take(idle, 1).give(done, 1)).unwrap();
     let pt = Pt::from(&net.view().net());
     // Of the two ways only the one to the left is seen, and it can come after `finish`.
-    let Formula::Exists(path) = formula(&pt, "E (F ({done} & !{left} & F {left}))") else { panic!("not E") };
+    let Formula::Exists(path) = formula(&pt, "E (F ({done} & !{left} & F {left}))") else {
+        panic!("not E")
+    };
     let verdict = some_runs(&pt, &path, &Limits::default(), &|_| ());
     assert!(matches!(verdict, Verdict::Known { holds: true, .. }), "{verdict:?}");
 }
@@ -168,8 +177,8 @@ fn a_firing_that_is_not_seen_does_not_hide_a_seen_one_that_it_competes_with() {
 #[test]
 fn what_is_kept_on_an_inner_cycle_is_kept_on_the_outer_one() {
     let mut net = OwnedNet::new("stairs", "Up and down again, once or often.");
-    let [low, middle, high] =
-        ["low", "middle", "high"].map(|it| net.place(OwnedPlace::new(it, u32::from(it == "low"))).unwrap());
+    let [low, middle, high] = ["low", "middle", "high"]
+        .map(|it| net.place(OwnedPlace::new(it, u32::from(it == "low"))).unwrap());
     for (name, from, to) in
         [("up", low, middle), ("on", middle, high), ("off", high, middle), ("down", middle, low)]
     {
@@ -191,11 +200,19 @@ fn fountain() -> Pt {
 
 #[test]
 fn an_unbounded_net_is_followed_as_far_as_the_formula_asks() {
-    let verdict =
-        answer(&fountain(), &formula(&fountain(), "A (F basin >= 300)"), &Limits::default(), &|_| ());
+    let verdict = answer(
+        &fountain(),
+        &formula(&fountain(), "A (F basin >= 300)"),
+        &Limits::default(),
+        &|_| (),
+    );
     assert_eq!(verdict, Verdict::Known { holds: true, run: None, states: 301 });
-    let verdict =
-        answer(&fountain(), &formula(&fountain(), "A (G basin <= 300)"), &Limits::default(), &|_| ());
+    let verdict = answer(
+        &fountain(),
+        &formula(&fountain(), "A (G basin <= 300)"),
+        &Limits::default(),
+        &|_| (),
+    );
     let run = Run { stem: vec![TransitionId(0); 301], rest: Rest::Any };
     assert_eq!(verdict, Verdict::Known { holds: false, run: Some(run), states: 302 });
 }
@@ -217,7 +234,8 @@ fn a_loop_keeps_all_promises() {
     let path = "(G F left >= 1) & (G F right >= 1)";
     let said = formula(&crossing, &format!("E ({path})"));
     let verdict = answer(&crossing, &said, &Limits::default(), &|_| ());
-    let Verdict::Known { holds: true, run: Some(Run { rest: Rest::Cycle(mut cycle), .. }), .. } = verdict
+    let Verdict::Known { holds: true, run: Some(Run { rest: Rest::Cycle(mut cycle), .. }), .. } =
+        verdict
     else {
         panic!("{verdict:?}")
     };
@@ -250,10 +268,12 @@ fn limits_are_answers() {
 fn a_formula_with_too_many_promises_is_refused() {
     let pt = lamp();
     let place = |at: i64| {
-        Formula::Atom(cotama_verification::property::Atom::AtMost(cotama_verification::property::Linear {
-            constant: -at,
-            weights: vec![(cotama_core::net::PlaceId(0), 1)],
-        }))
+        Formula::Atom(cotama_verification::property::Atom::AtMost(
+            cotama_verification::property::Linear {
+                constant: -at,
+                weights: vec![(cotama_core::net::PlaceId(0), 1)],
+            },
+        ))
     };
     let path = Formula::And((0..200).map(|at| Formula::Finally(place(at).into())).collect());
     let verdict = some_runs(&pt, &path, &Limits::default(), &|_| ());

@@ -37,8 +37,8 @@ fn lamp() -> Pt {
     Pt::from(&lamp.view().net())
 }
 
-/// The positions in the space of the markings of a run, and that to which the last one goes back; fails when a transition cannot
-/// fire, or the end is not as the run says.
+/// The positions in the space of the markings of a run, and that to which the last one goes back;
+/// fails when a transition cannot fire, or the end is not as the run says.
 fn replayed(space: &Space<'_>, run: &Run) -> (Vec<usize>, usize) {
     let run = run.clone().closed(space.net);
     let mut marking = space.net.initial.clone();

@@ -23,7 +23,10 @@ fn verdicts(folder: &std::path::Path) -> BTreeMap<String, BTreeMap<String, bool>
     for line in text.lines().skip(1) {
         let cells: Vec<_> = line.split('\t').collect();
         if !cells[0].contains("UpperBounds") {
-            verdicts.entry(cells[0].into()).or_default().insert(cells[1].into(), cells[2] == "TRUE");
+            verdicts
+                .entry(cells[0].into())
+                .or_default()
+                .insert(cells[1].into(), cells[2] == "TRUE");
         }
     }
     verdicts
@@ -31,7 +34,8 @@ fn verdicts(folder: &std::path::Path) -> BTreeMap<String, BTreeMap<String, bool>
 
 fn properties(folder: &std::path::Path, file: &str) -> (Pt, Vec<Property>) {
     let net = folder.join(file.split_once('.').unwrap().0.to_owned() + ".pnml");
-    let imported = read_within("net", &std::fs::read(net).unwrap(), pnml::Limits::default()).unwrap();
+    let imported =
+        read_within("net", &std::fs::read(net).unwrap(), pnml::Limits::default()).unwrap();
     let pt = Pt::from(&imported.net.view().net());
     let bytes = std::fs::read(folder.join("properties").join(file)).unwrap();
     let properties = mcc::read(file, &bytes, &pt, Ids::from(&imported)).unwrap();
@@ -54,7 +58,9 @@ fn answers_are_those_of_the_table() {
                 continue;
             };
             let verdict = answer(&pt, formula, &limits, &|_| ());
-            let Verdict::Known { holds, run, .. } = verdict else { panic!("{}: {verdict:?}", property.name) };
+            let Verdict::Known { holds, run, .. } = verdict else {
+                panic!("{}: {verdict:?}", property.name)
+            };
             assert_eq!(holds, *expected, "{}", property.name);
             answered += 1;
             if let Some(run) = run {
@@ -91,7 +97,12 @@ fn labels_of_the_stored_graph_give_the_verdicts_of_the_table() {
                 continue;
             };
             let Some(formula) = Ctl::new(formula) else { continue };
-            assert_eq!(ctl(&graph, &formula, &Fairness::default()).verdict, *expected, "{}", property.name);
+            assert_eq!(
+                ctl(&graph, &formula, &Fairness::default()).verdict,
+                *expected,
+                "{}",
+                property.name
+            );
             answered += 1;
         }
     }

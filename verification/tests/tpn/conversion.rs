@@ -12,10 +12,14 @@ fn lamp() -> OwnedNet {
     let on = lamp.place(OwnedPlace::new("on", 0)).unwrap();
     let press = lamp.event("press", "").unwrap();
     lamp.transition(OwnedTransition::new("turn_on").on(press).take(off, 1).give(on, 1)).unwrap();
-    lamp.transition(OwnedTransition::new("fade").take(on, 1).give(off, 1).within(2_000, Some(5_000)))
-        .unwrap();
-    lamp.transition(OwnedTransition::new("again").on(press).take(on, 1).give(on, 1).within(100, Some(900)))
-        .unwrap();
+    lamp.transition(
+        OwnedTransition::new("fade").take(on, 1).give(off, 1).within(2_000, Some(5_000)),
+    )
+    .unwrap();
+    lamp.transition(
+        OwnedTransition::new("again").on(press).take(on, 1).give(on, 1).within(100, Some(900)),
+    )
+    .unwrap();
     lamp
 }
 
@@ -50,8 +54,9 @@ fn what_fires_by_itself_fires_at_once() {
 
 #[test]
 fn a_net_goes_there_and_back() {
-    let time =
-        net("net n  tr a : {what it does} [3,8] p?2 q*3 -> r  tr b [7,w[ r ->  pl p : place (2)  pl q (9)");
+    let time = net(
+        "net n  tr a : {what it does} [3,8] p?2 q*3 -> r  tr b [7,w[ r ->  pl p : place (2)  pl q (9)",
+    );
     let back = to_net(&time).unwrap();
     assert_eq!(back.view().net().defect(), None);
     let there = from_net(&back.view().net()).unwrap();

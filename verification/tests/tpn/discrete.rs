@@ -1,11 +1,13 @@
-//! A second meaning of a time net, by integer clocks that tick together: exact when no bound is open.
+//! A second meaning of a time net, by integer clocks that tick together: exact when no bound is
+//! open.
 //!
 //! It shares nothing with the classes but the data of the net.
 
 use cotama_verification::tpn::{TimeNet, TimeTransition};
 use std::collections::{BTreeSet, HashMap, VecDeque};
 
-/// Tokens, and for each transition its clock when it is enabled. A clock that nothing is to see any more stands still.
+/// Tokens, and for each transition its clock when it is enabled. A clock that nothing is to see any
+/// more stands still.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub(crate) struct State {
     pub(crate) tokens: Vec<u32>,
@@ -20,10 +22,15 @@ pub(crate) struct States {
 }
 
 pub(crate) fn enabled(transition: &TimeTransition, tokens: &[u32]) -> bool {
-    transition.take.iter().chain(&transition.read).all(|arc| tokens[arc.place.0 as usize] >= arc.weight)
+    transition
+        .take
+        .iter()
+        .chain(&transition.read)
+        .all(|arc| tokens[arc.place.0 as usize] >= arc.weight)
 }
 
-/// What a firing leaves of the marking, and whether each transition is newly enabled by it, or goes on.
+/// What a firing leaves of the marking, and whether each transition is newly enabled by it, or goes
+/// on.
 pub(crate) fn fire(net: &TimeNet, tokens: &[u32], fired: usize) -> (Vec<u32>, Vec<Option<bool>>) {
     let mut between = tokens.to_vec();
     for arc in &net.transitions()[fired].take {
@@ -70,9 +77,13 @@ pub(crate) fn states(net: &TimeNet, most: usize, tokens: u32) -> Option<States> 
         let stopped = net.transitions().iter().zip(&state.clocks).any(due);
         let tick = (!stopped).then(|| {
             let ticked = |(it, clock): (&TimeTransition, &Option<u64>)| {
-                clock.map(
-                    |at| if it.interval.upper.is_none() { (at + 1).min(it.interval.lower) } else { at + 1 },
-                )
+                clock.map(|at| {
+                    if it.interval.upper.is_none() {
+                        (at + 1).min(it.interval.lower)
+                    } else {
+                        at + 1
+                    }
+                })
             };
             let clocks = net.transitions().iter().zip(&state.clocks).map(ticked).collect();
             (None, State { tokens: state.tokens.clone(), clocks })
@@ -110,11 +121,17 @@ impl States {
             .collect()
     }
 
-    /// The least and the most number of ticks from a firing until a place is marked, as the command line shows it.
+    /// The least and the most number of ticks from a firing until a place is marked, as the command
+    /// line shows it.
     pub(crate) fn bound(&self, from: usize, to: usize) -> String {
         let marked = |state: usize| self.list[state].tokens[to] > 0;
-        let entries: BTreeSet<usize> =
-            self.edges.iter().flatten().filter(|it| it.0 == Some(from)).map(|&(_, target)| target).collect();
+        let entries: BTreeSet<usize> = self
+            .edges
+            .iter()
+            .flatten()
+            .filter(|it| it.0 == Some(from))
+            .map(|&(_, target)| target)
+            .collect();
         if entries.is_empty() {
             return "never fires".to_owned();
         }
@@ -140,7 +157,8 @@ impl States {
         }
         // A state that is still looked at has no limit: to come back to it is a cycle.
         let mut most: HashMap<usize, Option<u64>> = HashMap::new();
-        let longest = entries.iter().map(|&it| self.longest(it, &marked, &mut most)).reduce(later).unwrap();
+        let longest =
+            entries.iter().map(|&it| self.longest(it, &marked, &mut most)).reduce(later).unwrap();
         let shown = |time: Option<u64>| time.map_or("inf".to_owned(), |it| it.to_string());
         format!("{}..{}", shown(min), shown(longest))
     }

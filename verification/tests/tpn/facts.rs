@@ -27,7 +27,11 @@ fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
         let name = row["net"];
         let net = read(&folder, name);
         assert_eq!(net.places().len().to_string(), row["places"], "places of {name}");
-        assert_eq!(net.transitions().len().to_string(), row["transitions"], "transitions of {name}");
+        assert_eq!(
+            net.transitions().len().to_string(),
+            row["transitions"],
+            "transitions of {name}"
+        );
         let untimed = tpn::untimed(&net.untimed(), &limits);
         let count = |bounded, count: usize| {
             if bounded == Some(false) { "+inf".to_owned() } else { count.to_string() }
@@ -44,8 +48,15 @@ fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
         assert_eq!(count(bounded, classes.classes()), row["classes"], "classes of {name}");
         assert_eq!(count(bounded, classes.edges()), row["edges"], "edges of {name}");
         assert_eq!(count(bounded, classes.markings()), row["markings"], "markings of {name}");
-        assert_eq!(classes.dead_markings().to_string(), row["dead_markings"], "dead markings of {name}");
-        assert_eq!(classes.stopped(), if row["bounded"] == "yes" { None } else { Some(Stop::Unbounded) });
+        assert_eq!(
+            classes.dead_markings().to_string(),
+            row["dead_markings"],
+            "dead markings of {name}"
+        );
+        assert_eq!(
+            classes.stopped(),
+            if row["bounded"] == "yes" { None } else { Some(Stop::Unbounded) }
+        );
         if row["bounded"] == "yes" {
             let reached = matches!(tpn::deadlock(&net, &limits), tpn::Reach::Reached(_));
             assert_eq!(reached, row["deadlock"] == "yes", "deadlock of {name}");
@@ -54,9 +65,10 @@ fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
     assert_eq!(rows.len(), 17);
 }
 
-/// Every `step` makes `alarm` possible up to a unit earlier: of the marking with `walking` there are 300,001 classes, of that with
-/// `resting` 300,000 that differ in the earliest date of `alarm` alone, some of them with the same hash; of that with `walking`
-/// after the alarm two, and of that with `resting` one.
+/// Every `step` makes `alarm` possible up to a unit earlier: of the marking with `walking` there
+/// are 300,001 classes, of that with `resting` 300,000 that differ in the earliest date of `alarm`
+/// alone, some of them with the same hash; of that with `walking` after the alarm two, and of that
+/// with `resting` one.
 #[test]
 fn classes_that_differ_in_one_earliest_date_alone_are_told_apart() {
     let net = net(
@@ -64,7 +76,10 @@ fn classes_that_differ_in_one_earliest_date_alone_are_told_apart() {
                    pl walking (1)  pl armed (1)",
     );
     let classes = tpn::classes(&net, &Limits::default());
-    assert_eq!((classes.classes(), classes.markings(), classes.bounded()), (600_004, 4, Some(true)));
+    assert_eq!(
+        (classes.classes(), classes.markings(), classes.bounded()),
+        (600_004, 4, Some(true))
+    );
 }
 
 /// A name as files write it, without its braces.
@@ -100,7 +115,8 @@ fn every_response_of_the_smaller_closed_nets_is_what_integer_clocks_say() {
     for row in rows(&table) {
         let net = read(&folder, row["net"]);
         let open = net.transitions().iter().map(|it| it.interval);
-        let open = open.filter(|it| it.lower_strict || it.upper_strict && it.upper.is_some()).count();
+        let open =
+            open.filter(|it| it.lower_strict || it.upper_strict && it.upper.is_some()).count();
         let Some(states) = discrete::states(&net, 1_000, 9).filter(|_| open == 0) else { continue };
         for (from, transition) in net.transitions().iter().enumerate() {
             for (to, place) in net.places().iter().enumerate() {

@@ -20,7 +20,8 @@ fn a_source_that_nothing_stops_grows() {
 
 #[test]
 fn a_consumer_that_is_too_slow_is_found_out() {
-    let text = |earliest| format!("tr make [1,2] p -> p item  tr use [{earliest},3] item ->  pl p (1)");
+    let text =
+        |earliest| format!("tr make [1,2] p -> p item  tr use [{earliest},3] item ->  pl p (1)");
     assert_eq!(bounded(&text(2)), (Some(false), Some(false)));
     assert_eq!(bounded(&text(0)), (Some(false), Some(false))); // it need not be fast
 }
@@ -77,7 +78,8 @@ fn limits_end_the_work_with_an_answer() {
 
 #[test]
 fn a_place_that_holds_all_it_can_ends_the_work() {
-    let net = net("tr t [1,2] a -> a b*3  tr u [0,0] b*4294967295 a -> c  pl a (1)  pl b (4294967293)");
+    let net =
+        net("tr t [1,2] a -> a b*3  tr u [0,0] b*4294967295 a -> c  pl a (1)  pl b (4294967293)");
     let classes = tpn::classes(&net, &LIMITS);
     assert_eq!((classes.bounded(), classes.stopped()), (None, Some(Stop::Overflow)));
 }

@@ -1,6 +1,7 @@
 //! Time Petri nets: their files, their classes, their response times, their runs.
 //!
-//! Known answers are taken from the folder that `COTAMA_TPN_DIR` names: `*.net`, `facts.tsv`, `bounds.tsv`.
+//! Known answers are taken from the folder that `COTAMA_TPN_DIR` names: `*.net`, `facts.tsv`,
+//! `bounds.tsv`.
 
 mod broken;
 mod conversion;
@@ -27,7 +28,8 @@ fn folder(what: &str) -> Option<PathBuf> {
     let folder = std::env::var_os("COTAMA_TPN_DIR").map(PathBuf::from);
     if folder.is_none() {
         // Not by `eprintln`, which says nothing when a test passes.
-        let message = format!("SKIPPED: COTAMA_TPN_DIR names no folder of time nets, to check {what}\n");
+        let message =
+            format!("SKIPPED: COTAMA_TPN_DIR names no folder of time nets, to check {what}\n");
         let _ = std::io::stderr().write_all(message.as_bytes());
     }
     folder

@@ -10,7 +10,8 @@ struct Random(u64);
 
 impl Random {
     fn below(&mut self, end: u64) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) % end
     }
 
@@ -21,7 +22,10 @@ impl Random {
     fn arcs(&mut self, places: u64, most: u64) -> Vec<Arc> {
         let count = self.below(most + 1);
         (0..count)
-            .map(|_| Arc { place: PlaceId(self.below(places) as u32), weight: 1 + u32::from(self.one_in(6)) })
+            .map(|_| Arc {
+                place: PlaceId(self.below(places) as u32),
+                weight: 1 + u32::from(self.one_in(6)),
+            })
             .collect()
     }
 
@@ -71,7 +75,8 @@ impl Random {
 }
 
 impl Random {
-    /// Two or three tokens that go round, and look at each other: what fires once mostly fires again.
+    /// Two or three tokens that go round, and look at each other: what fires once mostly fires
+    /// again.
     fn rings(&mut self, open: bool) -> TimeNet {
         let (mut places, mut transitions) = (Vec::new(), Vec::new());
         for ring in 0..2 + self.below(2) {
@@ -80,7 +85,9 @@ impl Random {
                 let initial = u32::from(at == 0);
                 places.push(TimePlace { name: format!("r{ring}p{at}"), label: None, initial });
                 for twin in 0..=u64::from(self.one_in(3)) {
-                    let arc = |at: u64| vec![Arc { place: PlaceId((first + at % length) as u32), weight: 1 }];
+                    let arc = |at: u64| {
+                        vec![Arc { place: PlaceId((first + at % length) as u32), weight: 1 }]
+                    };
                     let interval = self.interval(open);
                     let upper = interval.upper.or(Some(interval.lower + 2)); // without end no response has one
                     transitions.push(TimeTransition {
@@ -103,9 +110,14 @@ fn agrees_on_markings(net: &TimeNet, markings: &BTreeSet<Vec<u32>>, dead: &BTree
     let classes = tpn::classes(net, &limits);
     let text = cotama_verification::tina::write(net);
     assert_eq!(classes.bounded(), Some(true), "{text}");
-    let found: BTreeSet<_> = (0..classes.classes() as u32).map(|it| classes.marking(it).to_vec()).collect();
+    let found: BTreeSet<_> =
+        (0..classes.classes() as u32).map(|it| classes.marking(it).to_vec()).collect();
     assert_eq!(&found, markings, "{text}");
-    assert_eq!((classes.markings(), classes.dead_markings()), (markings.len(), dead.len()), "{text}");
+    assert_eq!(
+        (classes.markings(), classes.dead_markings()),
+        (markings.len(), dead.len()),
+        "{text}"
+    );
     match tpn::deadlock(net, &limits) {
         Reach::Reached(run) => {
             let last = replay::replay(net, &run).unwrap_or_else(|error| panic!("{error}\n{text}"));
@@ -118,7 +130,9 @@ fn agrees_on_markings(net: &TimeNet, markings: &BTreeSet<Vec<u32>>, dead: &BTree
         Reach::Unknown { stop, .. } => panic!("{stop}: {text}"),
     }
     let last = markings.iter().max_by_key(|it| it.iter().sum::<u32>()).unwrap();
-    let Reach::Reached(run) = tpn::reach(net, |tokens| tokens == last, &limits) else { panic!("{text}") };
+    let Reach::Reached(run) = tpn::reach(net, |tokens| tokens == last, &limits) else {
+        panic!("{text}")
+    };
     assert_eq!(replay::replay(net, &run).as_ref(), Ok(last), "{text}");
 }
 
@@ -141,7 +155,8 @@ fn five_thousand_closed_nets_are_what_integer_clocks_say() {
         let (from, to) =
             (random.below(net.transitions().len() as u64), random.below(net.places().len() as u64));
         for (from, to) in [(from, to), (from, 0), (0, to)] {
-            let found = tpn::bound(&net, TransitionId(from as u32), PlaceId(to as u32), &Limits::default());
+            let found =
+                tpn::bound(&net, TransitionId(from as u32), PlaceId(to as u32), &Limits::default());
             let known = states.bound(from as usize, to as usize);
             let text = cotama_verification::tina::write(&net);
             assert_eq!(shown(found), known, "bound(t{from} -> p{to})\n{text}");
@@ -166,7 +181,8 @@ fn a_thousand_open_nets_are_what_clock_regions_say() {
         agrees_on_markings(&net, &regions.markings(), &regions.dead());
         let (from, to) =
             (random.below(net.transitions().len() as u64), random.below(net.places().len() as u64));
-        let found = tpn::bound(&net, TransitionId(from as u32), PlaceId(to as u32), &Limits::default());
+        let found =
+            tpn::bound(&net, TransitionId(from as u32), PlaceId(to as u32), &Limits::default());
         let Some(known) = regions.bound(from as usize, to as usize, 30) else { continue };
         assert_eq!(
             shown(found),

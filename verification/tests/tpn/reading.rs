@@ -49,9 +49,14 @@ fn every_bracket_means_what_it_says() {
 
 #[test]
 fn declarations_of_one_node_add_up() {
-    let net = net("tr t [0,8] a -> b  pl a (1)  tr t : late ]3,9] a b -> b*2  pl a : place (2)  pl {a} (3)");
+    let net = net(
+        "tr t [0,8] a -> b  pl a (1)  tr t : late ]3,9] a b -> b*2  pl a : place (2)  pl {a} (3)",
+    );
     assert_eq!(net.places().len(), 2);
-    assert_eq!(net.places()[0], TimePlace { name: "a".into(), label: Some("place".into()), initial: 6 });
+    assert_eq!(
+        net.places()[0],
+        TimePlace { name: "a".into(), label: Some("place".into()), initial: 6 }
+    );
     let t = &net.transitions()[0];
     assert_eq!(t.interval.to_string(), "]3,8]");
     assert_eq!(
@@ -77,7 +82,9 @@ fn an_empty_file_is_an_empty_net() {
 
 #[test]
 fn a_net_is_written_in_one_way() {
-    let net = net("tr t : {a label} ]2,w[ {b c}?1 a*2 -> {b c} {\\\\}*3 pl a (2) tr {net} [0,0] -> net n");
+    let net = net(
+        "tr t : {a label} ]2,w[ {b c}?1 a*2 -> {b c} {\\\\}*3 pl a (2) tr {net} [0,0] -> net n",
+    );
     assert_eq!(
         tina::write(&net),
         "net n\n\
@@ -100,7 +107,10 @@ fn limits_are_kept() {
         "n.net:1:1: the file has 32 bytes, more than 10\n  help: raise the limit, or make the net smaller"
     );
     assert_eq!(refusal(Limits { name: 8, ..usual }), "n.net:1:4: a name is longer than 8 bytes");
-    assert_eq!(refusal(Limits { objects: 4, ..usual }), "n.net:1:32: the net has more than 4 parts");
+    assert_eq!(
+        refusal(Limits { objects: 4, ..usual }),
+        "n.net:1:32: the net has more than 4 parts"
+    );
     assert!(read(Limits { objects: 5, ..usual }).is_ok());
 }
 
@@ -149,7 +159,8 @@ fn nets() -> impl Strategy<Value = TimeNet> {
                 give,
             };
             let places = place_names.into_iter().zip(places).map(place).collect();
-            TimeNet::new(name, places, names.into_iter().zip(transitions).map(transition).collect()).unwrap()
+            TimeNet::new(name, places, names.into_iter().zip(transitions).map(transition).collect())
+                .unwrap()
         },
     )
 }

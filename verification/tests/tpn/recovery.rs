@@ -1,4 +1,5 @@
-//! RC2: the hysteresis before a module counts as available again, whatever its observer says and when.
+//! RC2: the hysteresis before a module counts as available again, whatever its observer says and
+//! when.
 
 use crate::bound;
 use cotama_core::net::{Arc, Net, PlaceId};
@@ -12,8 +13,8 @@ cotama_models::recovery! {
     mod often { hold: 500 ms, returns: 4 }
 }
 
-/// The net with an observer that says when it likes what it likes; `first` and `second` are marked in turns when the module has
-/// returned.
+/// The net with an observer that says when it likes what it likes; `first` and `second` are marked
+/// in turns when the module has returned.
 fn observed(net: &Net<'_>) -> TimeNet {
     let net = from_net(net).unwrap().net;
     let (mut places, mut transitions) = (net.places().to_vec(), net.transitions().to_vec());
@@ -28,7 +29,9 @@ fn observed(net: &Net<'_>) -> TimeNet {
     }
     let mut again = transitions[of("r5")].clone();
     "r5_again".clone_into(&mut again.name);
-    for (it, take, give) in [(&mut transitions[of("r5")], second, first), (&mut again, first, second)] {
+    for (it, take, give) in
+        [(&mut transitions[of("r5")], second, first), (&mut again, first, second)]
+    {
         it.take.push(take);
         it.give.push(give);
     }
@@ -88,7 +91,8 @@ fn who_has_returned_so_many_times_is_lost_for_good_the_next_time() {
         });
         let promises: Vec<_> = promises.into_iter().chain(each).collect();
         let model = Model::from(net);
-        let promises: Vec<_> = promises.iter().map(|it| property::parse(it, model.pt()).unwrap()).collect();
+        let promises: Vec<_> =
+            promises.iter().map(|it| property::parse(it, model.pt()).unwrap()).collect();
         let answers = check_all(&model, &promises, &Options::default());
         answers.iter().all(|it| it.verdict == Verdict::Holds(true))
     };

@@ -1,11 +1,12 @@
-//! A second meaning of a time net with open bounds: clock regions. Of a clock counts how many whole units it shows, and where
-//! its rest comes among the rests of the others (Alur and Dill 1994).
+//! A second meaning of a time net with open bounds: clock regions. Of a clock counts how many whole
+//! units it shows, and where its rest comes among the rests of the others (Alur and Dill 1994).
 
 use crate::discrete::{enabled, fire};
 use cotama_verification::tpn::{Interval, TimeNet};
 use std::collections::{BTreeSet, HashMap, HashSet};
 
-/// Whole units, and the rank of the rest, 0 for no rest. A clock without end that has passed its lower bound is `Beyond`.
+/// Whole units, and the rank of the rest, 0 for no rest. A clock without end that has passed its
+/// lower bound is `Beyond`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Clock {
     At(u64, usize),
@@ -18,7 +19,8 @@ fn may_fire(clock: Clock, interval: Interval) -> bool {
     match clock {
         Clock::Beyond => true,
         Clock::At(whole, rest) => {
-            whole > interval.lower || whole == interval.lower && (rest > 0 || !interval.lower_strict)
+            whole > interval.lower
+                || whole == interval.lower && (rest > 0 || !interval.lower_strict)
         }
     }
 }
@@ -49,8 +51,8 @@ fn rest(clock: Option<Clock>) -> Option<usize> {
     }
 }
 
-/// The region that comes next when time passes, unless something is due. A clock more than there are transitions
-/// measures, and stops nothing.
+/// The region that comes next when time passes, unless something is due. A clock more than there
+/// are transitions measures, and stops nothing.
 fn later(net: &TimeNet, clocks: &[Option<Clock>]) -> Option<Vec<Option<Clock>>> {
     let whole = clocks.iter().any(|&it| rest(it) == Some(0));
     let largest = clocks.iter().filter_map(|&it| rest(it)).max();
@@ -60,9 +62,13 @@ fn later(net: &TimeNet, clocks: &[Option<Clock>]) -> Option<Vec<Option<Clock>>> 
         Clock::At(units, rest) if Some(rest) == largest => Clock::At(units + 1, 0),
         same => same,
     };
-    let intervals = || net.transitions().iter().map(|it| it.interval).chain([Interval::closed(0, u64::MAX)]);
-    let mut clocks: Vec<_> =
-        clocks.iter().zip(intervals()).map(|(it, interval)| it.map(|it| next(it, interval))).collect();
+    let intervals =
+        || net.transitions().iter().map(|it| it.interval).chain([Interval::closed(0, u64::MAX)]);
+    let mut clocks: Vec<_> = clocks
+        .iter()
+        .zip(intervals())
+        .map(|(it, interval)| it.map(|it| next(it, interval)))
+        .collect();
     without_gaps(&mut clocks);
     clocks
         .iter()
@@ -102,8 +108,11 @@ pub(crate) struct Regions<'n> {
 /// All regions; `None` when there are more than `most` or a place gets more than `tokens`.
 pub(crate) fn regions(net: &TimeNet, most: usize, tokens: u32) -> Option<Regions<'_>> {
     let initial: Vec<u32> = net.places().iter().map(|it| it.initial).collect();
-    let clocks =
-        net.transitions().iter().map(|it| enabled(it, &initial).then_some(Clock::At(0, 0))).collect();
+    let clocks = net
+        .transitions()
+        .iter()
+        .map(|it| enabled(it, &initial).then_some(Clock::At(0, 0)))
+        .collect();
     let mut all = Regions { net, list: vec![(initial, clocks)], edges: Vec::new() };
     let mut numbers = HashMap::from([(all.list[0].clone(), 0)]);
     while all.edges.len() < all.list.len() {
@@ -131,19 +140,29 @@ impl Regions<'_> {
 
     /// Those of them that enable nothing.
     pub(crate) fn dead(&self) -> BTreeSet<Vec<u32>> {
-        self.list.iter().filter(|it| it.1.iter().all(Option::is_none)).map(|it| it.0.clone()).collect()
+        self.list
+            .iter()
+            .filter(|it| it.1.iter().all(Option::is_none))
+            .map(|it| it.0.clone())
+            .collect()
     }
 
-    /// The greatest lower and the least upper bound of the time from a firing until a place is marked, as the command line
-    /// shows it; `None` when it takes longer than `longest`.
+    /// The greatest lower and the least upper bound of the time from a firing until a place is
+    /// marked, as the command line shows it; `None` when it takes longer than `longest`.
     pub(crate) fn bound(&self, from: usize, to: usize, longest: u64) -> Option<String> {
         let marked = |region: &Region| region.0[to] > 0;
-        let entries: BTreeSet<usize> =
-            self.edges.iter().flatten().filter(|it| it.0 == Some(from)).map(|&(_, target)| target).collect();
+        let entries: BTreeSet<usize> = self
+            .edges
+            .iter()
+            .flatten()
+            .filter(|it| it.0 == Some(from))
+            .map(|&(_, target)| target)
+            .collect();
         if entries.is_empty() {
             return Some("never fires".to_owned());
         }
-        // Without measuring: of regions on the way, those from which every way ends in a marked one.
+        // Without measuring: of regions on the way, those from which every way ends in a marked
+        // one.
         let (mut way, mut open) = (BTreeSet::new(), entries.iter().copied().collect::<Vec<_>>());
         let mut reached = false;
         while let Some(region) = open.pop() {
@@ -156,7 +175,8 @@ impl Regions<'_> {
         let mut endless = way;
         loop {
             let before = endless.len();
-            let goes_on = |region: &usize| self.edges[*region].iter().any(|it| endless.contains(&it.1));
+            let goes_on =
+                |region: &usize| self.edges[*region].iter().any(|it| endless.contains(&it.1));
             endless = endless.iter().copied().filter(goes_on).collect();
             if endless.len() == before {
                 break;
@@ -175,7 +195,9 @@ impl Regions<'_> {
         let mut met: HashSet<Region> = open.iter().cloned().collect();
         let (mut min, mut max, mut cut) = (u64::MAX, 0, false);
         while let Some(region) = open.pop() {
-            let Some(Some(Clock::At(time, rest))) = region.1.last().copied() else { unreachable!() };
+            let Some(Some(Clock::At(time, rest))) = region.1.last().copied() else {
+                unreachable!()
+            };
             if marked(&region) {
                 min = min.min(time);
                 max = max.max(time + u64::from(rest > 0));

@@ -49,10 +49,12 @@ fn a_cycle_on_the_way_makes_it_endless() {
     let net = net("tr go [1,1] p -> a  tr spin [2,2] a -> a  tr leave [1,3] a -> b  pl p (1)");
     assert_eq!(bound(&net, "go", "b"), "1..inf");
     // Also in no time.
-    let zeno = crate::net("tr go [1,1] p -> a  tr spin [0,0] a -> a  tr leave [0,3] a -> b  pl p (1)");
+    let zeno =
+        crate::net("tr go [1,1] p -> a  tr spin [0,0] a -> a  tr leave [0,3] a -> b  pl p (1)");
     assert_eq!(bound(&zeno, "go", "b"), "0..inf");
     // A cycle that time forbids is none.
-    let late = crate::net("tr go [1,1] p -> a  tr spin [4,4] a -> a  tr leave [1,3] a -> b  pl p (1)");
+    let late =
+        crate::net("tr go [1,1] p -> a  tr spin [4,4] a -> a  tr leave [1,3] a -> b  pl p (1)");
     assert_eq!(bound(&late, "go", "b"), "1..3");
 }
 
@@ -62,7 +64,8 @@ fn a_deadlock_and_a_time_without_end_are_endless() {
     assert_eq!(bound(&net, "go", "b"), "1..inf");
     let waits = crate::net("tr go [1,1] p -> a  tr leave [7,w[ a -> b  pl p (1)");
     assert_eq!(bound(&waits, "go", "b"), "7..inf");
-    let kept = crate::net("tr go [1,1] p -> a  tr leave [7,w[ a -> b  tr force [5,9] a -> b  pl p (1)");
+    let kept =
+        crate::net("tr go [1,1] p -> a  tr leave [7,w[ a -> b  tr force [5,9] a -> b  pl p (1)");
     assert_eq!(bound(&kept, "go", "b"), "5..9");
 }
 
@@ -77,8 +80,9 @@ fn each_firing_starts_its_own_measurement() {
 
 #[test]
 fn a_marking_that_lasts_no_time_counts() {
-    let net =
-        net("tr go [1,1] p -> a  tr pass [0,0] a -> b  tr on [0,0] b -> c  tr end [9,9] c -> p  pl p (1)");
+    let net = net(
+        "tr go [1,1] p -> a  tr pass [0,0] a -> b  tr on [0,0] b -> c  tr end [9,9] c -> p  pl p (1)",
+    );
     assert_eq!(bound(&net, "go", "b"), "0..0");
     assert_eq!(bound(&net, "pass", "a"), "10..10"); // not the one before
 }
@@ -100,7 +104,10 @@ fn limits_end_the_work_with_an_answer() {
     let net = net("tr a [1,2] p -> q  tr b [1,2] q -> r  tr c [3,3] r -> p  pl p (1)");
     let limits = Limits { classes: 2, ..Limits::default() };
     let (a, p) = (net.transition("a").unwrap(), net.place("p").unwrap());
-    assert_eq!(tpn::bound(&net, a, p, &limits), Response::Unknown { stop: Stop::Classes, explored: 2 });
+    assert_eq!(
+        tpn::bound(&net, a, p, &limits),
+        Response::Unknown { stop: Stop::Classes, explored: 2 }
+    );
     let unbounded = crate::net("tr a -> p");
     let (a, p) = (unbounded.transition("a").unwrap(), unbounded.place("p").unwrap());
     let unknown = tpn::bound(&unbounded, a, p, &Limits::default());
@@ -118,9 +125,13 @@ fn the_largest_bounds_are_exact_and_larger_sums_are_not_guessed() {
         let net = chain(length);
         tpn::bound_from_start(&net, net.place(&format!("p{length}")).unwrap(), &Limits::default())
     };
-    // A strict bound on both sides of one unit: the greatest lower and the least upper bound are a unit apart.
+    // A strict bound on both sides of one unit: the greatest lower and the least upper bound are a
+    // unit apart.
     assert_eq!(from_start(1), Response::Between { min: finite(large - 1), max: finite(large) });
-    assert_eq!(from_start(3), Response::Between { min: finite(3 * (large - 1)), max: finite(3 * large) });
+    assert_eq!(
+        from_start(3),
+        Response::Between { min: finite(3 * (large - 1)), max: finite(3 * large) }
+    );
     assert!(matches!(from_start(5), Response::Unknown { stop: Stop::Overflow, .. }));
     assert!(Time::Finite(u64::MAX) < Time::Infinite);
 }
@@ -134,7 +145,8 @@ fn times_beyond_15_bits_are_exact() {
 
 #[test]
 fn clocks_that_run_side_by_side_keep_their_distance() {
-    // `on` comes one unit after `off`, which takes away what would mark the place two units after `ask`.
+    // `on` comes one unit after `off`, which takes away what would mark the place two units after
+    // `ask`.
     let net =
         net("pl one (1)  pl two (1)  pl idle (1)  tr ask [0,10] idle -> asked  tr answer [0,2] asked -> told
          tr off [10,10] one -> ended  tr drop [0,0] ended asked -> dropped  tr on [11,11] two -> told");

@@ -8,7 +8,8 @@ use cotama_verification::tpn::{
 
 /// The dates of a sequence of names, after a replay of them; or why there are none.
 fn dates(net: &TimeNet, sequence: &str) -> Result<String, NoSchedule> {
-    let sequence: Vec<_> = sequence.split_whitespace().map(|it| net.transition(it).unwrap()).collect();
+    let sequence: Vec<_> =
+        sequence.split_whitespace().map(|it| net.transition(it).unwrap()).collect();
     let run = schedule(net, &sequence)?;
     replay(net, &run).unwrap();
     Ok(run.steps.iter().map(|step| step.date.to_string()).collect::<Vec<_>>().join(" "))
@@ -60,7 +61,10 @@ fn a_sequence_that_cannot_be_is_refused_with_its_first_wrong_firing() {
     assert_eq!(dates(&net, "a a"), Err(NoSchedule::Disabled(1)));
     let beyond = cotama_core::net::TransitionId(7);
     assert_eq!(schedule(&net, &[beyond]), Err(NoSchedule::Disabled(0)));
-    assert_eq!(NoSchedule::TooLate(2).to_string(), "before firing 3 of the sequence another one is due");
+    assert_eq!(
+        NoSchedule::TooLate(2).to_string(),
+        "before firing 3 of the sequence another one is due"
+    );
 }
 
 #[test]
@@ -121,7 +125,8 @@ fn a_long_run_has_dates_too() {
 
 #[test]
 fn thousands_of_firings_in_one_unit_have_dates() {
-    let net = net("tr a ]0,w[ p -> q  tr b ]0,w[ q -> p n  tr end [1,1] e -> f  pl p (1)  pl e (1)");
+    let net =
+        net("tr a ]0,w[ p -> q  tr b ]0,w[ q -> p n  tr end [1,1] e -> f  pl p (1)  pl e (1)");
     let [a, b, end] = ["a", "b", "end"].map(|it| net.transition(it).unwrap());
     let run = schedule(&net, &[[a, b].repeat(3_000), vec![end]].concat()).unwrap();
     assert_eq!(replay(&net, &run).unwrap()[net.place("n").unwrap().0 as usize], 3_000);

@@ -1,10 +1,12 @@
-//! State classes as the textbook has them: inequalities, closed by Floyd and Warshall after every firing.
+//! State classes as the textbook has them: inequalities, closed by Floyd and Warshall after every
+//! firing.
 
 use crate::discrete::{enabled, fire};
 use cotama_verification::tpn::{Interval, TimeNet};
 use std::collections::HashMap;
 
-/// An upper bound of a difference: its value, and 1 when it is included, 0 when it is not. `None`: no bound.
+/// An upper bound of a difference: its value, and 1 when it is included, 0 when it is not. `None`:
+/// no bound.
 type Bound = Option<(i64, i64)>;
 type Matrix = Vec<Vec<Bound>>;
 
@@ -38,7 +40,8 @@ fn class(
     enabled: &[usize],
     before: impl Fn(Option<usize>, Option<usize>) -> Bound,
 ) -> Option<Matrix> {
-    let nodes: Vec<Option<usize>> = std::iter::once(None).chain(enabled.iter().copied().map(Some)).collect();
+    let nodes: Vec<Option<usize>> =
+        std::iter::once(None).chain(enabled.iter().copied().map(Some)).collect();
     let row = |&from: &Option<usize>| {
         nodes.iter().map(|&to| if from == to { Some((0, 1)) } else { before(from, to) }).collect()
     };

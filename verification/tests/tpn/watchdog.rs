@@ -1,4 +1,5 @@
-//! The scheduler's watchdog with the world around it: how late it finds a module that misses its deadlines.
+//! The scheduler's watchdog with the world around it: how late it finds a module that misses its
+//! deadlines.
 
 use crate::bound;
 use cotama_core::net::{Arc, Net, PlaceId};
@@ -17,8 +18,9 @@ cotama_models::watchdog! {
     mod impatient { misses: 1, deadline: 30 ms, extra: 5 ms }
 }
 
-/// The watchdog as it is defined, its events tied to a world: jobs are released each period, a release that finds the
-/// module at work waits, and a job takes so long, in milliseconds; without a time it hangs.
+/// The watchdog as it is defined, its events tied to a world: jobs are released each period, a
+/// release that finds the module at work waits, and a job takes so long, in milliseconds; without a
+/// time it hangs.
 fn watched(job: Option<Interval>) -> TimeNet {
     with_period(&NET, 100, job)
 }
@@ -30,7 +32,8 @@ fn with_period(net: &Net<'_>, period: u64, job: Option<Interval>) -> TimeNet {
         places.push(TimePlace { name: name.to_owned(), label: None, initial });
         vec![Arc { place: PlaceId(places.len() as u32 - 1), weight: 1 }]
     };
-    let (clock, no_release, release) = (place("clock", 1), place("no_release", 1), place("release", 0));
+    let (clock, no_release, release) =
+        (place("clock", 1), place("no_release", 1), place("release", 0));
     let (working, done) = (place("working", 0), place("done", 0));
     let mut transitions = watchdog.transitions().to_vec();
     for it in &mut transitions {
@@ -52,7 +55,8 @@ fn with_period(net: &Net<'_>, period: u64, job: Option<Interval>) -> TimeNet {
                 it.take.extend(&done);
             }
             Some("CsAck") => it.interval = Interval::closed(10, 50),
-            // The deadline passes only while the job is under way, and when its extra time is over it is stopped.
+            // The deadline passes only while the job is under way, and when its extra time is over
+            // it is stopped.
             None if it.name.starts_with("w3") => it.read.extend(&working),
             None => it.take.extend(&working),
             Some(other) => panic!("the watchdog has a new event {other}"),
@@ -74,7 +78,8 @@ fn with_period(net: &Net<'_>, period: u64, job: Option<Interval>) -> TimeNet {
 #[test]
 fn a_module_that_hangs_is_found_out_at_the_end_of_the_third_extra_time() {
     let net = watched(None);
-    // The next release waits for the end of the extra time: three times 100 + 20, and once for the third job.
+    // The next release waits for the end of the extra time: three times 100 + 20, and once for the
+    // third job.
     assert_eq!(bound(&net, "w1", "Fault"), "120..360");
     // From the first deadline on, and from the last.
     assert_eq!(bound(&net, "w3", "Fault"), "20..260");
@@ -113,7 +118,8 @@ fn a_fault_is_found_after_periods_for_all_misses_but_the_last_and_then_deadline_
     assert_eq!(bound(&hangs, "w1", "Fault"), "35..35");
 }
 
-/// WD2: from the last miss in a row it takes the extra time, from the first one two periods more: before the next release.
+/// WD2: from the last miss in a row it takes the extra time, from the first one two periods more:
+/// before the next release.
 #[test]
 fn the_last_miss_is_a_fault_when_its_extra_time_is_over() {
     let hangs = with_period(&within_period::NET, 100, None);
@@ -131,13 +137,14 @@ fn misses_are_counted_and_forgotten_as_promised() {
             format!("AG (Extra & misses = {most} -> AX Fault)"),
             format!("AG misses <= {most}"),
             format!("EF misses = {most}"),
-            // Back at rest from a job in time, or from a fault, nothing is held against it; from a late one it is.
+            // Back at rest from a job in time, or from a fault, nothing is held against it; from a
+            // late one it is.
             "AG (Run | Fault -> AX (Idle -> misses = 0))".to_owned(),
             "AG (Extra -> AX (Idle -> misses > 0))".to_owned(),
         ];
         let pt = Pt::from(&net);
-        let promises =
-            promises.map(|text| property::parse(&text, &pt).unwrap_or_else(|error| panic!("{error}")));
+        let promises = promises
+            .map(|text| property::parse(&text, &pt).unwrap_or_else(|error| panic!("{error}")));
         for (promise, answer) in
             promises.iter().zip(check_all(&Model::from(&net), &promises, &Options::default()))
         {

@@ -11,7 +11,11 @@ use std::vec::Vec;
 
 /// A task of whole ticks.
 fn task(period: u64, deadline: u64, cost: u64, extra: u64) -> Task {
-    Task { deadline: Micros(deadline), extra: Micros(extra), ..Task::new(Micros(period), Micros(cost)) }
+    Task {
+        deadline: Micros(deadline),
+        extra: Micros(extra),
+        ..Task::new(Micros(period), Micros(cost))
+    }
 }
 
 /// Tasks with small periods, any of which may be late.

@@ -7,8 +7,9 @@ use proptest::prelude::*;
 use std::vec;
 use std::vec::Vec;
 
-/// The worst response time of the last of these tasks when all are released together, or `None` when one of its jobs is late.
-/// It shares nothing with the executive: whoever comes first and has work left, works one tick.
+/// The worst response time of the last of these tasks when all are released together, or `None`
+/// when one of its jobs is late. It shares nothing with the executive: whoever comes first and has
+/// work left, works one tick.
 fn worst(tasks: &[Task]) -> Option<u64> {
     let last = tasks.len() - 1;
     let (mut left, mut released, mut worst) = (vec![0; tasks.len()], 0, 0);
@@ -33,7 +34,8 @@ fn worst(tasks: &[Task]) -> Option<u64> {
     Some(worst)
 }
 
-/// The worst time from release to end of each task, late or not, and the first task that missed a deadline.
+/// The worst time from release to end of each task, late or not, and the first task that missed a
+/// deadline.
 fn observed<const N: usize>(tasks: [Task; N], needs: [u64; N]) -> ([u64; N], Vec<usize>) {
     let (mut worst, mut released, mut late) = ([0; N], [0; N], vec![]);
     for it in run(tasks, needs, 2 * hyperperiod(&tasks)) {
@@ -91,7 +93,8 @@ proptest! {
             prop_assert!(at == one || response.is_err() || !late && worst[at] <= response.unwrap().0);
         }
 
-        // Exact when the overrunning one can use all its extra time: it is in time as a task of its own, with that as cost.
+        // Exact when the overrunning one can use all its extra time: it is in time as a task of its
+        // own, with that as cost.
         let mut with = tasks;
         with[one].cost = tasks[one].budget();
         with[one].deadline = Micros(tasks[one].deadline.0 + tasks[one].extra.0);

@@ -21,8 +21,14 @@ fn burns_and_wellings_set_a_is_late() {
 
 #[test]
 fn burns_and_wellings_set_b_and_set_c() {
-    assert_eq!(responses(&[task(16, 16, 4, 0), task(40, 40, 5, 0), task(80, 80, 32, 0)]), [4, 9, 58]);
-    assert_eq!(responses(&[task(20, 20, 5, 0), task(40, 40, 10, 0), task(80, 80, 40, 0)]), [5, 15, 80]);
+    assert_eq!(
+        responses(&[task(16, 16, 4, 0), task(40, 40, 5, 0), task(80, 80, 32, 0)]),
+        [4, 9, 58]
+    );
+    assert_eq!(
+        responses(&[task(20, 20, 5, 0), task(40, 40, 10, 0), task(80, 80, 40, 0)]),
+        [5, 15, 80]
+    );
 }
 
 #[test]
@@ -33,7 +39,8 @@ fn burns_and_wellings_deadlines_before_periods() {
 
 #[test]
 fn lehoczky_sha_and_ding() {
-    // The exact characterisation of rate monotonic scheduling (1989): beyond the bound of utilisation, yet in time.
+    // The exact characterisation of rate monotonic scheduling (1989): beyond the bound of
+    // utilisation, yet in time.
     let tasks = |first| [task(100, 100, first, 0), task(150, 150, 40, 0), task(350, 350, 100, 0)];
     assert_eq!(responses(&tasks(20)), [20, 60, 240]);
     assert_eq!(responses(&tasks(40)), [40, 80, 300]);
@@ -43,8 +50,8 @@ fn lehoczky_sha_and_ding() {
 fn the_most_cost_of_a_task_is_exact() {
     let tasks = [task(100, 100, 20, 0), task(150, 150, 40, 0), task(350, 350, 100, 0)];
     let set = TaskSet::new(&tasks).unwrap();
-    // More than 40 of the first carry the last one beyond 300, into a fourth job of it, and beyond 350; with 160 of its own
-    // the last one is done at 300, and would not be by 350 if it were not.
+    // More than 40 of the first carry the last one beyond 300, into a fourth job of it, and beyond
+    // 350; with 160 of its own the last one is done at 300, and would not be by 350 if it were not.
     assert_eq!(set.most_cost(0, Overruns::None), Ok(Some(Micros(40))));
     assert_eq!(set.most_cost(2, Overruns::None), Ok(Some(Micros(160))));
     assert_eq!(set.most_cost(3, Overruns::None), Ok(None));
@@ -58,15 +65,22 @@ fn a_limit_of_iterations_is_an_answer() {
     let unknown = Unschedulable::Unknown { task: 1, at_least: Micros(701) };
     assert_eq!(set.with_iterations(3).schedulable(Overruns::None), Err(unknown));
     assert!(set.with_iterations(3).most_cost(1, Overruns::None).is_err());
-    assert_eq!(unknown.to_string(), "task 1 may take 701 us or more; allow more iterations to know");
+    assert_eq!(
+        unknown.to_string(),
+        "task 1 may take 701 us or more; allow more iterations to know"
+    );
 }
 
 #[test]
 fn what_does_not_fit_is_late() {
     let huge = u64::MAX / 2;
-    let tasks =
-        [task(huge, huge, huge, 0), task(u64::MAX, u64::MAX, huge, 0), task(u64::MAX, u64::MAX, huge, 0)];
-    let late = Unschedulable::Late { task: 1, at_least: Micros(u64::MAX), deadline: Micros(u64::MAX) };
+    let tasks = [
+        task(huge, huge, huge, 0),
+        task(u64::MAX, u64::MAX, huge, 0),
+        task(u64::MAX, u64::MAX, huge, 0),
+    ];
+    let late =
+        Unschedulable::Late { task: 1, at_least: Micros(u64::MAX), deadline: Micros(u64::MAX) };
     assert_eq!(TaskSet::new(&tasks).unwrap().schedulable(Overruns::All), Err(late));
 }
 

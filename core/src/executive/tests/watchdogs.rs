@@ -1,4 +1,5 @@
-//! What the watchdogs promise: faults after so many misses in a row, isolation, and data that shows its age.
+//! What the watchdogs promise: faults after so many misses in a row, isolation, and data that shows
+//! its age.
 
 use super::{run, task};
 use crate::executive::{Executive, Happening, Mailbox, Overruns, Stage, Task, TaskSet, What};
@@ -6,8 +7,8 @@ use crate::units::Micros;
 use proptest::prelude::*;
 use std::vec::Vec;
 
-/// Lets a set run with execution times of its own for each job, shown every happening; faults are acknowledged one tick
-/// after the next release would have been.
+/// Lets a set run with execution times of its own for each job, shown every happening; faults are
+/// acknowledged one tick after the next release would have been.
 fn play<const N: usize>(
     tasks: [Task; N],
     needs: &[[u64; N]],
@@ -15,7 +16,8 @@ fn play<const N: usize>(
 ) {
     let mut executive = Executive::new(tasks).unwrap();
     let mut at = [0; N];
-    let need = |at: &[usize; N]| core::array::from_fn(|task| Micros(needs[at[task] % needs.len()][task]));
+    let need =
+        |at: &[usize; N]| core::array::from_fn(|task| Micros(needs[at[task] % needs.len()][task]));
     for now in 0..400 {
         while let Some(it) = executive.simulate(Micros(now), &need(&at)) {
             shown(&executive, it);
@@ -64,7 +66,8 @@ proptest! {
         });
     }
 
-    /// WD4: whatever jobs need, a module takes in each of its periods no more than its cost and its extra time.
+    /// WD4: whatever jobs need, a module takes in each of its periods no more than its cost and its
+    /// extra time.
     #[test]
     fn a_module_takes_no_more_than_its_budget_in_each_of_its_periods(needs in needs()) {
         let (mut running, mut since, mut used) = (None, 0, [0; 3]);
@@ -80,7 +83,8 @@ proptest! {
         });
     }
 
-    /// WD4 for a control loop, the modules of which share their period: each is at most the extra time later.
+    /// WD4 for a control loop, the modules of which share their period: each is at most the extra
+    /// time later.
     #[test]
     fn in_a_loop_one_overrunning_module_delays_the_others_by_at_most_its_extra_time(
         costs in proptest::array::uniform4(1..20_u64), extra in 0..10_u64, one in 0..4_usize, need in 0..200_u64
@@ -133,7 +137,10 @@ fn with_unequal_periods_an_overrun_costs_more_than_the_extra_time() {
 #[test]
 fn a_job_done_at_its_deadline_sharp_is_in_time_and_one_at_the_end_of_its_extra_time_is_late() {
     let ends = |need| {
-        run([task(10, 6, 2, 4)], [need], 10).into_iter().map(|it| (it.at.0, it.what)).collect::<Vec<_>>()
+        run([task(10, 6, 2, 4)], [need], 10)
+            .into_iter()
+            .map(|it| (it.at.0, it.what))
+            .collect::<Vec<_>>()
     };
     assert_eq!(ends(6), [(0, What::Released), (6, What::Done), (10, What::Released)]);
     let mut executive = Executive::new([task(10, 3, 3, 4)]).unwrap();
@@ -145,8 +152,10 @@ fn a_job_done_at_its_deadline_sharp_is_in_time_and_one_at_the_end_of_its_extra_t
 
 #[test]
 fn a_release_is_refused_while_the_last_job_is_under_way() {
-    let whats: Vec<_> =
-        run([task(10, 10, 5, 2)], [u64::MAX], 20).into_iter().map(|it| (it.at.0, it.what)).collect();
+    let whats: Vec<_> = run([task(10, 10, 5, 2)], [u64::MAX], 20)
+        .into_iter()
+        .map(|it| (it.at.0, it.what))
+        .collect();
     let expected = [
         (0, What::Released),
         (7, What::Exhausted),

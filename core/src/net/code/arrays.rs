@@ -27,7 +27,8 @@ pub const fn lines<const T: usize>(net: &Net<'_>) -> [u16; T] {
     lines
 }
 
-/// The lists of a [`Code`] whose lengths are known when compiling, those first that every event needs.
+/// The lists of a [`Code`] whose lengths are known when compiling, those first that every event
+/// needs.
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Arrays<
@@ -87,6 +88,11 @@ impl<const W: usize, const T: usize, const R: usize, const C: usize, const P: us
     /// The packed net.
     pub const fn code(&self, settle: u32, bounded: bool) -> Code<'_, W> {
         let Self { entries, takes, order, rows, clocks, fields, ignored, words } = self;
-        Code::new(Borrowed { entries, takes, order, rows, clocks, fields, ignored }, words, settle, bounded)
+        Code::new(
+            Borrowed { entries, takes, order, rows, clocks, fields, ignored },
+            words,
+            settle,
+            bounded,
+        )
     }
 }

@@ -17,7 +17,8 @@ pub struct Field {
 impl Field {
     /// This many tokens in the word of the field.
     pub const fn tokens(self, tokens: u32) -> u64 {
-        // Wraps, though a shift is below 64: of a field that is looked up the compiler does not know it.
+        // Wraps, though a shift is below 64: of a field that is looked up the compiler does not
+        // know it.
         (tokens as u64).wrapping_shl(self.shift as u32)
     }
 

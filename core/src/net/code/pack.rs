@@ -11,7 +11,8 @@ const fn bound(net: &Net<'_>, place: usize) -> u32 {
     if bound == 0 { 1 } else { bound }
 }
 
-/// How long the lists will be; `None` when the net has more than 65,534 transitions, events or places.
+/// How long the lists will be; `None` when the net has more than 65,534 transitions, events or
+/// places.
 pub const fn size(net: &Net<'_>) -> Option<CodeSize> {
     let limit = u16::MAX as usize - 2;
     if net.transitions.len() > limit || net.events.len() > limit || net.places.len() > limit {
@@ -39,8 +40,9 @@ pub const fn size(net: &Net<'_>) -> Option<CodeSize> {
     Some(CodeSize { words, entries, rows, clocks, fields, events })
 }
 
-/// How many states the net has when it is a state machine over its `Role::State` places (one otherwise), and whether
-/// it is one: there is one token in them, and every transition moves it, reads it or leaves it alone.
+/// How many states the net has when it is a state machine over its `Role::State` places (one
+/// otherwise), and whether it is one: there is one token in them, and every transition moves it,
+/// reads it or leaves it alone.
 const fn control(net: &Net<'_>) -> (usize, bool) {
     let mut states = 0;
     let mut tokens = 0;
@@ -58,7 +60,8 @@ const fn control(net: &Net<'_>) -> (usize, bool) {
     let mut at = 0;
     while at < net.transitions.len() {
         let it = &net.transitions[at];
-        let (taken, read, given) = (among(it.take, states), among(it.read, states), among(it.give, states));
+        let (taken, read, given) =
+            (among(it.take, states), among(it.read, states), among(it.give, states));
         if !(taken == 1 && read == 0 && given == 1 || taken == 0 && read <= 1 && given == 0) {
             return (1, false);
         }
@@ -78,14 +81,14 @@ const fn among(arcs: &[Arc], places: usize) -> usize {
     count
 }
 
-/// Whether exactly one place of role [`Role::State`] is marked at any time, because transitions only move one token
-/// among them.
+/// Whether exactly one place of role [`Role::State`] is marked at any time, because transitions
+/// only move one token among them.
 pub const fn is_state_machine(net: &Net<'_>) -> bool {
     control(net).1
 }
 
-/// Packs a net. The lists are as long as [`size`] says, `W` is [`CodeSize::words`] or more, and the net has no
-/// [`defect`](Net::defect).
+/// Packs a net. The lists are as long as [`size`] says, `W` is [`CodeSize::words`] or more, and the
+/// net has no [`defect`](Net::defect).
 pub const fn pack<const W: usize>(net: &Net<'_>, lists: &mut Lists<'_, W>) -> Words<W> {
     let (states, machine) = control(net);
     let mut words = Words {
@@ -155,8 +158,11 @@ pub const fn pack<const W: usize>(net: &Net<'_>, lists: &mut Lists<'_, W>) -> Wo
         lists.takes[lists.entries[at].transition as usize] = sum(transition.take, lists.fields);
         lists.order[at] = at as u16;
         let mut place = at;
-        while place > 0 && goes_before(net, lists.entries, lists.order[place], lists.order[place - 1]) {
-            (lists.order[place], lists.order[place - 1]) = (lists.order[place - 1], lists.order[place]);
+        while place > 0
+            && goes_before(net, lists.entries, lists.order[place], lists.order[place - 1])
+        {
+            (lists.order[place], lists.order[place - 1]) =
+                (lists.order[place - 1], lists.order[place]);
             place -= 1;
         }
         at += 1;
@@ -171,7 +177,8 @@ pub const fn pack<const W: usize>(net: &Net<'_>, lists: &mut Lists<'_, W>) -> Wo
                 None => u32::MAX,
             };
             let event = transition.on.is_some();
-            let (entry, need, earliest) = (timed as u16, lists.entries[timed].need, within.earliest);
+            let (entry, need, earliest) =
+                (timed as u16, lists.entries[timed].need, within.earliest);
             lists.clocks[clock] = Clock { need, entry, event, earliest, latest };
             lists.entries[timed].clock = clock as u16;
             clock += 1;
@@ -230,7 +237,8 @@ const fn sum<const W: usize>(arcs: &[Arc], fields: &[Field]) -> [u64; W] {
     words
 }
 
-/// A weight beyond the field becomes its guard bit: as a need it is never met, as a gift it exceeds the bound.
+/// A weight beyond the field becomes its guard bit: as a need it is never met, as a gift it exceeds
+/// the bound.
 const fn clamped(weight: u32, field: Field) -> u32 {
     let guard = 1 << field.width;
     if weight > guard { guard } else { weight }
@@ -251,7 +259,12 @@ const fn packed<const W: usize>(net: &Net<'_>, fields: &[Field], at: usize) -> E
 }
 
 /// Moves the last entry of a row to where its priority belongs.
-const fn insert<const W: usize>(entries: &mut [Entry<W>], net: &Net<'_>, first: usize, last: usize) {
+const fn insert<const W: usize>(
+    entries: &mut [Entry<W>],
+    net: &Net<'_>,
+    first: usize,
+    last: usize,
+) {
     let mut at = last;
     while at > first {
         let (before, this) = (entries[at - 1], entries[at]);

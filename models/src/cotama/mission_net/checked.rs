@@ -1,9 +1,9 @@
-//! Whether a global supervisor does its mission: every marking looked at, in well under a millisecond, before the robot
-//! moves.
+//! Whether a global supervisor does its mission: every marking looked at, in well under a
+//! millisecond, before the robot moves.
 
 use super::{
-    DONE, GLOBAL_EVENT, HALT, MISSION_RECEIVED, MissionNetError, SAFE, SECURITY, START_DRIVE, STOPPED, WAIT,
-    WARN, ends_with, kinds,
+    DONE, GLOBAL_EVENT, HALT, MISSION_RECEIVED, MissionNetError, SAFE, SECURITY, START_DRIVE,
+    STOPPED, WAIT, WARN, ends_with, kinds,
 };
 use crate::mission::{Does, Objective};
 use cotama_core::net::{Arc, Defect, EventId, Net, OutputId, Packed, PlaceId, Transition, words};
@@ -18,8 +18,8 @@ pub struct Explored {
     pub firings: usize,
 }
 
-/// What is wrong with a global supervisor. Places and transitions are named as in the net; the place of an objective
-/// has its id.
+/// What is wrong with a global supervisor. Places and transitions are named as in the net; the
+/// place of an objective has its id.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// It is not a supervisor of these objectives at all.
@@ -79,9 +79,13 @@ impl fmt::Display for Fault {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Objectives(error) => write!(f, "{error}"),
-            Self::Defect(defect) => write!(f, "the lists of the supervisor do not fit together: {defect:?}"),
+            Self::Defect(defect) => {
+                write!(f, "the lists of the supervisor do not fit together: {defect:?}")
+            }
             Self::Missing(name) => write!(f, "the supervisor has no place `{name}`"),
-            Self::Tokens { after: None, tokens } => write!(f, "{tokens} tokens at the start, not one"),
+            Self::Tokens { after: None, tokens } => {
+                write!(f, "{tokens} tokens at the start, not one")
+            }
             Self::Tokens { after: Some(after), tokens } => {
                 write!(f, "{tokens} tokens after `{after}`, not one")
             }
@@ -90,12 +94,19 @@ impl fmt::Display for Fault {
                 write!(f, "`{at}` could block: from there `{end}` is out of reach")
             }
             Self::Deadlock(at) => write!(f, "`{at}` could block: nothing leads away from it"),
-            Self::Ambiguous { at, event } => write!(f, "in `{at}` the event `{event}` has several answers"),
+            Self::Ambiguous { at, event } => {
+                write!(f, "in `{at}` the event `{event}` has several answers")
+            }
             Self::Answer { at, event, found, expected } => {
                 let place = |name: &Option<String>| {
                     name.as_ref().map_or("nowhere".into(), |name| format!("to `{name}`"))
                 };
-                write!(f, "in `{at}` the event `{event}` leads {}, not {}", place(found), place(expected))
+                write!(
+                    f,
+                    "in `{at}` the event `{event}` leads {}, not {}",
+                    place(found),
+                    place(expected)
+                )
             }
             Self::Says { transition, expected } => {
                 write!(
@@ -115,11 +126,12 @@ impl std::error::Error for Fault {}
 
 /// Looks at every marking of the global supervisor of these objectives.
 ///
-/// What is checked: there is one token, always; from every objective `Done` can be reached, and from everywhere `Safe`;
-/// only `Done` and `Safe` may be without a way out; every place is reached; a global event leads from everywhere to
-/// `Security`, and is ignored on purpose there and in `Safe`; every objective is left by its own event to the next
-/// one, and by no other event; nothing is ambiguous; and what starts drives, halts and warns is said, where it has to
-/// be and nowhere else.
+/// What is checked: there is one token, always; from every objective `Done` can be reached, and
+/// from everywhere `Safe`; only `Done` and `Safe` may be without a way out; every place is reached;
+/// a global event leads from everywhere to `Security`, and is ignored on purpose there and in
+/// `Safe`; every objective is left by its own event to the next one, and by no other event; nothing
+/// is ambiguous; and what starts drives, halts and warns is said, where it has to be and nowhere
+/// else.
 ///
 /// # Errors
 /// Everything that is wrong, in this order; of tokens only the first.
@@ -192,12 +204,16 @@ fn explore<const W: usize>(net: &Net<'_>) -> Result<Graph, Fault> {
     Ok(graph)
 }
 
-/// Where the mission leads, as positions of places: `Wait`, the objectives, `Done`; then `Security` and `Safe`.
+/// Where the mission leads, as positions of places: `Wait`, the objectives, `Done`; then `Security`
+/// and `Safe`.
 fn walk(net: &Net<'_>, objectives: &[Objective]) -> Result<Vec<usize>, Fault> {
     let ids = objectives.iter().map(|it| it.id.as_str());
     let names = [WAIT].into_iter().chain(ids).chain([DONE, SECURITY, SAFE]);
     let find = |name: &str| {
-        net.places.iter().position(|place| place.name == name).ok_or_else(|| Fault::Missing(name.to_owned()))
+        net.places
+            .iter()
+            .position(|place| place.name == name)
+            .ok_or_else(|| Fault::Missing(name.to_owned()))
     };
     names.map(find).collect()
 }
@@ -244,15 +260,22 @@ impl Check<'_> {
         };
         let late = last(before.iter(), &accomplished, DONE);
         let unsafe_at = last(self.walk.iter(), &stopped, SAFE);
-        let left = |at: usize| self.graph.firings.iter().any(|&(from, to, _)| from == at && to != at);
+        let left =
+            |at: usize| self.graph.firings.iter().any(|&(from, to, _)| from == at && to != at);
         let ends = [done, *safe];
         let stuck = |at: &usize| self.graph.reached[*at] && !ends.contains(at) && !left(*at);
-        let stuck = (0..self.graph.reached.len()).filter(stuck).map(|at| Fault::Deadlock(self.name(at)));
+        let stuck =
+            (0..self.graph.reached.len()).filter(stuck).map(|at| Fault::Deadlock(self.name(at)));
         late.into_iter().chain(unsafe_at).chain(stuck).collect()
     }
 
     /// The answer that the mission demands to an event in a place: where to, and what is said.
-    fn demanded(&self, at: usize, event: EventId, kinds: &[Does]) -> Option<(usize, Vec<OutputId>)> {
+    fn demanded(
+        &self,
+        at: usize,
+        event: EventId,
+        kinds: &[Does],
+    ) -> Option<(usize, Vec<OutputId>)> {
         let [before @ .., security, safe] = self.walk else { return None };
         if at == *security {
             return (event == STOPPED).then(|| (*safe, WARN.to_vec()));
@@ -262,14 +285,16 @@ impl Check<'_> {
             return Some((*security, HALT.to_vec()));
         }
         let next = *before.get(step + 1)?;
-        let own = step.checked_sub(1).map_or(MISSION_RECEIVED, |objective| ends_with(kinds[objective]));
+        let own =
+            step.checked_sub(1).map_or(MISSION_RECEIVED, |objective| ends_with(kinds[objective]));
         let drives = kinds.get(step) == Some(&Does::Drive);
         (event == own).then(|| (next, drives.then_some(START_DRIVE).into_iter().collect()))
     }
 
     fn answers(&self, at: usize, kinds: &[Does], faults: &mut Vec<Fault>) {
         let here: Vec<_> = self.graph.firings.iter().filter(|(from, ..)| *from == at).collect();
-        for (event, signal) in self.net.events.iter().enumerate().filter(|_| self.graph.reached[at]) {
+        for (event, signal) in self.net.events.iter().enumerate().filter(|_| self.graph.reached[at])
+        {
             let event_id = EventId(event as u32);
             let on = |transition: &Transition<'_>| transition.on == Some(event_id);
             let mut found = here.iter().filter(|firing| on(&self.net.transitions[firing.2]));
@@ -281,17 +306,21 @@ impl Check<'_> {
             }
             let demanded = self.demanded(at, event_id, kinds);
             let (leads, should) = (first.map(|firing| firing.1), demanded.as_ref().map(|it| it.0));
-            let purpose = |it: &cotama_core::net::Ignored| it.event == event_id && it.place.0 as usize == at;
-            let forgotten =
-                event_id == GLOBAL_EVENT && should.is_none() && !self.net.ignored.iter().any(purpose);
+            let purpose =
+                |it: &cotama_core::net::Ignored| it.event == event_id && it.place.0 as usize == at;
+            let forgotten = event_id == GLOBAL_EVENT
+                && should.is_none()
+                && !self.net.ignored.iter().any(purpose);
             if leads != should || forgotten {
-                let [found, expected] = [leads, should].map(|place| place.map(|place| self.name(place)));
+                let [found, expected] =
+                    [leads, should].map(|place| place.map(|place| self.name(place)));
                 faults.push(Fault::Answer { at: at_name, event: event_name, found, expected });
             } else if let (Some(&&(_, _, transition)), Some((_, says))) = (first, demanded)
                 && self.net.transitions[transition].emits != says
             {
-                let name =
-                    |output: OutputId| self.net.outputs.get(output.0 as usize).map(|it| it.name.to_owned());
+                let name = |output: OutputId| {
+                    self.net.outputs.get(output.0 as usize).map(|it| it.name.to_owned())
+                };
                 let expected = says.into_iter().filter_map(name).collect();
                 let transition = self.net.transitions[transition].name.to_owned();
                 faults.push(Fault::Says { transition, expected });
@@ -303,7 +332,11 @@ impl Check<'_> {
     fn plain(&self, faults: &mut Vec<Fault>) {
         let single = |arcs: &[Arc]| matches!(arcs, [Arc { weight: 1, .. }]);
         let plain = |it: &Transition<'_>| {
-            it.on.is_some() && single(it.take) && single(it.give) && it.read.is_empty() && it.within.is_none()
+            it.on.is_some()
+                && single(it.take)
+                && single(it.give)
+                && it.read.is_empty()
+                && it.within.is_none()
         };
         let others = self.net.transitions.iter().filter(|it| !plain(it));
         faults.extend(others.map(|it| Fault::NotPlain(it.name.to_owned())));

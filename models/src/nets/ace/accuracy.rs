@@ -1,14 +1,16 @@
 //! Behaviour control: how strictly the active behaviour is checked, and when it has failed.
 //!
-//! *Print* (algorithm B.1, figures B.5 and B.6): twice a second the next waypoint is checked for consistency, for instance
-//! with the direction that a person pointed to. Cycles without success in a row are counted; above MAXTRIALS the goal
-//! accuracy falls by one step, and below MINACC the behaviour has failed, so that somebody is asked again.
+//! *Print* (algorithm B.1, figures B.5 and B.6): twice a second the next waypoint is checked for
+//! consistency, for instance with the direction that a person pointed to. Cycles without success in
+//! a row are counted; above MAXTRIALS the goal accuracy falls by one step, and below MINACC the
+//! behaviour has failed, so that somebody is asked again.
 //!
-//! *Reading*: four levels, MINACC = 1, MAXTRIALS = 4; the count starts anew after each fall, else the later levels would
-//! last one cycle each; a passed check sets the count back and raises the accuracy by one level (the text says
-//! "temporarily").
+//! *Reading*: four levels, MINACC = 1, MAXTRIALS = 4; the count starts anew after each fall, else
+//! the later levels would last one cycle each; a passed check sets the count back and raises the
+//! accuracy by one level (the text says "temporarily").
 //!
-//! So a goal that stays blocked is reported after exactly 4 levels x (4 + 1) trials = 20 cycles, which is 10 s:
+//! So a goal that stays blocked is reported after exactly 4 levels x (4 + 1) trials = 20 cycles,
+//! which is 10 s:
 //!
 //! ```
 //! use cotama_core::units::Millis;
@@ -23,8 +25,9 @@
 //! assert_eq!(control.state(), State::Failed);
 //! ```
 //!
-//! What to learn from it: a count that is looked at when it is full is a counter with a transition that fires at once
-//! (`fall4`, ..., `give_up`): the event only counts. Bounded response is then a property of the token game, to the cycle.
+//! What to learn from it: a count that is looked at when it is full is a counter with a transition
+//! that fires at once (`fall4`, ..., `give_up`): the event only counts. Bounded response is then a
+//! property of the token game, to the cycle.
 
 pub use self::ace_accuracy::*;
 

@@ -1,7 +1,8 @@
 //! Which of the five behaviours is active, and whether the path planner runs.
 //!
-//! *Print*: the behaviours, and that the planner is off in `FollowPerson` (the way to the person is taken to be free)
-//! and in Idle. *Reading*: each behaviour is forwarded as an event of its own; `Released` is the end of one.
+//! *Print*: the behaviours, and that the planner is off in `FollowPerson` (the way to the person is
+//! taken to be free) and in Idle. *Reading*: each behaviour is forwarded as an event of its own;
+//! `Released` is the end of one.
 //!
 //! | behaviour | does |
 //! | --- | --- |
@@ -11,8 +12,9 @@
 //! | [`ReachGoal`](Place::ReachGoal) | the shortest way to a goal |
 //! | [`Idle`](Place::Idle) | stands |
 //!
-//! What to learn from it: "the planner is off exactly in `FollowPerson` and `Idle`" is a place invariant,
-//! `planner & Idle & FollowPerson = 1`. A line that switched behaviours and forgot the planner would not compile.
+//! What to learn from it: "the planner is off exactly in `FollowPerson` and `Idle`" is a place
+//! invariant, `planner & Idle & FollowPerson = 1`. A line that switched behaviours and forgot the
+//! planner would not compile.
 //!
 //! ```
 //! use cotama_core::units::Millis;

@@ -1,10 +1,11 @@
 //! What a subsystem that asks for a behaviour is told: one such net for each subsystem.
 //!
-//! *Reading*: in the dissertation a trigger that is refused is not heard of again. Here every trigger is answered
-//! (accepted, refused or replaced by a newer one), so the asker knows where it stands.
+//! *Reading*: in the dissertation a trigger that is refused is not heard of again. Here every
+//! trigger is answered (accepted, refused or replaced by a newer one), so the asker knows where it
+//! stands.
 //!
-//! What to learn from it: a handshake is a net of its own. It is small enough to be read, and composed with
-//! [`selection`](super::selection) it is checked whether the answer always comes.
+//! What to learn from it: a handshake is a net of its own. It is small enough to be read, and
+//! composed with [`selection`](super::selection) it is checked whether the answer always comes.
 //!
 //! ```
 //! use cotama_core::units::Millis;

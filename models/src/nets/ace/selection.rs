@@ -1,24 +1,27 @@
 //! Behaviour selection: which subsystem's behaviour is active.
 //!
-//! *Print* (figure B.4): in INACTIVE and ACTIVE a trigger of a subsystem leads to PRIORITYCHECK. If its priority is at
-//! least that of the subsystem whose behaviour is active, its own becomes active. When a behaviour has completed or
-//! failed, the machine is INACTIVE and the behaviour is Idle.
+//! *Print* (figure B.4): in INACTIVE and ACTIVE a trigger of a subsystem leads to PRIORITYCHECK. If
+//! its priority is at least that of the subsystem whose behaviour is active, its own becomes
+//! active. When a behaviour has completed or failed, the machine is INACTIVE and the behaviour is
+//! Idle.
 //!
 //! *Reading*:
 //!
-//! - The priorities, which are not printed: [`Emergency`](Place::Emergency) over traversability over interaction over vision
-//!   over navigation. They are all different. `at least` lets a subsystem replace its own behaviour; between two of
-//!   equal priority it would let them take turns for ever.
+//! - The priorities, which are not printed: [`Emergency`](Place::Emergency) over traversability
+//!   over interaction over vision over navigation. They are all different. `at least` lets a
+//!   subsystem replace its own behaviour; between two of equal priority it would let them take
+//!   turns for ever.
 //! - The emergency stop is a subsystem of its own; the dissertation has the other four.
 //! - A refused trigger leaves the active behaviour as it is, and the asker is told; it is not kept.
-//! - Each subsystem has one slot, so triggers that come while others are checked are not lost: the highest is checked
-//!   first, and the check ends when all slots are empty. A second trigger of the same subsystem takes the slot over, and
-//!   the asker is told that the first was replaced.
+//! - Each subsystem has one slot, so triggers that come while others are checked are not lost: the
+//!   highest is checked first, and the check ends when all slots are empty. A second trigger of the
+//!   same subsystem takes the slot over, and the asker is told that the first was replaced.
 //!
-//! What to learn from it: guards that exclude each other (`!emergency_asks` and so on) say the order of the check in the
-//! net itself, so `deterministic` holds without priorities; groups (`UpToVision`) say "at most this priority" in a word.
-//! Between events the check takes no time: `PriorityCheck` is passed, never stayed in. In synchronous
-//! [rounds](cotama_core::net::Round) each decision is a round of its own, and then the slots are needed.
+//! What to learn from it: guards that exclude each other (`!emergency_asks` and so on) say the
+//! order of the check in the net itself, so `deterministic` holds without priorities; groups
+//! (`UpToVision`) say "at most this priority" in a word. Between events the check takes no time:
+//! `PriorityCheck` is passed, never stayed in. In synchronous [rounds](cotama_core::net::Round)
+//! each decision is a round of its own, and then the slots are needed.
 //!
 //! ```
 //! use cotama_core::{net::Outcome, units::Millis};

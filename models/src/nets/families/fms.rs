@@ -10,9 +10,10 @@ pub const FMS: Family = Family {
     grow,
 };
 
-/// The flexible manufacturing system (G. Ciardo and K. S. Trivedi, "A decomposition approach for stochastic reward net
-/// models", Performance Evaluation 18, 1993), as in the Model Checking Contest: `n` parts of each of three kinds. Machine
-/// M1 works on kind 1, M2 on kind 2 (and on kind 3 when it is free), and M3 on pairs of kinds 1 and 2 that were joined.
+/// The flexible manufacturing system (G. Ciardo and K. S. Trivedi, "A decomposition approach for
+/// stochastic reward net models", Performance Evaluation 18, 1993), as in the Model Checking
+/// Contest: `n` parts of each of three kinds. Machine M1 works on kind 1, M2 on kind 2 (and on kind
+/// 3 when it is free), and M3 on pairs of kinds 1 and 2 that were joined.
 ///
 /// # Errors
 /// When `n` is not from 1 to 65,535.
@@ -21,16 +22,16 @@ pub fn fms(n: u32) -> Result<OwnedNet, OutOfRange> {
 }
 
 fn grow(net: &mut Draft, n: u32) {
-    let [m1, m2, m3] =
-        [("M1", 3), ("M2", 1), ("M3", 2)].map(|(name, machines)| net.place(name, machines, machines));
+    let [m1, m2, m3] = [("M1", 3), ("M2", 1), ("M3", 2)]
+        .map(|(name, machines)| net.place(name, machines, machines));
     let mut parts = |name, tokens| net.place(name, tokens, n);
     let (p1, p2, p3) = (parts("P1", n), parts("P2", n), parts("P3", n));
     let [wait1, done1, ship1, join1] = ["P1wM1", "P1d", "P1s", "P1wP2"].map(|name| parts(name, 0));
     let [wait2, done2, ship2, join2] = ["P2wM2", "P2d", "P2s", "P2wP1"].map(|name| parts(name, 0));
     let [at3, ship3] = ["P3M2", "P3s"].map(|name| parts(name, 0));
     let [pair, wait12, ship12] = ["P12", "P12wM3", "P12s"].map(|name| parts(name, 0));
-    let [at1, at2, at12] =
-        [("P1M1", 3), ("P2M2", 1), ("P12M3", 2)].map(|(name, machines)| net.place(name, 0, machines.min(n)));
+    let [at1, at2, at12] = [("P1M1", 3), ("P2M2", 1), ("P12M3", 2)]
+        .map(|(name, machines)| net.place(name, 0, machines.min(n)));
 
     for (name, from, to) in [
         ("tP1", &[p1][..], &[wait1][..]),

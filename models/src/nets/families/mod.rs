@@ -1,7 +1,7 @@
 //! Families of nets: one net for each number `n`, known in the literature with its counts.
 //!
-//! They are plain place/transition nets, without events and time, to measure and to test checkers with. Played, they would
-//! fire for ever by themselves. What is known of them is stated as laws.
+//! They are plain place/transition nets, without events and time, to measure and to test checkers
+//! with. Played, they would fire for ever by themselves. What is known of them is stated as laws.
 //!
 //! ```
 //! use cotama_models::nets::families::{PHILOSOPHERS, philosophers};
@@ -36,7 +36,8 @@ pub struct Family {
     pub description: &'static str,
     /// The smallest `n`.
     pub least: u32,
-    /// The largest `n`: the net takes at most some 100 megabytes, and no place starts with more than 65,535 tokens.
+    /// The largest `n`: the net takes at most some 100 megabytes, and no place starts with more
+    /// than 65,535 tokens.
     pub most: u32,
     grow: fn(&mut Draft, u32),
 }
@@ -96,7 +97,13 @@ impl Draft {
         let arc = |&place: &PlaceId| Arc { place, weight: 1 };
         let (read, take) = from.iter().map(arc).partition(|arc| to.contains(&arc.place));
         let give = to.iter().filter(|place| !from.contains(place)).map(arc).collect();
-        self.net.transitions.push(OwnedTransition { line, take, read, give, ..OwnedTransition::new(name) });
+        self.net.transitions.push(OwnedTransition {
+            line,
+            take,
+            read,
+            give,
+            ..OwnedTransition::new(name)
+        });
     }
 
     fn invariant(&mut self, places: &[PlaceId], equals: u32) {

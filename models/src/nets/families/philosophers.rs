@@ -10,8 +10,9 @@ pub const PHILOSOPHERS: Family = Family {
     grow,
 };
 
-/// The dining philosophers (E. W. Dijkstra 1965), as in the Model Checking Contest: `n` think, each takes the left or the
-/// right fork first, then the other one, eats, and puts both back. All with a left fork, or all with a right one, starve.
+/// The dining philosophers (E. W. Dijkstra 1965), as in the Model Checking Contest: `n` think, each
+/// takes the left or the right fork first, then the other one, eats, and puts both back. All with a
+/// left fork, or all with a right one, starve.
 ///
 /// # Errors
 /// When `n` is not from 2 to 10,000.

@@ -10,8 +10,9 @@ pub const SWIMMING_POOL: Family = Family {
     grow,
 };
 
-/// The swimming pool of the Model Checking Contest: `20n` guests need one of `10n` cabins to change their clothes in, and
-/// leave them in one of `15n` baskets while they bathe. The cabin is given back in between, so nobody waits for ever.
+/// The swimming pool of the Model Checking Contest: `20n` guests need one of `10n` cabins to change
+/// their clothes in, and leave them in one of `15n` baskets while they bathe. The cabin is given
+/// back in between, so nobody waits for ever.
 ///
 /// # Errors
 /// When `n` is not from 1 to 3,276.
@@ -21,13 +22,16 @@ pub fn swimming_pool(n: u32) -> Result<OwnedNet, OutOfRange> {
 
 fn grow(net: &mut Draft, n: u32) {
     let (guests, all_cabins, all_baskets) = (20 * n, 10 * n, 15 * n);
-    let (cabins, baskets) =
-        (net.place("cabins", all_cabins, all_cabins), net.place("baskets", all_baskets, all_baskets));
+    let (cabins, baskets) = (
+        net.place("cabins", all_cabins, all_cabins),
+        net.place("baskets", all_baskets, all_baskets),
+    );
     let entrance = net.place("entrance", guests, guests);
     let leaving = net.place("leaving", 0, guests);
     let bathing = net.place("bathing", 0, all_baskets);
     let [waiting, undressing, dressing, finished] =
-        ["waiting", "undressing", "dressing", "finished"].map(|name| net.place(name, 0, all_cabins));
+        ["waiting", "undressing", "dressing", "finished"]
+            .map(|name| net.place(name, 0, all_cabins));
 
     net.transition("take_cabin", &[entrance, cabins], &[waiting]);
     net.transition("take_basket", &[waiting, baskets], &[undressing]);

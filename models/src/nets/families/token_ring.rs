@@ -10,10 +10,11 @@ pub const TOKEN_RING: Family = Family {
     grow,
 };
 
-/// The self-stabilising ring (E. W. Dijkstra, "Self-stabilizing systems in spite of distributed control", CACM 17(11),
-/// 1974), as in the Model Checking Contest: `n + 1` processes hold a value from 0 to `n` each, at the start as many
-/// different ones as there are. The first process counts up when it has the value of the last one; every other takes the
-/// value of the one before it over when it differs. From any start, a single process can move in the end.
+/// The self-stabilising ring (E. W. Dijkstra, "Self-stabilizing systems in spite of distributed
+/// control", CACM 17(11), 1974), as in the Model Checking Contest: `n + 1` processes hold a value
+/// from 0 to `n` each, at the start as many different ones as there are. The first process counts
+/// up when it has the value of the last one; every other takes the value of the one before it over
+/// when it differs. From any start, a single process can move in the end.
 ///
 /// # Errors
 /// When `n` is not from 1 to 50.
@@ -25,7 +26,8 @@ fn grow(net: &mut Draft, n: u32) {
     let last = n as usize;
     let ring: Vec<Vec<_>> = (0..=n)
         .map(|process| {
-            let holds = |value| (format!("process_{process}_has_{value}"), u32::from(value == process));
+            let holds =
+                |value| (format!("process_{process}_has_{value}"), u32::from(value == process));
             (0..=n).map(holds).map(|(name, tokens)| net.place(&name, tokens, 1)).collect()
         })
         .collect();

@@ -1,4 +1,5 @@
-//! What a supervised run tells its trace: what is new in [`Run`](crate::supervised::Run), round after round.
+//! What a supervised run tells its trace: what is new in [`Run`](crate::supervised::Run), round
+//! after round.
 
 use super::telling::Objective;
 use super::{PERIOD, World};
@@ -34,13 +35,24 @@ struct Noted {
 
 impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// Records what the last round brought.
-    pub(in crate::supervised) fn record<R: Recorder>(&self, done: &mut Recorded, period: Millis, to: &mut R) {
+    pub(in crate::supervised) fn record<R: Recorder>(
+        &self,
+        done: &mut Recorded,
+        period: Millis,
+        to: &mut R,
+    ) {
         let (t_us, x_mm) = (self.now.0.saturating_sub(PERIOD.0) * 1000, self.robot.x().0);
         let run = &self.run;
         for (number, it) in run.conduct.iter().enumerate().skip(done.conduct.len()) {
             done.conduct.push(Noted::default());
             let (mode, during) = (it.mode.name().into(), format!("{:?}", it.during));
-            to.record(Record::Failure(Failure { t_us, x_mm, failure: one_based(number), mode, during }));
+            to.record(Record::Failure(Failure {
+                t_us,
+                x_mm,
+                failure: one_based(number),
+                mode,
+                during,
+            }));
         }
         self.record_diagnoses(done, t_us, to);
         for plan in &self.planning.made[done.plans..] {
@@ -63,7 +75,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         for (number, (it, noted)) in run.conduct.iter().zip(&mut done.conduct).enumerate() {
             let Some((at, decided)) = it.decided.filter(|_| !noted.decision) else { continue };
             noted.decision = true;
-            let by = fired.iter().find(|by| by.net == "cs" && usize::from(by.cause.0) == number + 1);
+            let by =
+                fired.iter().find(|by| by.net == "cs" && usize::from(by.cause.0) == number + 1);
             to.record(Record::Decision(Decision {
                 t_us,
                 x_mm,
@@ -80,7 +93,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         done.told = run.told.len();
         for it in fired.iter().filter(|it| self.says_also(it, "op_request")) {
             let conduct = usize::from(it.cause.0).checked_sub(1).and_then(|at| run.conduct.get(at));
-            let cause = conduct.map_or_else(|| "no failure".into(), |it| candidates(it).join(" or "));
+            let cause =
+                conduct.map_or_else(|| "no failure".into(), |it| candidates(it).join(" or "));
             let reason = "the robot cannot go on alone".into();
             to.record(Record::Request(Request { t_us, x_mm, cause, reason }));
         }
@@ -118,15 +132,21 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// Whether a transition says something.
     fn says_also(&self, fired: &supervised::Fired, output: &str) -> bool {
         let Some((net, transition)) = self.transition(fired) else { return false };
-        transition.emits.iter().any(|it| net.outputs.get(it.0 as usize).is_some_and(|it| it.name == output))
+        transition
+            .emits
+            .iter()
+            .any(|it| net.outputs.get(it.0 as usize).is_some_and(|it| it.name == output))
     }
 
     /// An event of the supervisors: its net and its name.
     fn event_name(&self, told: cotama::Told) -> String {
         let event = told.event();
-        let component = self.system.components.get(usize::from(event.component)).map_or("", |it| it.name);
-        let name =
-            self.net(component).and_then(|net| net.events.get(event.id.0 as usize)).map_or("", |it| it.name);
+        let component =
+            self.system.components.get(usize::from(event.component)).map_or("", |it| it.name);
+        let name = self
+            .net(component)
+            .and_then(|net| net.events.get(event.id.0 as usize))
+            .map_or("", |it| it.name);
         format!("{component}.{name}")
     }
 
@@ -135,8 +155,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         // What no available observer sees is diagnosed as nothing, and nobody learns of it.
         let found = |it: &Conduct| it.detected.is_some_and(|it| it.1 != cotama::Diagnosis::None);
         let new = |(it, noted): (&Conduct, &Noted)| found(it) && !noted.diagnosis;
-        let news: Vec<usize> =
-            (0..done.conduct.len()).filter(|&at| new((&self.run.conduct[at], &done.conduct[at]))).collect();
+        let news: Vec<usize> = (0..done.conduct.len())
+            .filter(|&at| new((&self.run.conduct[at], &done.conduct[at])))
+            .collect();
         let Some(conduct) = news.first().map(|&at| &self.run.conduct[at]) else { return };
         for &at in &news {
             done.conduct[at].diagnosis = true;
@@ -196,7 +217,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             (self.used(), self.planning.rest(self.progress()), self.mission.scenario().limits);
         std::array::from_fn(|axis| {
             let spent = u128::from(used[axis]) + u128::from(rest[axis]);
-            let margin = i128::from(limits[axis]).saturating_sub(i128::try_from(spent).unwrap_or(i128::MAX));
+            let margin =
+                i128::from(limits[axis]).saturating_sub(i128::try_from(spent).unwrap_or(i128::MAX));
             i64::try_from(margin).unwrap_or(i64::MIN)
         })
     }
@@ -268,7 +290,9 @@ fn one_based(number: usize) -> u16 {
 fn candidates(conduct: &Conduct) -> Vec<String> {
     match conduct.detected {
         Some((_, cotama::Diagnosis::Unique(mode))) => vec![mode.name().into()],
-        Some((_, cotama::Diagnosis::Ambiguous(modes))) => modes.iter().map(|it| it.name().into()).collect(),
+        Some((_, cotama::Diagnosis::Ambiguous(modes))) => {
+            modes.iter().map(|it| it.name().into()).collect()
+        }
         _ => Vec::new(),
     }
 }

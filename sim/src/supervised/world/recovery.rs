@@ -1,13 +1,17 @@
-//! What returns, where a mission asks for it: held back until it was sound for long enough, then planned with and told.
+//! What returns, where a mission asks for it: held back until it was sound for long enough, then
+//! planned with and told.
 
 use super::{Failure, World};
 use crate::run;
 use crate::supervised::Conduct;
 use cotama_core::system::Program;
 use cotama_models::cotama::recovery::{Event, Player, State};
-use cotama_models::cotama::{Cause, Diagnosis, Health, Loss, Losses, Module, Modules, Return, Told};
+use cotama_models::cotama::{
+    Cause, Diagnosis, Health, Loss, Losses, Module, Modules, Return, Told,
+};
 
-/// The hysteresis of each [`Return`]. Its observer is assumed to see at once whether it works, in use or not.
+/// The hysteresis of each [`Return`]. Its observer is assumed to see at once whether it works, in
+/// use or not.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Recovery([Player; Return::ALL.len()]);
 
@@ -36,7 +40,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             // What needs the sonars is lost and returns with them, and has its own returns left.
             let by_itself = it == Return::Sonar || Return::Sonar.works(known);
             if by_itself && !it.works(known) {
-                let _ = player.offer(now, if it.works(sound) { &Event::sound } else { &Event::lost });
+                let _ =
+                    player.offer(now, if it.works(sound) { &Event::sound } else { &Event::lost });
             }
         }
         if restored {
@@ -44,18 +49,22 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         }
     }
 
-    /// Failures that are over, and whose modules have returned, are known to be over. The rest of the mission is planned again, and
-    /// the supervisors hear of what the plan uses: the sonars last, since only with them can the others be used.
+    /// Failures that are over, and whose modules have returned, are known to be over. The rest of
+    /// the mission is planned again, and the supervisors hear of what the plan uses: the sonars
+    /// last, since only with them can the others be used.
     fn restore(&mut self) {
         let Some(recovery) = self.recovery else { return };
         let has_returned = |health: Health| {
             let left = health.available();
             let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left));
-            let for_good = Losses::lacking(left).without(Losses::of(&Return::ALL.map(Return::loss)));
+            let for_good =
+                Losses::lacking(left).without(Losses::of(&Return::ALL.map(Return::loss)));
             let returned = match lost.next() {
                 None => false,
                 Some(Return::Sonar) => recovery.is_available(Return::Sonar),
-                Some(first) => recovery.is_available(first) && lost.all(|it| recovery.is_available(it)),
+                Some(first) => {
+                    recovery.is_available(first) && lost.all(|it| recovery.is_available(it))
+                }
             };
             returned && for_good.is_empty()
         };
@@ -84,7 +93,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         if self.lost.has(Loss::Vital) || at.activity >= self.mission.scenario().activities.len() {
             return; // nothing is left to be planned
         }
-        let named = |it: Module| self.mission.hardware.iter().position(|kind| kind.name == it.name());
+        let named =
+            |it: Module| self.mission.hardware.iter().position(|kind| kind.name == it.name());
         let hardware = left.without(before).iter().find_map(named);
         let again = hardware.map(|hardware| run::Cause::Returned { hardware });
         if again.is_some_and(|again| self.planning.plan(again, at, left).is_err()) {

@@ -12,8 +12,9 @@ const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
 use cotama_core::system::{Happening, Offered, Program};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module, Modules, Report,
-    Severity, Told, by_availability, decide, diagnose, faults, global, is_detectable, judge, local, operator,
+    Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module,
+    Modules, Report, Severity, Told, by_availability, decide, diagnose, faults, global,
+    is_detectable, judge, local, operator,
 };
 use cotama_models::mission::Does;
 use cotama_models::tables::Rest;
@@ -36,12 +37,15 @@ pub(super) enum Objective {
 }
 
 impl<P: Program<W>, const W: usize> World<'_, P, W> {
-    /// What the global supervisor is about. Its places are: waiting, the objectives, done, security, safe.
+    /// What the global supervisor is about. Its places are: waiting, the objectives, done,
+    /// security, safe.
     pub(super) fn objective(&self) -> Objective {
         let (place, count) = (self.global.0 as usize, self.mission.objectives.len());
         match place.checked_sub(1) {
             None => Objective::Waits,
-            Some(it) if it < count && self.mission.objectives[it].travels() => Objective::Drives(it),
+            Some(it) if it < count && self.mission.objectives[it].travels() => {
+                Objective::Drives(it)
+            }
             Some(it) if it < count => Objective::Stands(it),
             Some(it) if it == count => Objective::Done,
             Some(it) if it == count + 1 => Objective::Security,
@@ -72,10 +76,12 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             self.run.conduct[number].flags = raised;
         }
         let cause = Cause(first as u16 + 1);
-        // Several at once: whatever always raises some of the flags may be among them, and is taken to be.
+        // Several at once: whatever always raises some of the flags may be among them, and is taken
+        // to be.
         let status = self.observing();
-        let shown =
-            |it: &FailureMode| raised.covers(it.rule().signature.always) && is_detectable(*it, status);
+        let shown = |it: &FailureMode| {
+            raised.covers(it.rule().signature.always) && is_detectable(*it, status)
+        };
         let modes: Vec<_> = match diagnosis {
             Diagnosis::Unexplained => FailureMode::ALL.iter().copied().filter(shown).collect(),
             _ => Vec::new(),
@@ -88,10 +94,12 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         }
     }
 
-    /// The modules that work as far as is known: what the operator has set right is not held against its observers.
+    /// The modules that work as far as is known: what the operator has set right is not held
+    /// against its observers.
     fn observing(&self) -> Modules {
         let found = self.failures.iter().zip(&self.run.conduct).filter(|(it, _)| !it.over);
-        let found = found.filter_map(|(it, conduct)| conduct.detected.map(|(_, what)| what.health(it.part)));
+        let found = found
+            .filter_map(|(it, conduct)| conduct.detected.map(|(_, what)| what.health(it.part)));
         found.fold(Health::SOUND, Health::union).available()
     }
 
@@ -105,18 +113,22 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let (report, severity) = match diagnosis {
             Diagnosis::None => return,
             Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => (Some(Report::Ambiguous), Severity::Hard),
+            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {
+                (Some(Report::Ambiguous), Severity::Hard)
+            }
         };
         self.judge(report, severity);
         let Some(report) = report else {
             // It is recorded, and nobody has to decide.
-            let conduct = usize::from(cause.0).checked_sub(1).and_then(|it| self.run.conduct.get_mut(it));
+            let conduct =
+                usize::from(cause.0).checked_sub(1).and_then(|it| self.run.conduct.get_mut(it));
             if let Some(it) = conduct {
                 it.decided = Some((self.now, Decided::Record));
             }
             return;
         };
-        // A failure that is worse here than the event of its report says asks for the operator by itself.
+        // A failure that is worse here than the event of its report says asks for the operator by
+        // itself.
         let situation = self.level.situation(self.lost);
         let (by_report, by_row) = (decide(report, situation), judge(report, severity, situation));
         let event = match passing_event(report) {
@@ -131,8 +143,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         }
     }
 
-    /// Compares what was used with the plan, once a second; plans again when a margin is below zero, and asks the operator when
-    /// there is no such plan (Lambert et al. 2024, Section 5: performance margins).
+    /// Compares what was used with the plan, once a second; plans again when a margin is below
+    /// zero, and asks the operator when there is no such plan (Lambert et al. 2024, Section 5:
+    /// performance margins).
     pub(super) fn watch_margins(&mut self) {
         let at = self.progress();
         if self.resigned
@@ -156,7 +169,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let operator = left.has(Module::Lan) && report != Some(Report::Refusal);
         let situation = self.level.situation(self.lost);
         let by_availability = by_availability(situation, left, operator);
-        for it in self.run.conduct.iter_mut().filter(|it| it.detected.is_some_and(|it| it.0 == self.now)) {
+        for it in
+            self.run.conduct.iter_mut().filter(|it| it.detected.is_some_and(|it| it.0 == self.now))
+        {
             it.judged.get_or_insert(Judged { report, severity, by_availability });
         }
     }
@@ -186,14 +201,20 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         if self.lost.has(Loss::Vital) || at.activity >= self.mission.scenario().activities.len() {
             return Ok(()); // nothing is left to be planned
         }
-        let named = |it: &Module| self.mission.hardware.iter().position(|kind| kind.name == it.name());
+        let named =
+            |it: &Module| self.mission.hardware.iter().position(|kind| kind.name == it.name());
         let Some(hardware) = gone.iter().find_map(|it| named(&it)) else { return Ok(()) };
-        self.planning.plan(run::Cause::Hardware { hardware, units: 1 }, at, self.known.available())?;
+        self.planning.plan(
+            run::Cause::Hardware { hardware, units: 1 },
+            at,
+            self.known.available(),
+        )?;
         self.do_without(cause);
         Ok(())
     }
 
-    /// What the plan does without is withdrawn, so that the adapter comes to the configuration that is planned.
+    /// What the plan does without is withdrawn, so that the adapter comes to the configuration that
+    /// is planned.
     pub(super) fn do_without(&mut self, cause: Cause) {
         self.lose(self.unused(), cause);
     }
@@ -240,7 +261,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         // What the mission and the operator have to say waits for failures.
         let mut said = if self.untold.is_empty() { self.says() } else { None };
         while let Some((told, cause)) = self.untold.pop_front().or_else(|| said.take()) {
-            let offered = self.level.tell(self.now, told, cause, &mut |it: &Happening<Cause>| seen.push(*it));
+            let offered =
+                self.level.tell(self.now, told, cause, &mut |it: &Happening<Cause>| seen.push(*it));
             if let Offered::Fired(_) = offered {
                 self.run.told.push((self.run.rounds, told));
                 break;
@@ -258,7 +280,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let conduct = |cause: Cause| usize::from(cause.0).checked_sub(1);
         match *happening {
             Happening::Fired { transition: id, carries, .. } => {
-                let Some(component) = system.components.get(usize::from(id.component)) else { return };
+                let Some(component) = system.components.get(usize::from(id.component)) else {
+                    return;
+                };
                 let (name, at) = (component.name, self.now);
                 let net = if name == "gs" { &self.global_net } else { component.net };
                 let Some(transition) = net.transitions.get(id.id.0 as usize) else { return };
@@ -266,12 +290,19 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
                     return;
                 }
                 let transition_name = transition.name.to_owned();
-                self.run.fired.push(Fired { at, net: name, transition: transition_name, cause: carries });
-                let mut says = transition.emits.iter().filter_map(|it| net.outputs.get(it.0 as usize));
+                self.run.fired.push(Fired {
+                    at,
+                    net: name,
+                    transition: transition_name,
+                    cause: carries,
+                });
+                let mut says =
+                    transition.emits.iter().filter_map(|it| net.outputs.get(it.0 as usize));
                 if name == "ls" && says.any(|it| it.name == "op_request") {
                     self.run.operator_requests += 1;
                 }
-                let Some(conduct) = conduct(carries).and_then(|it| self.run.conduct.get_mut(it)) else {
+                let Some(conduct) = conduct(carries).and_then(|it| self.run.conduct.get_mut(it))
+                else {
                     return;
                 };
                 let said = transition.emits.first().and_then(|it| net.outputs.get(it.0 as usize));
@@ -286,8 +317,10 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
                 }
             }
             Happening::Ignored { event, carries } => {
-                let contextual =
-                    system.components.get(usize::from(event.component)).is_some_and(|it| it.name == "cs");
+                let contextual = system
+                    .components
+                    .get(usize::from(event.component))
+                    .is_some_and(|it| it.name == "cs");
                 if let (true, Some(at)) = (contextual, conduct(carries)) {
                     let now = self.now;
                     if let Some(conduct) = self.run.conduct.get_mut(at) {
@@ -309,9 +342,12 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             if !self.first.iter().any(|it| it.0 == after.0) {
                 self.first.push((after.0, self.now));
             }
-            let helped = matches!(before.0, local::State::Teleprogrammed | local::State::Teleoperated);
+            let helped =
+                matches!(before.0, local::State::Teleprogrammed | local::State::Teleoperated);
             if helped {
-                for failure in self.failures.iter_mut().filter(|it| effect(it.mode).ends == Ends::Helped) {
+                for failure in
+                    self.failures.iter_mut().filter(|it| effect(it.mode).ends == Ends::Helped)
+                {
                     failure.over = true;
                 }
             }
@@ -331,7 +367,9 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         let waited = |since: Millis| self.now.0.saturating_sub(since.0);
         let at_goal = self.robot.x() >= self.end();
         match self.objective() {
-            Objective::Waits => return Some((Told::Mission(global::Event::mission_received), none)),
+            Objective::Waits => {
+                return Some((Told::Mission(global::Event::mission_received), none));
+            }
             Objective::Security if self.robot.speed().0 == 0 => {
                 return Some((Told::Mission(global::Event::stopped), none));
             }
@@ -354,12 +392,16 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             local::State::Planning if waited(self.local_since) >= PLANNING.0 && self.can_plan() => {
                 Some((Told::Drive(local::Event::path_ready), none))
             }
-            local::State::Planning if waited(self.local_since) >= PLANNING.0 + PATIENCE_WITH_PLANNER.0 => {
+            local::State::Planning
+                if waited(self.local_since) >= PLANNING.0 + PATIENCE_WITH_PLANNER.0 =>
+            {
                 self.local_since = self.now;
                 self.plannings_failed += 1;
                 Some((Told::Failure(faults::Event::no_path), none))
             }
-            local::State::Following if at_goal => Some((Told::Drive(local::Event::goal_reached), none)),
+            local::State::Following if at_goal => {
+                Some((Told::Drive(local::Event::goal_reached), none))
+            }
             local::State::HandOver | local::State::Teleprogrammed | local::State::Teleoperated => {
                 let view = self.view(at_goal);
                 let said = self.operator.says(self.now, view)?;
@@ -370,12 +412,14 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         }
     }
 
-    /// The operator's silence, if that is a failure under way: it is found when the patience of the robot ends.
+    /// The operator's silence, if that is a failure under way: it is found when the patience of the
+    /// robot ends.
     fn silence(&mut self) -> Cause {
         let Some(at) = self.failures.iter().position(|it| it.mode == FailureMode::Opr1) else {
             return Cause(0);
         };
-        let (diagnosis, conduct) = (Diagnosis::Unique(FailureMode::Opr1), &mut self.run.conduct[at]);
+        let (diagnosis, conduct) =
+            (Diagnosis::Unique(FailureMode::Opr1), &mut self.run.conduct[at]);
         if conduct.detected.is_none() {
             (conduct.detected, conduct.flags) =
                 (Some((self.now, diagnosis)), FailureMode::Opr1.rule().signature.always);
@@ -397,7 +441,8 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
         View {
             place: self.situation.local,
             x: self.robot.x(),
-            link: left.has(Module::Lan) && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
+            link: left.has(Module::Lan)
+                && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
             camera: left.has(Module::Cam),
             planner_failed: report == Some(Report::Planner) && self.plannings_failed < 2,
             can_go_on: self.plannings_failed < 2

@@ -31,19 +31,21 @@ impl Translated {
             if it.read.iter().any(|arc| arc.weight > 1) {
                 return Err(format!("`{}` reads several tokens of a place", it.name));
             }
-            let takes: Vec<In> = it.take.iter().map(|arc| exactly(arc.weight as usize, place(arc))).collect();
+            let takes: Vec<In> =
+                it.take.iter().map(|arc| exactly(arc.weight as usize, place(arc))).collect();
             let reads = it.read.iter().map(|arc| arc::read(place(arc))).collect();
-            let timing = timing(it.interval).ok_or_else(|| format!("`{}` has an open interval", it.name))?;
+            let timing =
+                timing(it.interval).ok_or_else(|| format!("`{}` has an open interval", it.name))?;
             let built = Transition::builder(&*it.name).inputs(takes).reads(reads).timing(timing);
             let gives: Vec<_> = it.give.iter().map(|arc| out_place(place(arc))).collect();
             // The graph looks at arcs only; that there is an action is checked.
-            Ok(if gives.is_empty() { built } else { built.output(and(gives)).action(fork()) }.build())
+            Ok(if gives.is_empty() { built } else { built.output(and(gives)).action(fork()) }
+                .build())
         });
         let transitions = transitions.collect::<Result<Vec<_>, String>>()?;
-        let initial = net
-            .places()
-            .iter()
-            .fold(MarkingStateBuilder::new(), |marking, it| marking.tokens(&*it.name, it.initial as usize));
+        let initial = net.places().iter().fold(MarkingStateBuilder::new(), |marking, it| {
+            marking.tokens(&*it.name, it.initial as usize)
+        });
         Ok(Self(PetriNet::builder(net.name()).transitions(transitions).build(), initial.build()))
     }
 
@@ -59,34 +61,49 @@ pub fn counts(graph: &StateClassGraph) -> Counts {
     Counts { nodes: graph.class_count() as u64, edges: graph.edge_count() as u64 }
 }
 
-/// The classes of a net as TINA and this project define them, by the matrices of libpetri, which are given no time to
-/// pass: a second opinion of the same definition. It is slow, and not measured.
+/// The classes of a net as TINA and this project define them, by the matrices of libpetri, which
+/// are given no time to pass: a second opinion of the same definition. It is slow, and not
+/// measured.
 pub fn linear(net: &TimeNet) -> Counts {
-    let names = |ids: &[usize]| ids.iter().map(|&it| net.transitions()[it].name.clone()).collect::<Vec<_>>();
-    let lower =
-        |ids: &[usize]| ids.iter().map(|&it| net.transitions()[it].interval.lower as f64).collect::<Vec<_>>();
+    let names = |ids: &[usize]| {
+        ids.iter().map(|&it| net.transitions()[it].name.clone()).collect::<Vec<_>>()
+    };
+    let lower = |ids: &[usize]| {
+        ids.iter().map(|&it| net.transitions()[it].interval.lower as f64).collect::<Vec<_>>()
+    };
     let upper = |ids: &[usize]| {
-        let end = |&it: &usize| net.transitions()[it].interval.upper.map_or(f64::INFINITY, |it| it as f64);
+        let end = |&it: &usize| {
+            net.transitions()[it].interval.upper.map_or(f64::INFINITY, |it| it as f64)
+        };
         ids.iter().map(end).collect::<Vec<_>>()
     };
     let initial: Vec<u32> = net.places().iter().map(|it| it.initial).collect();
     let first = enabled(net, &initial);
-    let mut open = vec![(initial, Dbm::create(names(&first), &lower(&first), &upper(&first)), first)];
+    let mut open =
+        vec![(initial, Dbm::create(names(&first), &lower(&first), &upper(&first)), first)];
     let key = |marking: &[u32], domain: &Dbm| (marking.to_vec(), domain.zone_key());
     let mut known = HashSet::from([key(&open[0].0, &open[0].1)]);
     let mut edges = 0;
     while let Some((marking, domain, transitions)) = open.pop() {
         for (at, &fired) in transitions.iter().enumerate() {
             let mut after = marking.clone();
-            net.transitions()[fired].take.iter().for_each(|arc| after[arc.place.0 as usize] -= arc.weight);
+            net.transitions()[fired]
+                .take
+                .iter()
+                .for_each(|arc| after[arc.place.0 as usize] -= arc.weight);
             let between = enabled(net, &after);
-            net.transitions()[fired].give.iter().for_each(|arc| after[arc.place.0 as usize] += arc.weight);
+            net.transitions()[fired]
+                .give
+                .iter()
+                .for_each(|arc| after[arc.place.0 as usize] += arc.weight);
             let next = enabled(net, &after);
             let stays = |it: &usize| *it != fired && between.contains(it) && next.contains(it);
-            let kept: Vec<usize> = (0..transitions.len()).filter(|&at| stays(&transitions[at])).collect();
+            let kept: Vec<usize> =
+                (0..transitions.len()).filter(|&at| stays(&transitions[at])).collect();
             let old: Vec<usize> = kept.iter().map(|&at| transitions[at]).collect();
             let new: Vec<usize> = next.into_iter().filter(|it| !old.contains(it)).collect();
-            let domain = domain.fire_transition(at, &names(&new), &lower(&new), &upper(&new), &kept);
+            let domain =
+                domain.fire_transition(at, &names(&new), &lower(&new), &upper(&new), &kept);
             if domain.is_empty() {
                 continue;
             }
@@ -110,7 +127,8 @@ fn enabled(net: &TimeNet, marking: &[u32]) -> Vec<usize> {
     all.filter(|(_, it)| it.take.iter().chain(&it.read).all(holds)).map(|(at, _)| at).collect()
 }
 
-/// One unit of time is one second, so that its floating-point numbers are whole and compared exactly.
+/// One unit of time is one second, so that its floating-point numbers are whole and compared
+/// exactly.
 fn timing(interval: Interval) -> Option<Timing> {
     let milliseconds = |time: u64| time.checked_mul(1000).filter(|&it| it <= MAX_DURATION_MS);
     let is_open = interval.lower_strict || interval.upper.is_some() && interval.upper_strict;

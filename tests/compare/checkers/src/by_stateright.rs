@@ -71,11 +71,14 @@ struct Tables<M> {
 
 impl<M: Marking> Tables<M> {
     fn new(pt: &Pt) -> Result<Self, String> {
-        let byte = |tokens: u32| u8::try_from(tokens).map_err(|_| "a place with more than 255 tokens");
+        let byte =
+            |tokens: u32| u8::try_from(tokens).map_err(|_| "a place with more than 255 tokens");
         let initial: Vec<u8> = pt.initial.iter().map(|&it| byte(it)).collect::<Result<_, _>>()?;
         let rows = (0..pt.transitions.len() as u32).map(|it| {
-            let needs = pt.needs.of(it).iter().map(|&(place, tokens)| Ok((place as usize, byte(tokens)?)));
-            let effects = pt.effects.of(it).iter().map(|&(place, change)| (place as usize, change as u8));
+            let needs =
+                pt.needs.of(it).iter().map(|&(place, tokens)| Ok((place as usize, byte(tokens)?)));
+            let effects =
+                pt.effects.of(it).iter().map(|&(place, change)| (place as usize, change as u8));
             Ok(Row { needs: needs.collect::<Result<_, String>>()?, effects: effects.collect() })
         });
         Ok(Self { initial: M::new(&initial), rows: rows.collect::<Result<_, String>>()? })
@@ -138,8 +141,10 @@ fn explore<M: Marking>(pt: &Pt, search: Search) -> Result<Measured, String> {
 
 /// Its tables are not freed: only the search is measured.
 fn counts<M: Marking>(checker: impl Checker<Tables<M>>) -> Counts {
-    let found =
-        Counts { nodes: checker.unique_state_count() as u64, edges: checker.state_count() as u64 - 1 };
+    let found = Counts {
+        nodes: checker.unique_state_count() as u64,
+        edges: checker.state_count() as u64 - 1,
+    };
     std::mem::forget(checker);
     found
 }

@@ -6,8 +6,8 @@
 //! checkers classes (cotama | libpetri | linear) NET
 //! ```
 //!
-//! It prints nodes, edges, markings, seconds on a processor, seconds by the clock, and the most bytes that the process had.
-//! Exit status 2: the program cannot express the net, or did not end.
+//! It prints nodes, edges, markings, seconds on a processor, seconds by the clock, and the most
+//! bytes that the process had. Exit status 2: the program cannot express the net, or did not end.
 
 mod by_libpetri;
 mod by_stateright;
@@ -48,7 +48,9 @@ fn run(arguments: &[&str]) -> Result<String, String> {
             (measured, markings)
         }
         ["classes", by, net] => classes(by, &nets::timed(net)?)?,
-        _ => return Err("give `nothing`, `markings PROGRAM NET` or `classes PROGRAM NET`".to_owned()),
+        _ => {
+            return Err("give `nothing`, `markings PROGRAM NET` or `classes PROGRAM NET`".to_owned());
+        }
     };
     let Measured { counts: Counts { nodes, edges }, processor, clock } = measured;
     Ok(format!("{nodes} {edges} {markings} {processor:.9} {clock:.9} {}", peak()?))
@@ -75,7 +77,8 @@ fn ours(pt: &Pt, jobs: usize) -> Result<Measured, String> {
     limit.map_or(Ok(measured), |limit| Err(format!("stopped: {limit:?}")))
 }
 
-/// What was counted of classes, and how many markings they have. The graphs are kept and freed within the time.
+/// What was counted of classes, and how many markings they have. The graphs are kept and freed
+/// within the time.
 fn classes(by: &str, net: &TimeNet) -> Result<(Measured, u64), String> {
     match by {
         "cotama" => {
@@ -95,7 +98,9 @@ fn classes(by: &str, net: &TimeNet) -> Result<(Measured, u64), String> {
             let graph = translated.classes(MOST_CLASSES)?;
             let markings = graph.reachable_markings().len() as u64;
             let count = || {
-                let Ok(graph) = translated.classes(MOST_CLASSES) else { unreachable!("it ended before") };
+                let Ok(graph) = translated.classes(MOST_CLASSES) else {
+                    unreachable!("it ended before")
+                };
                 by_libpetri::counts(&graph)
             };
             Ok((measure_often(count), markings))

@@ -19,8 +19,8 @@ fn member(name: &str) -> Option<(&str, u32)> {
 /// A net of a family, as in `kanban:5`, or of a PNML file.
 pub fn untimed(name: &str) -> Result<Pt, String> {
     let families = [&KANBAN, &FMS, &PHILOSOPHERS, &SWIMMING_POOL, &TOKEN_RING];
-    let family =
-        member(name).and_then(|(name, n)| Some((families.into_iter().find(|it| it.name == name)?, n)));
+    let family = member(name)
+        .and_then(|(name, n)| Some((families.into_iter().find(|it| it.name == name)?, n)));
     let net = match family {
         Some((family, n)) => family.net(n).map_err(|error| error.to_string())?,
         None => pnml::read(name, &bytes(name)?).map_err(|errors| errors.to_string())?,
@@ -38,9 +38,9 @@ pub fn timed(name: &str) -> Result<TimeNet, String> {
     tina::read(name, text.as_bytes()).map_err(|error| error.to_string())
 }
 
-/// The level crossing of the state class papers (Leveson and Stolzy 1987), with two changes without which libpetri
-/// could not express it or would not end: trains are counted by one place per number, and each comes back within 5 to 9
-/// instead of at any time.
+/// The level crossing of the state class papers (Leveson and Stolzy 1987), with two changes without
+/// which libpetri could not express it or would not end: trains are counted by one place per
+/// number, and each comes back within 5 to 9 instead of at any time.
 fn crossing(trains: u32) -> String {
     let mut text = format!("net crossing_{trains}\n");
     for train in 1..=trains {
@@ -48,15 +48,21 @@ fn crossing(trains: u32) -> String {
         let _ = writeln!(text, "tr arrive_{i} [5,9] far_{i} -> here_{i}");
         let _ = writeln!(text, "tr first_in_{i} [0,0] here_{i} near_0 -> close_{i} near_1 coming");
         for near in 1..trains {
-            let _ =
-                writeln!(text, "tr in_{i}_{near} [0,0] here_{i} near_{near} -> close_{i} near_{}", near + 1);
+            let _ = writeln!(
+                text,
+                "tr in_{i}_{near} [0,0] here_{i} near_{near} -> close_{i} near_{}",
+                near + 1
+            );
         }
         let _ = writeln!(text, "tr enter_{i} [3,5] close_{i} -> on_{i}");
         let _ = writeln!(text, "tr pass_{i} [2,4] on_{i} -> left_{i}");
         let _ = writeln!(text, "tr last_out_{i} [0,0] left_{i} near_1 -> far_{i} near_0 leaving");
         for near in 2..=trains {
-            let _ =
-                writeln!(text, "tr out_{i}_{near} [0,0] left_{i} near_{near} -> far_{i} near_{}", near - 1);
+            let _ = writeln!(
+                text,
+                "tr out_{i}_{near} [0,0] left_{i} near_{near} -> far_{i} near_{}",
+                near - 1
+            );
         }
         let _ = writeln!(text, "pl far_{i} (1)");
     }

@@ -1,4 +1,5 @@
-//! JANI in the dialect of SCAN: no path quantifiers, only probabilities of `F` and `G` over state expressions.
+//! JANI in the dialect of SCAN: no path quantifiers, only probabilities of `F` and `G` over state
+//! expressions.
 
 use anyhow::{Context, bail};
 use serde_json::{Value, json};
@@ -18,7 +19,10 @@ pub fn read(text: &str, folder: &Path) -> anyhow::Result<String> {
         let formula = &path["exp"];
         let (quantifier, operator) = (path["op"].as_str(), formula["op"].as_str());
         if formula["exp"].to_string().contains("deadlock") || formula["exp"]["op"] == "∃" {
-            writeln!(said, "  {name}: left out, SCAN has no deadlock predicate and no nested quantifier")?;
+            writeln!(
+                said,
+                "  {name}: left out, SCAN has no deadlock predicate and no nested quantifier"
+            )?;
             continue;
         }
         let probability = match (quantifier, operator) {
@@ -29,18 +33,21 @@ pub fn read(text: &str, folder: &Path) -> anyhow::Result<String> {
         writeln!(said, "  {name}: {} as {probability}", quantifier.unwrap_or_default())?;
         let values = json!({ "op": probability, "exp": formula });
         let states = &property["expression"]["states"];
-        let expression = json!({ "op": "filter", "fun": "values", "values": values, "states": states });
+        let expression =
+            json!({ "op": "filter", "fun": "values", "values": values, "states": states });
         kept.push(json!({ "name": name, "expression": expression }));
         if probability == "Pmax" {
             reachable.push(name.to_owned());
         }
     }
-    let all: Vec<String> = kept.iter().filter_map(|it| it["name"].as_str().map(str::to_owned)).collect();
+    let all: Vec<String> =
+        kept.iter().filter_map(|it| it["name"].as_str().map(str::to_owned)).collect();
     model["properties"] = Value::Array(kept);
     let file = folder.join("model.jani");
     fs::write(&file, model.to_string())?;
     scan_jani::load(&file, &all)?;
-    // A run ends when the formula is decided or nothing can happen any more: only these nets stop for certain.
+    // A run ends when the formula is decided or nothing can happen any more: only these nets stop
+    // for certain.
     if model["name"] == "philosophers" {
         for name in reachable {
             let (scan, _) = scan_jani::load(&file, std::slice::from_ref(&name))?;

@@ -1,12 +1,14 @@
-//! Reads exported JANI models and SCXML charts with SCAN, a statistical model checker (crates `smc_scan_*`).
+//! Reads exported JANI models and SCXML charts with SCAN, a statistical model checker (crates
+//! `smc_scan_*`).
 //!
 //! ```text
 //! cd tests/compare/read_exports && cargo run --release -- ../../../verification/tests/golden/exports/*.{jani,scxml}
 //! ```
 //!
-//! SCAN reads a dialect of either format. What it does not know is taken away or put in its terms before it gets the
-//! file, and every such change is printed. A file is accepted when SCAN parses it and builds its model; where SCAN can
-//! also estimate a reachability, it does, and must find it reached. The exit status is 1 when a file is refused.
+//! SCAN reads a dialect of either format. What it does not know is taken away or put in its terms
+//! before it gets the file, and every such change is printed. A file is accepted when SCAN parses
+//! it and builds its model; where SCAN can also estimate a reachability, it does, and must find it
+//! reached. The exit status is 1 when a file is refused.
 
 mod jani;
 mod scxml;
@@ -20,8 +22,9 @@ fn main() -> ExitCode {
     let folder = std::env::temp_dir().join(format!("cotama-read-exports-{}", std::process::id()));
     let mut accepted = !files.is_empty();
     for file in &files {
-        let read =
-            fs::create_dir_all(&folder).map_err(anyhow::Error::from).and_then(|()| read(file, &folder));
+        let read = fs::create_dir_all(&folder)
+            .map_err(anyhow::Error::from)
+            .and_then(|()| read(file, &folder));
         match read {
             Ok(said) => println!("{}: accepted\n{said}", file.display()),
             Err(error) => {

@@ -1,5 +1,6 @@
-//! SCXML in the dialect of SCAN: typed data, no foreign attributes, a target for every transition, delays as numbers,
-//! no cancelling. A chart needs a process list, and somebody who sends its events and takes its outputs.
+//! SCXML in the dialect of SCAN: typed data, no foreign attributes, a target for every transition,
+//! delays as numbers, no cancelling. A chart needs a process list, and somebody who sends its
+//! events and takes its outputs.
 
 use anyhow::Context;
 use quick_xml::events::{BytesStart, BytesText, Event};
@@ -36,10 +37,12 @@ pub fn read(text: &str, folder: &Path) -> anyhow::Result<String> {
     let name = dialect.name;
     fs::write(folder.join("chart.scxml"), writer.into_inner())?;
     fs::write(folder.join("environment.scxml"), environment(&name, &dialect.events)?)?;
-    let process =
-        |id: &str, file: &str| format!("<process id=\"{id}\" moc=\"fsm\" path=\"./{file}.scxml\"/>");
+    let process = |id: &str, file: &str| {
+        format!("<process id=\"{id}\" moc=\"fsm\" path=\"./{file}.scxml\"/>")
+    };
     let list = process(&name, "chart") + &process(ENVIRONMENT, "environment");
-    let main = format!("<specification><model><processList>{list}</processList></model></specification>");
+    let main =
+        format!("<specification><model><processList>{list}</processList></model></specification>");
     let file = folder.join("main.xml");
     fs::write(&file, main)?;
     scan_scxml::load(&file, &[], true)?;
@@ -69,7 +72,10 @@ impl Dialect {
                 ("send", "id") => {}
                 ("send", "delay") => {
                     self.changes.insert("delay: a number without a unit");
-                    attributes.push((key, value.strip_suffix("ms").context("a delay not in ms")?.to_owned()));
+                    attributes.push((
+                        key,
+                        value.strip_suffix("ms").context("a delay not in ms")?.to_owned(),
+                    ));
                 }
                 ("send", "target") => attributes.push((key, ENVIRONMENT.to_owned())),
                 _ => attributes.push((key, value)),
@@ -80,9 +86,13 @@ impl Dialect {
             "scxml" => self.name = get("name").context("a chart without a name")?,
             "state" => self.state = get("id").context("a state without an id")?,
             "data" => {
-                let kind =
-                    if get("expr").is_some_and(|it| it.parse::<u32>().is_ok()) { "int32" } else { "boolean" };
-                self.annotation = Some(format!(" TYPE {}:{kind} ", get("id").context("data without an id")?));
+                let kind = if get("expr").is_some_and(|it| it.parse::<u32>().is_ok()) {
+                    "int32"
+                } else {
+                    "boolean"
+                };
+                self.annotation =
+                    Some(format!(" TYPE {}:{kind} ", get("id").context("data without an id")?));
                 self.changes.insert("<data>: a comment with the type before it");
             }
             "transition" => {
@@ -102,12 +112,16 @@ impl Dialect {
 
 /// A chart that sends each event once, one after the other, then stops.
 fn environment(chart: &str, events: &BTreeSet<String>) -> anyhow::Result<String> {
-    let mut text = String::from("<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" version=\"1.0\" ");
+    let mut text =
+        String::from("<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" version=\"1.0\" ");
     writeln!(text, "datamodel=\"ecmascript\" name=\"{ENVIRONMENT}\" initial=\"s0\">")?;
     for (number, event) in events.iter().enumerate() {
         let send = format!("<send event=\"{event}\" target=\"{chart}\"/>");
         let next = number + 1;
-        writeln!(text, "<state id=\"s{number}\"><transition target=\"s{next}\">{send}</transition></state>")?;
+        writeln!(
+            text,
+            "<state id=\"s{number}\"><transition target=\"s{next}\">{send}</transition></state>"
+        )?;
     }
     writeln!(text, "<state id=\"s{}\"/>\n</scxml>", events.len())?;
     Ok(text)

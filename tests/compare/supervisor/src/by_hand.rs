@@ -23,7 +23,9 @@ impl Drive {
             (Planning, Event::LocalEvent) => (Line::AskPlanning, Asking),
             (Following, Event::LocalEvent) => (Line::AskFollowing, Asking),
             (Asking, Event::OpTeleprogram) => (Line::Teleprogram, Teleprogramming),
-            (Asking, Event::OpTeleoperate) if self.camera && self.wifi => (Line::Teleoperate, Teleoperating),
+            (Asking, Event::OpTeleoperate) if self.camera && self.wifi => {
+                (Line::Teleoperate, Teleoperating)
+            }
             (Teleprogramming, Event::OpWaypoints) => (Line::Plan, Planning),
             (Teleprogramming, Event::OpPath) => (Line::Take, Following),
             (Teleoperating, Event::OpTeleprogram) => (Line::Redraw, Teleprogramming),

@@ -1,5 +1,5 @@
-//! With `smlang`: a table of transitions. It knows none that fire by themselves, so an event of its own asks for them,
-//! and it does not say which one fired, so an action of each does.
+//! With `smlang`: a table of transitions. It knows none that fire by themselves, so an event of its
+//! own asks for them, and it does not say which one fired, so an action of each does.
 
 use crate::{Event, Line, Outcome, State, Supervisor};
 use smlang::statemachine;

@@ -1,5 +1,5 @@
-//! With `statig`: a handler for each state, superstates for what several have in common. It knows no transitions that
-//! fire by themselves, so an event of its own asks for them.
+//! With `statig`: a handler for each state, superstates for what several have in common. It knows
+//! no transitions that fire by themselves, so an event of its own asks for them.
 
 use crate::{Event, Line, Outcome as Offered, State as Named, Supervisor};
 use statig::blocking::*;
@@ -55,7 +55,9 @@ impl Drive {
     #[state(superstate = "driving")]
     fn following(&mut self, context: &mut Option<Line>, event: &Input) -> Outcome<State> {
         match event {
-            Input::Event(Event::GoalReached) if !self.pending => go(context, Line::Reach, State::end()),
+            Input::Event(Event::GoalReached) if !self.pending => {
+                go(context, Line::Reach, State::end())
+            }
             Input::Event(Event::LocalEvent) => go(context, Line::AskFollowing, State::asking()),
             _ => Super,
         }
@@ -64,7 +66,9 @@ impl Drive {
     #[state(superstate = "driving")]
     fn asking(&mut self, context: &mut Option<Line>, event: &Input) -> Outcome<State> {
         match event {
-            Input::Event(Event::OpTeleprogram) => go(context, Line::Teleprogram, State::teleprogramming()),
+            Input::Event(Event::OpTeleprogram) => {
+                go(context, Line::Teleprogram, State::teleprogramming())
+            }
             Input::Event(Event::OpTeleoperate) if self.camera && self.wifi => {
                 go(context, Line::Teleoperate, State::teleoperating())
             }
@@ -85,8 +89,12 @@ impl Drive {
     #[state(superstate = "driving")]
     fn teleoperating(&mut self, context: &mut Option<Line>, event: &Input) -> Outcome<State> {
         match event {
-            Input::Event(Event::OpTeleprogram) => go(context, Line::Redraw, State::teleprogramming()),
-            Input::Event(Event::OpGoalReached) if !self.pending => go(context, Line::Arrive, State::end()),
+            Input::Event(Event::OpTeleprogram) => {
+                go(context, Line::Redraw, State::teleprogramming())
+            }
+            Input::Event(Event::OpGoalReached) if !self.pending => {
+                go(context, Line::Arrive, State::end())
+            }
             Input::Event(Event::LocalEvent) => go(context, Line::HandBack, State::asking()),
             Input::Settle if !self.wifi => go(context, Line::LoseLink, State::asking()),
             _ => Super,

@@ -1,8 +1,8 @@
 //! One supervisor written four times, and one stream of events for all of them.
 //!
-//! The supervisor is the local one of the robot *Drive*: seven states, twenty transitions of which two fire by
-//! themselves, and three flags that six more transitions change. Each version says which transition fired and how many
-//! fired by themselves after it, or that the event was ignored.
+//! The supervisor is the local one of the robot *Drive*: seven states, twenty transitions of which
+//! two fire by themselves, and three flags that six more transitions change. Each version says
+//! which transition fired and how many fired by themselves after it, or that the event was ignored.
 #![no_std]
 
 pub mod by_hand;

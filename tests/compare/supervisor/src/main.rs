@@ -1,5 +1,6 @@
-//! Offers the same ten million events to one of the supervisors: `supervisor net|statig|smlang|hand|nothing`.
-//! Prints how many fired, how many settled, and a checksum over every answer and every state.
+//! Offers the same ten million events to one of the supervisors: `supervisor
+//! net|statig|smlang|hand|nothing`. Prints how many fired, how many settled, and a checksum over
+//! every answer and every state.
 
 use core::hint::black_box;
 use statig::blocking::InitializedStateMachine;

@@ -2,14 +2,17 @@
 
 use crate::{Event, State};
 
-/// What comes in each state, as equal chances: events that it waits for, changes of flags, and such as come too late or
-/// too early. About half of them fire.
+/// What comes in each state, as equal chances: events that it waits for, changes of flags, and such
+/// as come too late or too early. About half of them fire.
 const MIX: [[Event; 16]; 7] = {
     use Event::*;
     /// The six changes of flags and ten other events.
     const fn with_flags(others: [Event; 10]) -> [Event; 16] {
         let [a, b, c, d, e, f, g, h, i, j] = others;
-        [a, b, c, d, e, f, g, h, i, j, CameraLost, CameraBack, WifiLost, WifiBack, Report, ReportDone]
+        [
+            a, b, c, d, e, f, g, h, i, j, CameraLost, CameraBack, WifiLost, WifiBack, Report,
+            ReportDone,
+        ]
     }
     const IDLE: [Event; 16] = with_flags([
         StartDrive,
@@ -86,7 +89,8 @@ const MIX: [[Event; 16]; 7] = {
     [IDLE, PLANNING, FOLLOWING, ASKING, TELEPROGRAMMING, TELEOPERATING, IDLE]
 };
 
-/// A stream of events, the same at every run (Marsaglia, "Xorshift RNGs", 2003; multiplied, as xorshift64*).
+/// A stream of events, the same at every run (Marsaglia, "Xorshift RNGs", 2003; multiplied, as
+/// xorshift64*).
 #[derive(Clone, Debug)]
 pub struct Stream(u64);
 

@@ -1,5 +1,6 @@
-//! The whole decisional level of the delivery robot, as firmware links it: the supervisors, diagnosis and decision, the
-//! executive of the optimal path following, and an allocator on the tables of the mission. No heap, nothing left out but texts.
+//! The whole decisional level of the delivery robot, as firmware links it: the supervisors,
+//! diagnosis and decision, the executive of the optimal path following, and an allocator on the
+//! tables of the mission. No heap, nothing left out but texts.
 #![no_std]
 
 pub mod reach;
@@ -15,8 +16,8 @@ use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::Configuration::FollowingOptimal;
 use cotama_models::cotama::load::{self, Load, MOST, SPARE};
 use cotama_models::cotama::{
-    Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report, Severity,
-    Told, decide, diagnose, judge,
+    Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report,
+    Severity, Told, decide, diagnose, judge,
 };
 use cotama_models::delivery_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::tables::{EMPTY, Rest, buffer_sizes, remaining};
@@ -39,7 +40,8 @@ pub struct Robot {
     plan: [u16; STAGES],
 }
 
-/// The memory of the caller's that planning needs while it goes on, by the rule and exactly; on the stack here.
+/// The memory of the caller's that planning needs while it goes on, by the rule and exactly; on the
+/// stack here.
 pub const PLANNING_BYTES: [usize; 2] = {
     let problem = CANDIDATES * size_of::<Candidate<2>>() + STAGES * size_of::<&[Candidate<2>]>();
     let rule = STAGES * size_of::<[u32; 2]>();
@@ -101,7 +103,9 @@ impl Robot {
                 Mode::Rest | Mode::Autonomous => (mode.rule().report, mode.rule().autonomous),
                 _ => (mode.rule().report, mode.rule().operator),
             },
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => (Some(Report::Ambiguous), Severity::Hard),
+            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {
+                (Some(Report::Ambiguous), Severity::Hard)
+            }
         };
         let said = report.map(|it| [decide(it, situation), judge(it, severity, situation)]);
         Concluded { diagnosis, lost, report, decisions: said.unwrap_or([Decision::Record; 2]) }
@@ -109,13 +113,15 @@ impl Robot {
 
     /// The supervisors are told something; the number of what fired, counted by `fired`.
     pub fn tell(&mut self, now: Millis, told: Told, cause: Cause, fired: &mut u32) {
-        let mut witness = |_: &cotama_core::system::Happening<Cause>| *fired = fired.wrapping_add(1);
+        let mut witness =
+            |_: &cotama_core::system::Happening<Cause>| *fired = fired.wrapping_add(1);
         let _ = self.level.tell(now, told, cause, &mut witness);
     }
 
     /// The supervisors take a round.
     pub fn round(&mut self, now: Millis, fired: &mut u32) -> bool {
-        let mut witness = |_: &cotama_core::system::Happening<Cause>| *fired = fired.wrapping_add(1);
+        let mut witness =
+            |_: &cotama_core::system::Happening<Cause>| *fired = fired.wrapping_add(1);
         let _ = self.level.round(now, &mut witness);
         self.level.permit().is_some()
     }
@@ -140,7 +146,8 @@ impl Robot {
         self.monitor.assess(rest, AVAILABLE, AVAILABLE).ok()
     }
 
-    /// Plans the mission from one of its activities on, of which `rest` is left, by the rule of the paper; whether there is a plan.
+    /// Plans the mission from one of its activities on, of which `rest` is left, by the rule of the
+    /// paper; whether there is a plan.
     pub fn plan_by_rule(&mut self, first: usize, rest: Rest, units: Units) -> bool {
         let mut caps = [[0; 2]; STAGES];
         self.plan(first, rest, units, &mut Panorama::new(&mut caps)).is_some()
@@ -150,7 +157,8 @@ impl Robot {
     pub fn plan_exactly(&mut self, first: usize, rest: Rest, units: Units) -> bool {
         let (mut items, mut stages) = ([Item::EMPTY; CANDIDATES], [Stage::EMPTY; STAGES]);
         let objectives = [Objective::MostQuality, Objective::Least(1)];
-        self.plan(first, rest, units, &mut Exact::new(&objectives, STEPS, &mut items, &mut stages)).is_some()
+        self.plan(first, rest, units, &mut Exact::new(&objectives, STEPS, &mut items, &mut stages))
+            .is_some()
     }
 
     fn plan(
@@ -162,7 +170,8 @@ impl Robot {
     ) -> Option<()> {
         let mut candidates: [Candidate<2>; CANDIDATES] = [EMPTY; CANDIDATES];
         let mut lists = [&[][..]; STAGES];
-        let lists = remaining(ACTIVITIES.get(first..)?, rest, units, &mut candidates, &mut lists).ok()?;
+        let lists =
+            remaining(ACTIVITIES.get(first..)?, rest, units, &mut candidates, &mut lists).ok()?;
         let problem = Problem::new(lists, self.monitor.left(), ORDER).ok()?;
         let answer = allocator.allocate(&problem, self.plan.get_mut(first..)?).ok()?;
         let Answer::Planned(planned) = answer else { return None };

@@ -58,14 +58,16 @@ impl<'m> Reached<'m> {
     /// Adds a state, unless it is there; false when there is no memory for it.
     pub fn add(&mut self, state: &DecisionalLevel) -> bool {
         let words = state.player().marking();
-        let hash = words
-            .iter()
-            .fold(0, |hash: u64, word| (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29));
+        let hash = words.iter().fold(0, |hash: u64, word| {
+            (hash ^ word).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29)
+        });
         let start = hash as usize % self.index.len();
         let places = (start..self.index.len()).chain(0..start);
         for place in places {
             match self.index[place].checked_sub(1) {
-                Some(number) if self.states[number as usize].player().marking() == words => return true,
+                Some(number) if self.states[number as usize].player().marking() == words => {
+                    return true;
+                }
                 Some(_) => {}
                 None if self.count < self.states.len() => {
                     self.states[self.count] = *state;
@@ -79,8 +81,8 @@ impl<'m> Reached<'m> {
         false
     }
 
-    /// Goes on from every state, as long as there is memory: a round, then nothing or one event from outside. `round` and
-    /// `tell` are who does it.
+    /// Goes on from every state, as long as there is memory: a round, then nothing or one event
+    /// from outside. `round` and `tell` are who does it.
     pub fn explore(
         &mut self,
         mut round: impl FnMut(&mut DecisionalLevel),

@@ -1,8 +1,10 @@
-//! The checker of certificates. This folder is all of it, in fewer than 400 lines; no engine has a part in it.
+//! The checker of certificates. This folder is all of it, in fewer than 400 lines; no engine has a
+//! part in it.
 //!
-//! What it shares with the rest of the crate decides nothing about evidence: the data types of a file, their reading with numbers
-//! for names (`read.rs`), weighted sums (`sum.rs`), and the words of the answer ([`Verified`]). Here is what evidence has to
-//! show; in `truth` the firing rule, what questions mean and where formulas hold; in `refutation` proofs without markings.
+//! What it shares with the rest of the crate decides nothing about evidence: the data types of a
+//! file, their reading with numbers for names (`read.rs`), weighted sums (`sum.rs`), and the words
+//! of the answer ([`Verified`]). Here is what evidence has to show; in `truth` the firing rule,
+//! what questions mean and where formulas hold; in `refutation` proofs without markings.
 
 mod refutation;
 mod truth;
@@ -20,13 +22,15 @@ pub(super) use refutation::Known;
 ///
 /// # Errors
 ///
-/// When the text is no certificate, is beyond the limits of [this module](self), or does not show what it claims. A
-/// certificate that is refused does not show that its verdict is wrong.
+/// When the text is no certificate, is beyond the limits of [this module](self), or does not show
+/// what it claims. A certificate that is refused does not show that its verdict is wrong.
 pub fn verify(text: &str) -> Result<Verified, VerifyError> {
     let read = read::certificate(text)?;
     let net = Numbered::new(&read.net).map_err(at("net"))?;
     let shown = match (&read.question, &read.evidence) {
-        (Question::Unbounded { places }, Evidence::Growth(by)) if read.verdict => net.grows(places, by),
+        (Question::Unbounded { places }, Evidence::Growth(by)) if read.verdict => {
+            net.grows(places, by)
+        }
         (question, by) => {
             let formula = net.meaning(question).map_err(at("question"))?;
             net.prove(&net.initial, &formula, read.verdict, by)
@@ -37,8 +41,8 @@ pub fn verify(text: &str) -> Result<Verified, VerifyError> {
 
 const MISFIT: &str = "this kind of evidence does not fit the claim";
 
-/// The operands of `a U b`, as which a path formula is read that holds, or does not: `F b` is `true U b`, and `!G b` is `F !b`. Last,
-/// whether the second one is to hold.
+/// The operands of `a U b`, as which a path formula is read that holds, or does not: `F b` is `true
+/// U b`, and `!G b` is `F !b`. Last, whether the second one is to hold.
 fn until(path: &Formula, holds: bool) -> Checked<(Option<&Formula>, &Formula, bool)> {
     match (path, holds) {
         (Not(path), _) => until(path, !holds),
@@ -57,13 +61,18 @@ impl Numbered<'_> {
             (Evidence::None, _) => Err(error("there is no evidence")),
             (_, Not(inner)) => self.prove(from, inner, !truth, by),
             (Evidence::State, _) => self.shows(&Space::of(from), formula, truth),
-            (Evidence::Graph(count), _) => {
-                self.graph(from, *count).and_then(|it| self.shows(&it, formula, truth)).map_err(at(".graph"))
-            }
+            (Evidence::Graph(count), _) => self
+                .graph(from, *count)
+                .and_then(|it| self.shows(&it, formula, truth))
+                .map_err(at(".graph")),
             (Evidence::Each(by), And(parts) | Or(parts)) if every => {
                 let (all, claims) = (by.len(), parts.len());
-                ensure(all == claims, format_args!("there are {all} parts of evidence for {claims} claims"))?;
-                let shown = each(by.iter().zip(parts), |(by, part)| self.prove(from, part, truth, by));
+                ensure(
+                    all == claims,
+                    format_args!("there are {all} parts of evidence for {claims} claims"),
+                )?;
+                let shown =
+                    each(by.iter().zip(parts), |(by, part)| self.prove(from, part, truth, by));
                 shown.map(drop).map_err(at(".each"))
             }
             (Evidence::One(one), And(parts) | Or(parts)) if !every => {
@@ -71,14 +80,17 @@ impl Numbered<'_> {
                 let part = parts.get(one.part).ok_or_else(none).map_err(at(".one.part"))?;
                 self.prove(from, part, truth, &one.by).map_err(at(".one.by"))
             }
-            (Evidence::Trace(it), ExistsNext(goal) | AllNext(goal)) if !every && it.fire.len() == 1 => {
+            (Evidence::Trace(it), ExistsNext(goal) | AllNext(goal))
+                if !every && it.fire.len() == 1 =>
+            {
                 let (_, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
                 self.prove(&end, goal, truth, &it.then).map_err(at(".trace.then"))
             }
             (Evidence::Trace(it), Exists(path) | All(path)) if !every => {
                 let (first, goal, holds) = until(path, truth)?;
                 let (way, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
-                let first = |at: &_| first.map_or(Ok(()), |it| self.shows(&Space::of(at), it, true));
+                let first =
+                    |at: &_| first.map_or(Ok(()), |it| self.shows(&Space::of(at), it, true));
                 each(&way, first).map_err(at(".trace.fire"))?;
                 self.prove(&end, goal, holds, &it.then).map_err(at(".trace.then"))
             }
@@ -99,6 +111,7 @@ impl Numbered<'_> {
         let (_, after) = self.way(&before, &by.pump).map_err(at(".growth.pump"))?;
         let kept = before.iter().zip(&after).all(|(before, after)| before <= after);
         let grows = places.iter().any(|it| self.place(it).is_ok_and(|it| before[it] < after[it]));
-        ensure(kept && grows, "takes tokens away, or adds none where asked").map_err(at(".growth.pump"))
+        ensure(kept && grows, "takes tokens away, or adds none where asked")
+            .map_err(at(".growth.pump"))
     }
 }

@@ -4,7 +4,8 @@ use super::{Checked, Marking, Numbered, at, each, ensure, error};
 use crate::certificate::sum::{ONE, Sum};
 use crate::certificate::{Case, Fact, Formula, Linear, Refutation};
 
-/// What is known of a marking: sums that are at most 0, and lists of which something holds, or does not.
+/// What is known of a marking: sums that are at most 0, and lists of which something holds, or does
+/// not.
 #[derive(Default)]
 pub(crate) struct Known<'a> {
     pub(crate) sums: Vec<Sum>,
@@ -12,12 +13,20 @@ pub(crate) struct Known<'a> {
 }
 
 impl Numbered<'_> {
-    /// That no marking reachable from this one is a goal: one where this formula holds, or does not.
-    pub(super) fn refute(&self, from: &Marking, goal: &Formula, holds: bool, by: &Refutation) -> Checked<()> {
+    /// That no marking reachable from this one is a goal: one where this formula holds, or does
+    /// not.
+    pub(super) fn refute(
+        &self,
+        from: &Marking,
+        goal: &Formula,
+        holds: bool,
+        by: &Refutation,
+    ) -> Checked<()> {
         let dead = each(&by.dead, |it| self.transition(&it.0)).map_err(at(".dead"))?;
         let facts = each(&by.facts, |it| self.fact(from, it, &dead)).map_err(at(".facts"))?;
-        let never =
-            |(it, by): (&usize, &(String, Vec<_>))| self.close(&facts, &self.enabling(*it)?, true, &by.1);
+        let never = |(it, by): (&usize, &(String, Vec<_>))| {
+            self.close(&facts, &self.enabling(*it)?, true, &by.1)
+        };
         each(dead.iter().zip(&by.dead), never).map_err(at(".dead"))?;
         self.close(&facts, goal, holds, &by.cases).map_err(at(".cases"))
     }
@@ -47,7 +56,8 @@ impl Numbered<'_> {
         // What is left to refute: how much is known there, and what else is assumed.
         let mut left = vec![(facts.len(), 0, goal, holds)];
         for (n, case) in cases.iter().enumerate() {
-            let (sums, lists, formula, truth) = left.pop().ok_or_else(|| error("there are too many"))?;
+            let (sums, lists, formula, truth) =
+                left.pop().ok_or_else(|| error("there are too many"))?;
             known.sums.truncate(sums);
             known.lists.truncate(lists);
             self.assume(formula, truth, &mut known)?;
@@ -57,7 +67,8 @@ impl Numbered<'_> {
                     self.contradiction(&known.sums, by).map_err(at(format!("[{n}]")))?;
                 }
                 Case::Split(or) => {
-                    let none = || at(format!("[{n}]"))(error(format_args!("there is no open `or` {or}")));
+                    let none =
+                        || at(format!("[{n}]"))(error(format_args!("there is no open `or` {or}")));
                     let (parts, truth) = *known.lists.get(*or).ok_or_else(none)?;
                     left.extend(parts.iter().rev().map(|it| here(it, truth)));
                 }
@@ -69,7 +80,12 @@ impl Numbered<'_> {
     }
 
     /// Puts this with what is known; of what is not about one marking, nothing.
-    pub(crate) fn assume<'a>(&self, it: &'a Formula, truth: bool, known: &mut Known<'a>) -> Checked<()> {
+    pub(crate) fn assume<'a>(
+        &self,
+        it: &'a Formula,
+        truth: bool,
+        known: &mut Known<'a>,
+    ) -> Checked<()> {
         match it {
             Formula::AtMost(linear) => {
                 self.hold(64 * (1 + linear.weights.len()))?;
@@ -99,7 +115,10 @@ impl Numbered<'_> {
             all.add((*factor).into(), sum)?;
         }
         let above = all.0.remove(&ONE) > Some(0);
-        ensure(all.0.values().all(|it| *it >= 0), "no contradiction: a place has a negative weight")?;
+        ensure(
+            all.0.values().all(|it| *it >= 0),
+            "no contradiction: a place has a negative weight",
+        )?;
         ensure(above, "no contradiction: the constant is not above 0")
     }
 }

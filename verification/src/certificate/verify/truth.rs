@@ -81,13 +81,15 @@ impl Numbered<'_> {
         Ok((way, now))
     }
 
-    /// The run: the last marking leads back to the end of the stem, where it stays when that is a deadlock.
+    /// The run: the last marking leads back to the end of the stem, where it stays when that is a
+    /// deadlock.
     pub(super) fn run(&self, from: &Marking, lasso: &Lasso) -> Checked<Space> {
         let (mut run, start) = self.way(from, &lasso.stem).map_err(at(".stem"))?;
         let (cycle, end) = self.way(&start, &lasso.cycle).map_err(at(".loop"))?;
         let dead = || self.graph(&start, 1).is_ok_and(|it| it.2[0].is_empty());
         let lasts = if cycle.is_empty() { dead() } else { start == end };
-        ensure(lasts, "does not lead back, or is empty where there is no deadlock").map_err(at(".loop"))?;
+        ensure(lasts, "does not lead back, or is empty where there is no deadlock")
+            .map_err(at(".loop"))?;
         let back = run.len();
         run.extend(if cycle.is_empty() { vec![start] } else { cycle });
         let next = (1..run.len()).chain([back]).map(|it| vec![it]).collect();
@@ -167,7 +169,13 @@ impl Numbered<'_> {
     }
 
     /// Where the first holds until the second does, which comes: backwards from where it does.
-    fn until(&self, space: &Space, first: &[bool], mut until: Vec<bool>, every: bool) -> Checked<Vec<bool>> {
+    fn until(
+        &self,
+        space: &Space,
+        first: &[bool],
+        mut until: Vec<bool>,
+        every: bool,
+    ) -> Checked<Vec<bool>> {
         let mut before = vec![Vec::new(); until.len()];
         for (from, next) in space.2.iter().enumerate() {
             for to in next {

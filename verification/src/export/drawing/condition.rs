@@ -69,7 +69,11 @@ pub(super) struct Range {
 
 impl Range {
     fn is(self, flag: bool) -> bool {
-        if flag { self.least == 1 && self.most.is_none() } else { self.least == 0 && self.most == Some(0) }
+        if flag {
+            self.least == 1 && self.most.is_none()
+        } else {
+            self.least == 0 && self.most == Some(0)
+        }
     }
 
     /// `sonar`, `!sonar`, `count ≥ 2`, `1 ≤ count ≤ 3`.
@@ -89,7 +93,10 @@ impl Range {
 /// How many tokens a transition adds to a place.
 pub(super) fn change(transition: &Transition<'_>, place: usize) -> i64 {
     let sum = |arcs: &[Arc]| -> i64 {
-        arcs.iter().filter(|arc| arc.place.0 as usize == place).map(|arc| i64::from(arc.weight)).sum()
+        arcs.iter()
+            .filter(|arc| arc.place.0 as usize == place)
+            .map(|arc| i64::from(arc.weight))
+            .sum()
     };
     sum(transition.give) - sum(transition.take)
 }
@@ -134,7 +141,8 @@ fn joined(one: &Case, other: &Case) -> Option<Case> {
     if one.ranges == other.ranges && one.changes == other.changes {
         return Some(Case { transitions, ..one.clone() });
     }
-    let mut differing = one.ranges.iter().filter(|&(place, range)| other.ranges.get(place) != Some(range));
+    let mut differing =
+        one.ranges.iter().filter(|&(place, range)| other.ranges.get(place) != Some(range));
     let (&flag, range) = differing.next().filter(|_| one.ranges.len() == other.ranges.len())?;
     let against = *other.ranges.get(&flag)?;
     let opposed = (range.is(true) && against.is(false)) || (range.is(false) && against.is(true));

@@ -26,12 +26,17 @@ impl<'n> Label<'n> {
             Some(latest) if latest == within.earliest => format!("{latest} ms"),
             Some(latest) => format!("{}..{latest} ms", within.earliest),
         });
-        let priority = (transition.priority != 0).then(|| format!("priority {}", transition.priority));
-        let output =
-            |id: &cotama_core::net::OutputId| net.outputs.get(id.0 as usize).map(|it| it.name.to_owned());
+        let priority =
+            (transition.priority != 0).then(|| format!("priority {}", transition.priority));
+        let output = |id: &cotama_core::net::OutputId| {
+            net.outputs.get(id.0 as usize).map(|it| it.name.to_owned())
+        };
         Self {
             transitions: Vec::new(),
-            event: transition.on.and_then(|event| net.events.get(event.0 as usize)).map(|it| it.name),
+            event: transition
+                .on
+                .and_then(|event| net.events.get(event.0 as usize))
+                .map(|it| it.name),
             guard: Vec::new(),
             actions: transition.emits.iter().filter_map(output).collect(),
             timing: interval.into_iter().chain(priority).collect(),
@@ -41,7 +46,8 @@ impl<'n> Label<'n> {
     /// Whether it says the same, of whichever transitions.
     pub(super) fn says_the_same(&self, other: &Self) -> bool {
         let Self { transitions: _, event, guard, actions, timing } = self;
-        (event, guard, actions, timing) == (&other.event, &other.guard, &other.actions, &other.timing)
+        (event, guard, actions, timing)
+            == (&other.event, &other.guard, &other.actions, &other.timing)
     }
 
     /// `event`, `[guard]`, `/ actions`, those that are there; and the timing.

@@ -1,4 +1,5 @@
-//! What a drawing of a net shows, before any format or coordinate: the same for DOT, Mermaid and SVG.
+//! What a drawing of a net shows, before any format or coordinate: the same for DOT, Mermaid and
+//! SVG.
 
 mod condition;
 mod label;
@@ -15,15 +16,16 @@ pub enum Style {
     /// [`Style::States`] when the net is a state machine, otherwise [`Style::Net`].
     #[default]
     Auto,
-    /// Places as circles, transitions as bars. Complements that only mirror another place are left out; what is
-    /// asked of them stands as a guard, `[!sonar]`, at the transition.
+    /// Places as circles, transitions as bars. Complements that only mirror another place are left
+    /// out; what is asked of them stands as a guard, `[!sonar]`, at the transition.
     Net,
-    /// Places as states, transitions as edges labelled `event [guard] / emits  a..b ms`. Only for nets whose
-    /// state places hold one token in all, which every transition takes from one and gives to one; others
-    /// are drawn as [`Style::Net`].
+    /// Places as states, transitions as edges labelled `event [guard] / emits  a..b ms`. Only for
+    /// nets whose state places hold one token in all, which every transition takes from one and
+    /// gives to one; others are drawn as [`Style::Net`].
     ///
-    /// When one line of the definition leads from three or more states to the same one with the same label,
-    /// it is drawn once, as an arrow from `any other state` or from the names of those states.
+    /// When one line of the definition leads from three or more states to the same one with the
+    /// same label, it is drawn once, as an arrow from `any other state` or from the names of those
+    /// states.
     States,
 }
 

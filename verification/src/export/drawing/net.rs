@@ -34,7 +34,8 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Figure<'n> {
             let flow = if it.give.contains(arc) { Flow::Borrow } else { Flow::Move };
             edges.extend(node(arc).map(|place| edge(place, here, flow, arc.weight)));
         }
-        let read = it.read.iter().filter_map(|arc| Some(edge(node(arc)?, here, Flow::Read, arc.weight)));
+        let read =
+            it.read.iter().filter_map(|arc| Some(edge(node(arc)?, here, Flow::Read, arc.weight)));
         edges.extend(read);
         let given = it.give.iter().filter(|arc| !it.take.contains(arc));
         edges.extend(given.filter_map(|arc| Some(edge(here, node(arc)?, Flow::Move, arc.weight))));

@@ -32,7 +32,8 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Option<Figure<'n>> {
         match bundles.iter_mut().find(same) {
             Some(bundle) => {
                 bundle.3.push(from);
-                // Which transitions belong to which source matters only once they are drawn apart again.
+                // Which transitions belong to which source matters only once they are drawn apart
+                // again.
                 bundle.2.transitions.extend(label.transitions);
             }
             None => bundles.push((line, to, label, vec![from])),
@@ -48,10 +49,11 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Option<Figure<'n>> {
         for &from in &sources {
             let mut own = label.clone();
             own.transitions.retain(|&at| node_of.get(&moves[at as usize].0) == Some(&from));
-            let at = edges.iter().position(|it| (it.from, it.to) == (from, to)).unwrap_or_else(|| {
-                edges.push(Edge { from, to, flow: Flow::Move, weight: 1, labels: Vec::new() });
-                edges.len() - 1
-            });
+            let at =
+                edges.iter().position(|it| (it.from, it.to) == (from, to)).unwrap_or_else(|| {
+                    edges.push(Edge { from, to, flow: Flow::Move, weight: 1, labels: Vec::new() });
+                    edges.len() - 1
+                });
             match edges[at].labels.iter_mut().find(|it| it.says_the_same(&own)) {
                 Some(label) => label.transitions.append(&mut own.transitions),
                 None => edges[at].labels.push(own),
@@ -66,7 +68,8 @@ fn moves(net: &Net<'_>) -> Option<Vec<(usize, usize)>> {
     let role = |place: usize| net.places.get(place).map(|it| it.role);
     let states = net.places.iter().filter(|it| it.role == Role::State);
     let one_token = states.map(|it| u64::from(it.initial)).sum::<u64>() == 1;
-    let others = |role| matches!(role, Role::State | Role::Data | Role::Complement(_) | Role::Shared);
+    let others =
+        |role| matches!(role, Role::State | Role::Data | Role::Complement(_) | Role::Shared);
     if !one_token || !net.places.iter().all(|it| others(it.role)) {
         return None;
     }
@@ -103,10 +106,13 @@ fn arrows<'n>(net: &Net<'n>, moves: &[(usize, usize)]) -> Vec<(u32, usize, usize
         let asked = it.take.iter().chain(it.read).filter(|arc| !is_state(arc));
         let touched: BTreeSet<usize> =
             it.take.iter().chain(it.give).map(|arc| arc.place.0 as usize).collect();
-        let data = touched.into_iter().filter(|&at| net.places[at].role != Role::State && !mirrors.hides(at));
+        let data = touched
+            .into_iter()
+            .filter(|&at| net.places[at].role != Role::State && !mirrors.hides(at));
         let changes: Changes =
             data.map(|at| (at, change(it, at))).filter(|&(_, change)| change != 0).collect();
-        let case = Case { transitions: vec![at as u32], ranges: mirrors.ranges(net, asked), changes };
+        let case =
+            Case { transitions: vec![at as u32], ranges: mirrors.ranges(net, asked), changes };
         let label = Label::of(net, it);
         let candidates = group_of.entry((it.line, from, to)).or_default();
         if let Some(&group) = candidates.iter().find(|&&group| groups[group].3 == label) {
@@ -121,7 +127,9 @@ fn arrows<'n>(net: &Net<'n>, moves: &[(usize, usize)]) -> Vec<(u32, usize, usize
         for Case { transitions, ranges, changes } in join(cases) {
             let mut label = Label { transitions, ..label.clone() };
             label.guard = ranges.iter().map(|(&at, range)| range.words(&net.places[at])).collect();
-            label.actions.extend(changes.iter().map(|(&at, &change)| change_words(&net.places[at], change)));
+            label
+                .actions
+                .extend(changes.iter().map(|(&at, &change)| change_words(&net.places[at], change)));
             arrows.push((line, from, to, label));
         }
     }
@@ -131,7 +139,8 @@ fn arrows<'n>(net: &Net<'n>, moves: &[(usize, usize)]) -> Vec<(u32, usize, usize
 /// `any state`, `any other state`, `any other state but A`, or the names.
 fn sources_words(nodes: &[Node<'_>], sources: &[usize], to: usize) -> String {
     let names = |of: &[usize]| of.iter().map(|&at| nodes[at].name).collect::<Vec<_>>().join(", ");
-    let exceptions: Vec<usize> = (0..nodes.len()).filter(|&at| at != to && !sources.contains(&at)).collect();
+    let exceptions: Vec<usize> =
+        (0..nodes.len()).filter(|&at| at != to && !sources.contains(&at)).collect();
     let any = if sources.contains(&to) { "any state" } else { "any other state" };
     match exceptions.len() {
         0 => any.to_owned(),

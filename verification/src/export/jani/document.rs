@@ -50,7 +50,9 @@ impl Type {
     pub(super) fn up_to(bound: Option<u32>) -> Self {
         match bound {
             None => Self::Basic("int"),
-            Some(upper_bound) => Self::Bounded { kind: "bounded", base: "int", lower_bound: 0, upper_bound },
+            Some(upper_bound) => {
+                Self::Bounded { kind: "bounded", base: "int", lower_bound: 0, upper_bound }
+            }
         }
     }
 }

@@ -108,14 +108,19 @@ enum LawOf<S> {
 
 impl<'n> Document<Text<'n>> {
     pub(super) fn of(net: &Net<'n>) -> Self {
-        let place =
-            |PlaceId(id)| net.places.get(id as usize).map_or(Text::Unknown(id), |it| Text::Name(it.name));
-        let event =
-            |EventId(id)| net.events.get(id as usize).map_or(Text::Unknown(id), |it| Text::Name(it.name));
-        let output =
-            |OutputId(id)| net.outputs.get(id as usize).map_or(Text::Unknown(id), |it| Text::Name(it.name));
+        let place = |PlaceId(id)| {
+            net.places.get(id as usize).map_or(Text::Unknown(id), |it| Text::Name(it.name))
+        };
+        let event = |EventId(id)| {
+            net.events.get(id as usize).map_or(Text::Unknown(id), |it| Text::Name(it.name))
+        };
+        let output = |OutputId(id)| {
+            net.outputs.get(id as usize).map_or(Text::Unknown(id), |it| Text::Name(it.name))
+        };
         let signals = |list: &[net::Signal<'n>]| {
-            list.iter().map(|it| Signal { name: Text::Name(it.name), doc: Text::Name(it.doc) }).collect()
+            list.iter()
+                .map(|it| Signal { name: Text::Name(it.name), doc: Text::Name(it.doc) })
+                .collect()
         };
         let arcs = |list: &[net::Arc]| {
             list.iter().map(|arc| Arc { place: place(arc.place), weight: arc.weight }).collect()
@@ -143,7 +148,9 @@ impl<'n> Document<Text<'n>> {
             read: arcs(it.read),
             give: arcs(it.give),
             emits: it.emits.iter().copied().map(output).collect(),
-            within: it.within.map(|within| Within { earliest: within.earliest, latest: within.latest }),
+            within: it
+                .within
+                .map(|within| Within { earliest: within.earliest, latest: within.latest }),
             priority: it.priority,
         });
         let law = |law: &Law<'n>| match *law {
@@ -213,7 +220,11 @@ impl Document<String> {
         Ok(OwnedNet {
             name: self.name,
             doc: self.doc,
-            places: self.places.into_iter().map(|it| names.owned_place(it)).collect::<Result<_, _>>()?,
+            places: self
+                .places
+                .into_iter()
+                .map(|it| names.owned_place(it))
+                .collect::<Result<_, _>>()?,
             events: signals(self.events),
             outputs: signals(self.outputs),
             transitions: self
@@ -221,7 +232,12 @@ impl Document<String> {
                 .into_iter()
                 .map(|it| names.transition(it))
                 .collect::<Result<_, _>>()?,
-            ignored: self.ignored.iter().enumerate().map(|it| names.ignored(it)).collect::<Result<_, _>>()?,
+            ignored: self
+                .ignored
+                .iter()
+                .enumerate()
+                .map(|it| names.ignored(it))
+                .collect::<Result<_, _>>()?,
             laws: self.laws.iter().enumerate().map(|it| names.law(it)).collect::<Result<_, _>>()?,
         })
     }
@@ -242,7 +258,9 @@ impl Names {
         let role = match &it.role {
             RoleOf::State => Role::State,
             RoleOf::Data => Role::Data,
-            RoleOf::Complement(of) => Role::Complement(self.place(of, &|| format!("place `{}`", it.name))?),
+            RoleOf::Complement(of) => {
+                Role::Complement(self.place(of, &|| format!("place `{}`", it.name))?)
+            }
             RoleOf::Shared => Role::Shared,
             RoleOf::Mailbox => Role::Mailbox,
         };
@@ -250,18 +268,25 @@ impl Names {
         Ok(OwnedPlace { name: it.name, doc: it.doc, initial: it.initial, bound, role })
     }
 
-    fn arcs(&self, list: &[Arc<String>], at: &dyn Fn() -> String) -> Result<Vec<net::Arc>, JsonNetError> {
+    fn arcs(
+        &self,
+        list: &[Arc<String>],
+        at: &dyn Fn() -> String,
+    ) -> Result<Vec<net::Arc>, JsonNetError> {
         if list.len() > MAX_ARCS {
             return Err(JsonNetError::TooManyArcs { at: at() });
         }
-        let arc = |it: &Arc<String>| Ok(net::Arc { place: self.place(&it.place, at)?, weight: it.weight });
+        let arc = |it: &Arc<String>| {
+            Ok(net::Arc { place: self.place(&it.place, at)?, weight: it.weight })
+        };
         list.iter().map(arc).collect()
     }
 
     fn transition(&self, it: Transition<String>) -> Result<OwnedTransition, JsonNetError> {
         let at = || format!("transition `{}`", it.name);
         let output = |name: &String| self.outputs.find(name, &at).map(OutputId);
-        let on = it.on.as_deref().map(|name| self.events.find(name, &at).map(EventId)).transpose()?;
+        let on =
+            it.on.as_deref().map(|name| self.events.find(name, &at).map(EventId)).transpose()?;
         let (take, read, give) =
             (self.arcs(&it.take, &at)?, self.arcs(&it.read, &at)?, self.arcs(&it.give, &at)?);
         let emits = it.emits.iter().map(output).collect::<Result<_, _>>()?;
@@ -281,7 +306,10 @@ impl Names {
         })
     }
 
-    fn ignored(&self, (position, it): (usize, &Ignored<String>)) -> Result<net::Ignored, JsonNetError> {
+    fn ignored(
+        &self,
+        (position, it): (usize, &Ignored<String>),
+    ) -> Result<net::Ignored, JsonNetError> {
         let at = || format!("entry {} of `ignored`", position + 1);
         Ok(net::Ignored {
             event: self.events.find(&it.event, &at).map(EventId)?,

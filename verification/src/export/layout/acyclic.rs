@@ -4,8 +4,9 @@ use super::Graph;
 
 /// By node: its position. An edge goes with the current when it leads to a higher position.
 ///
-/// The roots come first, then what they reach; before or after that, as [`Graph::strays_last`] says, the rest. Against
-/// the order go the edges into roots, and those that close a cycle of a depth-first search.
+/// The roots come first, then what they reach; before or after that, as [`Graph::strays_last`]
+/// says, the rest. Against the order go the edges into roots, and those that close a cycle of a
+/// depth-first search.
 pub(super) fn order(graph: &Graph) -> Vec<usize> {
     let mut is_root = vec![false; graph.nodes.len()];
     graph.roots.iter().for_each(|&root| is_root[root] = true);
@@ -29,7 +30,11 @@ pub(super) fn order(graph: &Graph) -> Vec<usize> {
 }
 
 /// Nodes in the order in which a depth-first search leaves them.
-fn finished(next: &[Vec<usize>], starts: impl Iterator<Item = usize>, seen: &mut [bool]) -> Vec<usize> {
+fn finished(
+    next: &[Vec<usize>],
+    starts: impl Iterator<Item = usize>,
+    seen: &mut [bool],
+) -> Vec<usize> {
     let mut finished = Vec::new();
     for start in starts {
         if std::mem::replace(&mut seen[start], true) {

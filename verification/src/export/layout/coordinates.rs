@@ -1,8 +1,8 @@
 //! Horizontal coordinates: long edges straight, nodes over the middle of their neighbours.
 //!
-//! Brandes and Köpf (2001): vertices are aligned with a median neighbour, towards each of the four corners in turn;
-//! the aligned blocks are packed, and each vertex gets the mean of its two middle results. All four results keep
-//! the distances, so the mean keeps them too.
+//! Brandes and Köpf (2001): vertices are aligned with a median neighbour, towards each of the four
+//! corners in turn; the aligned blocks are packed, and each vertex gets the mean of its two middle
+//! results. All four results keep the distances, so the mean keeps them too.
 
 use super::{Layered, Vertex};
 use std::collections::BTreeSet;
@@ -23,7 +23,8 @@ pub(super) fn assign(it: &Layered) -> Vec<i64> {
         }
         let neighbours = if downwards { &it.above } else { &it.below };
         let block = align(&layers, &main(it, neighbours), &conflicts);
-        let (before, after) = if rightwards { (&it.left, &it.right) } else { (&it.right, &it.left) };
+        let (before, after) =
+            if rightwards { (&it.left, &it.right) } else { (&it.right, &it.left) };
         let mut x = pack(&layers, &block, before, after);
         if !rightwards {
             for x in &mut x {
@@ -36,7 +37,8 @@ pub(super) fn assign(it: &Layered) -> Vec<i64> {
         let least = (0..x.len()).map(|at| x[at] - it.left[at]).min().unwrap_or(0);
         (least, (0..x.len()).map(|at| x[at] + it.right[at]).max().unwrap_or(0))
     };
-    let narrowest = results.iter().map(span).min_by_key(|(least, most)| most - least).unwrap_or((0, 0));
+    let narrowest =
+        results.iter().map(span).min_by_key(|(least, most)| most - least).unwrap_or((0, 0));
     for (x, (_, rightwards)) in results.iter_mut().zip(corners) {
         let own = span(x);
         let shift = if rightwards { narrowest.0 - own.0 } else { narrowest.1 - own.1 };
@@ -57,8 +59,9 @@ pub(super) fn assign(it: &Layered) -> Vec<i64> {
 /// Rounds of drawing detours in.
 const ROUNDS: usize = 8;
 
-/// Moves what stands farther to one side than all its neighbours, nodes alone and straight pieces of edges as a whole,
-/// towards them as far as there is room. The mean of four packings leaves such detours where nothing pulls.
+/// Moves what stands farther to one side than all its neighbours, nodes alone and straight pieces
+/// of edges as a whole, towards them as far as there is room. The mean of four packings leaves such
+/// detours where nothing pulls.
 fn tighten(it: &Layered, x: &mut Vec<i64>) {
     let mut room = Room { it, beside: vec![(None, None); x.len()] };
     for pair in it.layers.iter().flat_map(|layer| layer.windows(2)) {
@@ -70,8 +73,9 @@ fn tighten(it: &Layered, x: &mut Vec<i64>) {
         for chain in &it.chains {
             let mut first = 1;
             while first + 1 < chain.len() {
-                let straight =
-                    chain[first..chain.len() - 1].iter().take_while(|&&at| x[at] == x[chain[first]]);
+                let straight = chain[first..chain.len() - 1]
+                    .iter()
+                    .take_while(|&&at| x[at] == x[chain[first]]);
                 let next = first + straight.count();
                 let ends = [x[chain[first - 1]], x[chain[next]]];
                 room.shift(x, &chain[first..next], ends.into_iter());
@@ -79,7 +83,8 @@ fn tighten(it: &Layered, x: &mut Vec<i64>) {
             }
         }
         for node in (0..x.len()).filter(|&at| it.kinds[at] == Vertex::Node) {
-            let around: Vec<i64> = it.above[node].iter().chain(&it.below[node]).map(|&to| x[to]).collect();
+            let around: Vec<i64> =
+                it.above[node].iter().chain(&it.below[node]).map(|&to| x[to]).collect();
             room.shift(x, &[node], around.into_iter());
         }
         if *x == before {
@@ -100,8 +105,10 @@ impl Room<'_> {
         let (Some(least), Some(most)) = (range.clone().min(), range.max()) else { return };
         let here = x[vertices[0]];
         let it = self.it;
-        let free_left = |&at: &usize| self.beside[at].0.map(|to| x[to] + it.right[to] + it.left[at]);
-        let free_right = |&at: &usize| self.beside[at].1.map(|to| x[to] - it.left[to] - it.right[at]);
+        let free_left =
+            |&at: &usize| self.beside[at].0.map(|to| x[to] + it.right[to] + it.left[at]);
+        let free_right =
+            |&at: &usize| self.beside[at].1.map(|to| x[to] - it.left[to] - it.right[at]);
         let there = if here < least {
             vertices.iter().filter_map(free_right).fold(least, i64::min).max(here)
         } else if here > most {
@@ -115,11 +122,13 @@ impl Room<'_> {
     }
 }
 
-/// The neighbours to be aligned with: along forward edges if there are any, so that the main course runs straight.
+/// The neighbours to be aligned with: along forward edges if there are any, so that the main course
+/// runs straight.
 fn main(it: &Layered, neighbours: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let mut is_forward = BTreeSet::new();
     for (chain, _) in it.chains.iter().zip(&it.backward).filter(|(_, backward)| !**backward) {
-        is_forward.extend(chain.windows(2).flat_map(|pair| [(pair[0], pair[1]), (pair[1], pair[0])]));
+        is_forward
+            .extend(chain.windows(2).flat_map(|pair| [(pair[0], pair[1]), (pair[1], pair[0])]));
     }
     let chosen = |(vertex, around): (usize, &Vec<usize>)| {
         let forward: Vec<usize> =
@@ -175,14 +184,16 @@ fn align(
     let mut continued = vec![false; neighbours.len()];
     let mut position = vec![0; neighbours.len()];
     for layer in layers {
-        // The first position of the layer before that can still be aligned with, without a crossing.
+        // The first position of the layer before that can still be aligned with, without a
+        // crossing.
         let mut free = 0;
         for &vertex in layer {
             let mut around = neighbours[vertex].clone();
             around.sort_unstable_by_key(|&to| position[to]);
             let Some(last) = around.len().checked_sub(1) else { continue };
             for &to in &around[last / 2..=last.div_ceil(2)] {
-                let conflict = conflicts.contains(&(to, vertex)) || conflicts.contains(&(vertex, to));
+                let conflict =
+                    conflicts.contains(&(to, vertex)) || conflicts.contains(&(vertex, to));
                 if block[vertex] == vertex && !continued[to] && position[to] >= free && !conflict {
                     continued[to] = true;
                     block[vertex] = block[to];
@@ -206,7 +217,8 @@ fn pack(layers: &[Vec<usize>], block: &[usize], before: &[i64], after: &[i64]) -
         waits_for[block[pair[1]]] += 1;
     }
     let is_first = |at: &usize| block[*at] == *at;
-    let mut order: Vec<usize> = (0..block.len()).filter(is_first).filter(|&at| waits_for[at] == 0).collect();
+    let mut order: Vec<usize> =
+        (0..block.len()).filter(is_first).filter(|&at| waits_for[at] == 0).collect();
     let mut x = vec![0; block.len()];
     let mut done = 0;
     while let Some(&at) = order.get(done) {

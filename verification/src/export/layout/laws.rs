@@ -34,14 +34,20 @@ fn check(graph: &Graph, layout: &Layout) {
             one[0] >= 0 && one[1] >= 0 && one[2] <= layout.width && one[3] <= layout.height,
             "{one:?} is outside"
         );
-        areas[..at].iter().for_each(|&other| assert!(apart(one, other), "{one:?} and {other:?} overlap"));
+        areas[..at]
+            .iter()
+            .for_each(|&other| assert!(apart(one, other), "{one:?} and {other:?} overlap"));
     }
     for (edge, route) in graph.edges.iter().zip(&layout.routes) {
         let own = |at: &usize| *at != edge.from && *at != edge.to;
-        let foreign: Vec<Area> =
-            (0..nodes.len()).filter(own).map(|at| nodes[at]).chain(labels.iter().copied()).collect();
-        let free =
-            |area: Area| foreign.iter().for_each(|&it| assert!(apart(area, it), "a line crosses {it:?}"));
+        let foreign: Vec<Area> = (0..nodes.len())
+            .filter(own)
+            .map(|at| nodes[at])
+            .chain(labels.iter().copied())
+            .collect();
+        let free = |area: Area| {
+            foreign.iter().for_each(|&it| assert!(apart(area, it), "a line crosses {it:?}"))
+        };
         for line in &route.lines {
             for &Run { x, from, to } in line {
                 free([x, from.min(to), x, from.max(to)]);
@@ -56,7 +62,9 @@ fn check(graph: &Graph, layout: &Layout) {
                 ]);
             }
         }
-        touches(&graph.nodes[edge.from], layout.nodes[edge.from], route.lines[0][0], |run| run.from);
+        touches(&graph.nodes[edge.from], layout.nodes[edge.from], route.lines[0][0], |run| {
+            run.from
+        });
         let last = route.lines.last().and_then(|line| line.last()).copied().unwrap();
         touches(&graph.nodes[edge.to], layout.nodes[edge.to], last, |run| run.to);
     }
@@ -79,25 +87,36 @@ fn any_graph() -> impl Strategy<Value = Graph> {
         (17..80_i64, 4..20_i64).prop_map(|(wide, high)| Outline::Rectangle(wide, high)),
         (10..20_i64).prop_map(Outline::Circle),
     ];
-    let node =
-        (outline, 0..90_i64, 0..90_i64, 0..30_i64, 0..30_i64).prop_map(|(outline, left, right, up, down)| {
+    let node = (outline, 0..90_i64, 0..90_i64, 0..30_i64, 0..30_i64).prop_map(
+        |(outline, left, right, up, down)| {
             let (wide, high) = match outline {
                 Outline::Rectangle(wide, high) => (wide, high),
                 Outline::Circle(radius) => (radius, radius),
             };
-            Node { outline, left: wide + left, right: wide + right, up: high + up, down: high + down }
-        });
+            Node {
+                outline,
+                left: wide + left,
+                right: wide + right,
+                up: high + up,
+                down: high + down,
+            }
+        },
+    );
     proptest::collection::vec(node, 1..25).prop_flat_map(|nodes| {
         let count = nodes.len();
-        let label =
-            proptest::option::of((1..80_i64, 1..40_i64).prop_map(|(wide, high)| (2 * wide, 2 * high)));
-        let edge = (0..count, 0..count, label).prop_map(|(from, to, label)| Edge { from, to, label });
+        let label = proptest::option::of(
+            (1..80_i64, 1..40_i64).prop_map(|(wide, high)| (2 * wide, 2 * high)),
+        );
+        let edge =
+            (0..count, 0..count, label).prop_map(|(from, to, label)| Edge { from, to, label });
         let edges = proptest::collection::vec(edge, 0..60);
         let roots = proptest::collection::btree_set(0..count, 0..4);
-        (Just(nodes), edges, roots, any::<bool>()).prop_map(|(nodes, mut edges, roots, strays_last)| {
-            edges.retain(|edge| edge.from != edge.to);
-            Graph { nodes, edges, roots: roots.into_iter().collect(), strays_last }
-        })
+        (Just(nodes), edges, roots, any::<bool>()).prop_map(
+            |(nodes, mut edges, roots, strays_last)| {
+                edges.retain(|edge| edge.from != edge.to);
+                Graph { nodes, edges, roots: roots.into_iter().collect(), strays_last }
+            },
+        )
     })
 }
 

@@ -8,8 +8,8 @@
 //! | places in the layers | [`coordinates`] | Brandes and Köpf (2001) |
 //! | lines | [`route`] | vertical through the layers, curved between them |
 //!
-//! Labels are vertices of their own in a layer between the ends of their edge, so they get the space they need.
-//! All lengths are pixels, downwards and to the right.
+//! Labels are vertices of their own in a layer between the ends of their edge, so they get the
+//! space they need. All lengths are pixels, downwards and to the right.
 
 mod acyclic;
 mod coordinates;
@@ -26,7 +26,8 @@ pub(crate) struct Graph {
     pub(crate) edges: Vec<Edge>,
     /// Where reading starts; the first one is put into the first layer.
     pub(crate) roots: Vec<usize>,
-    /// Whether edges from what the roots do not reach to what they reach lead upwards. Else they lead downwards.
+    /// Whether edges from what the roots do not reach to what they reach lead upwards. Else they
+    /// lead downwards.
     pub(crate) strays_last: bool,
 }
 
@@ -95,7 +96,8 @@ pub(crate) struct Run {
 /// Above so many vertices, layers are ordered in two passes without exchanges of neighbours.
 const OPTIMISED: usize = 4_000;
 
-/// Above so many vertices, edges over several layers are drawn as one curve, across whatever is there.
+/// Above so many vertices, edges over several layers are drawn as one curve, across whatever is
+/// there.
 const SPLIT: usize = 20_000;
 
 /// A node, or a place where an edge crosses a layer.
@@ -117,7 +119,8 @@ struct Layered {
     right: Vec<i64>,
     /// The vertices of each layer, from left to right.
     layers: Vec<Vec<usize>>,
-    /// By vertex: its neighbours in the layer above, and in the layer below. Both lists of two vertices agree.
+    /// By vertex: its neighbours in the layer above, and in the layer below. Both lists of two
+    /// vertices agree.
     above: Vec<Vec<usize>>,
     below: Vec<Vec<usize>>,
     /// By edge: its vertices from the upper end to the lower end.
@@ -145,7 +148,8 @@ const NODE_MARGIN: i64 = 14;
 const LINE_MARGIN: i64 = 8;
 
 fn layered(graph: &Graph, ranks: &[usize], backward: Vec<bool>) -> Layered {
-    let ends = |edge: &Edge| (ranks[edge.from].min(ranks[edge.to]), ranks[edge.from].max(ranks[edge.to]));
+    let ends =
+        |edge: &Edge| (ranks[edge.from].min(ranks[edge.to]), ranks[edge.from].max(ranks[edge.to]));
     let bends: usize = graph.edges.iter().map(|edge| ends(edge).1 - ends(edge).0 - 1).sum();
     let split = graph.nodes.len() + bends <= SPLIT;
     let count = ranks.iter().max().map_or(0, |last| last + 1);
@@ -195,9 +199,11 @@ fn layered(graph: &Graph, ranks: &[usize], backward: Vec<bool>) -> Layered {
     it
 }
 
-/// Where a label stands: of the layers that only labels stand in, the one with the fewest, nearest to the start.
+/// Where a label stands: of the layers that only labels stand in, the one with the fewest, nearest
+/// to the start.
 fn label_rank(first: usize, last: usize, backward: bool, widths: &[i64]) -> usize {
     let crossed = (first + 1..last).step_by(2);
-    let by_width = |rank: &usize| (widths[*rank], if backward { last - rank } else { rank - first });
+    let by_width =
+        |rank: &usize| (widths[*rank], if backward { last - rank } else { rank - first });
     crossed.min_by_key(by_width).unwrap_or(first)
 }

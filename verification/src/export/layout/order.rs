@@ -44,7 +44,9 @@ fn initial(it: &Layered, downwards: bool) -> Vec<Vec<usize>> {
     let mut layers = vec![Vec::new(); it.layer.iter().max().map_or(0, |last| last + 1)];
     let mut seen = vec![false; it.kinds.len()];
     let mut starts: Vec<usize> = (0..it.kinds.len()).collect();
-    starts.sort_by_key(|&vertex| if downwards { it.layer[vertex] } else { usize::MAX - it.layer[vertex] });
+    starts.sort_by_key(
+        |&vertex| if downwards { it.layer[vertex] } else { usize::MAX - it.layer[vertex] },
+    );
     for start in starts {
         let mut open = vec![start];
         while let Some(vertex) = open.pop() {
@@ -52,7 +54,9 @@ fn initial(it: &Layered, downwards: bool) -> Vec<Vec<usize>> {
                 continue;
             }
             layers[it.layer[vertex]].push(vertex);
-            open.extend(it.below[vertex].iter().chain(&it.above[vertex]).rev().filter(|&&to| !seen[to]));
+            open.extend(
+                it.below[vertex].iter().chain(&it.above[vertex]).rev().filter(|&&to| !seen[to]),
+            );
         }
     }
     layers

@@ -19,7 +19,8 @@ pub(super) fn ranks(graph: &Graph, position: &[usize]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..graph.nodes.len()).collect();
     order.sort_unstable_by_key(|&node| position[node]);
     let mut ranks = vec![0_usize; graph.nodes.len()];
-    let lowest = |node: usize, ranks: &[usize]| above[node].iter().map(|&(it, span)| ranks[it] + span).max();
+    let lowest =
+        |node: usize, ranks: &[usize]| above[node].iter().map(|&(it, span)| ranks[it] + span).max();
     for &node in &order {
         ranks[node] = lowest(node, &ranks).unwrap_or(0);
     }
@@ -31,7 +32,9 @@ pub(super) fn ranks(graph: &Graph, position: &[usize]) -> Vec<usize> {
             let most = below[node].iter().map(|&(it, span)| ranks[it] - span).min();
             ranks[node] = match (least, most) {
                 _ if graph.roots.first() == Some(&node) => ranks[node],
-                (least, Some(most)) if below[node].len() > above[node].len() => most.max(least.unwrap_or(0)),
+                (least, Some(most)) if below[node].len() > above[node].len() => {
+                    most.max(least.unwrap_or(0))
+                }
                 (Some(least), _) if above[node].len() > below[node].len() => least,
                 _ => ranks[node],
             };

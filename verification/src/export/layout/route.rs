@@ -27,7 +27,9 @@ pub(super) fn layout(graph: &Graph, it: &Layered, x: &[i64]) -> Layout {
     let nodes: Vec<Point> = (0..graph.nodes.len()).map(|at| Point { x: x[at], y: y(at) }).collect();
     let route = |edge: usize| {
         let chain = &it.chains[edge];
-        let [Some(&upper), Some(&lower)] = [chain.first(), chain.last()] else { return Route::default() };
+        let [Some(&upper), Some(&lower)] = [chain.first(), chain.last()] else {
+            return Route::default();
+        };
         let (start, end) = ends[edge];
         let foot = y(upper) + reach(&graph.nodes[upper], start - x[upper]);
         let mut line = vec![Run { x: start, from: foot, to: bands[it.layer[upper]].bottom }];
@@ -150,7 +152,8 @@ fn ends(graph: &Graph, it: &Layered, x: &[i64]) -> Vec<(i64, i64)> {
     ends
 }
 
-/// Spreads the lines at one side of a node in the order of where they lead to, straight lines where possible.
+/// Spreads the lines at one side of a node in the order of where they lead to, straight lines where
+/// possible.
 fn spread<'e>(
     node: &Node,
     centre: i64,
@@ -159,7 +162,8 @@ fn spread<'e>(
 ) -> impl Iterator<Item = (&'e usize, i64)> {
     edges.sort_by_key(|&edge| target(edge));
     let count: i64 = edges.iter().map(|_| 1).sum();
-    // At a circle a line off the middle meets the rim at a slant, which is worth it for a small step only.
+    // At a circle a line off the middle meets the rim at a slant, which is worth it for a small
+    // step only.
     let (half, straight) = match node.outline {
         Outline::Rectangle(half, _) => ((half - 8).max(0), (half - 8).max(0)),
         Outline::Circle(radius) => (radius * 3 / 4, radius / 3),
@@ -174,18 +178,22 @@ fn spread<'e>(
     };
     let shifted = nearest_ascending((0..).zip(edges.iter()).map(wanted));
     let most = half - (count - 1) * distance;
-    let port =
-        move |(at, shifted): (i64, i64)| centre + shifted.clamp(-half, most.max(-half)) + at * distance;
+    let port = move |(at, shifted): (i64, i64)| {
+        centre + shifted.clamp(-half, most.max(-half)) + at * distance
+    };
     let ports: Vec<i64> = (0..).zip(shifted).map(port).collect();
     edges.iter().zip(ports)
 }
 
-/// The ascending numbers nearest to given ones with weights, in least squares, by pooling adjacent violators.
+/// The ascending numbers nearest to given ones with weights, in least squares, by pooling adjacent
+/// violators.
 fn nearest_ascending(values: impl Iterator<Item = (i64, i64)>) -> Vec<i64> {
     let mut pools: Vec<(i64, i64, usize)> = Vec::new();
     for (value, weight) in values {
         pools.push((value * weight, weight, 1));
-        while let [.., (sum, weight, count), (next_sum, next_weight, next_count)] = *pools.as_slice() {
+        while let [.., (sum, weight, count), (next_sum, next_weight, next_count)] =
+            *pools.as_slice()
+        {
             if sum * next_weight <= next_sum * weight {
                 break;
             }
@@ -211,7 +219,8 @@ mod tests {
 
     #[test]
     fn violators_are_pooled_at_their_mean() {
-        let equal = |values: [i64; 3]| nearest_ascending(values.into_iter().map(|value| (value, 1)));
+        let equal =
+            |values: [i64; 3]| nearest_ascending(values.into_iter().map(|value| (value, 1)));
         assert_eq!(equal([1, 2, 3]), [1, 2, 3]);
         assert_eq!(equal([3, 1, 5]), [2, 2, 5]);
         assert_eq!(equal([9, 3, 0]), [4, 4, 4]);

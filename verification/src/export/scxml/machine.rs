@@ -22,7 +22,8 @@ pub enum NotAStateMachine {
         /// The states that it takes or reads.
         states: Vec<String>,
     },
-    /// A transition that takes a state does not give exactly one, or one that reads a state gives some.
+    /// A transition that takes a state does not give exactly one, or one that reads a state gives
+    /// some.
     Target {
         /// Its name.
         transition: String,
@@ -59,7 +60,9 @@ pub enum NotAStateMachine {
 impl fmt::Display for NotAStateMachine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Defect(defect) => write!(f, "the lists of the net do not fit together: {defect:?}"),
+            Self::Defect(defect) => {
+                write!(f, "the lists of the net do not fit together: {defect:?}")
+            }
             Self::Start { tokens } if tokens.is_empty() => {
                 f.write_str("no state has a token at the start: exactly one must")
             }
@@ -100,7 +103,10 @@ impl fmt::Display for NotAStateMachine {
                 )
             }
             Self::ComplementOf { place, of } => {
-                write!(f, "place `{place}` is the complement of `{of}`, which is neither data nor shared")
+                write!(
+                    f,
+                    "place `{place}` is the complement of `{of}`, which is neither data nor shared"
+                )
             }
             Self::Complement { transition, place } => {
                 write!(
@@ -118,7 +124,9 @@ fn listed(states: &[String]) -> String {
     match states {
         [] => "no state".to_owned(),
         [one] => format!("`{one}`"),
-        [first, rest @ ..] => rest.iter().fold(format!("`{first}`"), |all, it| format!("{all}, `{it}`")),
+        [first, rest @ ..] => {
+            rest.iter().fold(format!("`{first}`"), |all, it| format!("{all}, `{it}`"))
+        }
     }
 }
 
@@ -159,8 +167,10 @@ impl<'n> Machine<'n> {
             return Err(NotAStateMachine::Defect(defect));
         }
         // From here on every id is one of the net.
-        let mut machine = Self { net, initial: start(net)?, moves: Vec::new(), variables: BTreeMap::new() };
-        machine.moves = net.transitions.iter().map(|it| machine.follow(it)).collect::<Result<_, _>>()?;
+        let mut machine =
+            Self { net, initial: start(net)?, moves: Vec::new(), variables: BTreeMap::new() };
+        machine.moves =
+            net.transitions.iter().map(|it| machine.follow(it)).collect::<Result<_, _>>()?;
         machine.check_complements()?;
         machine.time();
         machine.variables = machine.find_variables();
@@ -191,7 +201,9 @@ impl<'n> Machine<'n> {
     fn follow(&self, transition: &Transition<'n>) -> Result<Move, NotAStateMachine> {
         let (take, read) = (self.states(transition.take), self.states(transition.read));
         let give = self.states(transition.give);
-        let names = |arcs: &[Arc]| arcs.iter().map(|arc| self.name(arc.place).to_owned()).collect::<Vec<_>>();
+        let names = |arcs: &[Arc]| {
+            arcs.iter().map(|arc| self.name(arc.place).to_owned()).collect::<Vec<_>>()
+        };
         let name = transition.name.to_owned();
         let (from, takes) = match (take.as_slice(), read.as_slice()) {
             ([one], []) => (one.place, true),
@@ -229,7 +241,10 @@ impl<'n> Machine<'n> {
             let uneven = self.moves.iter().position(|it| change(it, id) + change(it, of) != 0);
             if let Some(transition) = uneven {
                 let transition = self.net.transitions[transition].name.to_owned();
-                return Err(NotAStateMachine::Complement { transition, place: place.name.to_owned() });
+                return Err(NotAStateMachine::Complement {
+                    transition,
+                    place: place.name.to_owned(),
+                });
             }
         }
         Ok(())
@@ -255,13 +270,15 @@ impl<'n> Machine<'n> {
             None => Timing::Untimed,
             Some(_) if transition.on.is_some() => Timing::Unkept,
             Some(within) => {
-                let unsteady =
-                    |place| foreign(place) || touched.get(&it.from).is_some_and(|it| it.contains(&place));
+                let unsteady = |place| {
+                    foreign(place) || touched.get(&it.from).is_some_and(|it| it.contains(&place))
+                };
                 let kept = !self.needs(transition).any(|arc| unsteady(arc.place));
                 if kept { Timing::Timer(within.earliest) } else { Timing::Unkept }
             }
         };
-        let timings: Vec<Timing> = self.moves.iter().zip(self.net.transitions).map(timing).collect();
+        let timings: Vec<Timing> =
+            self.moves.iter().zip(self.net.transitions).map(timing).collect();
         for (it, timing) in self.moves.iter_mut().zip(timings) {
             it.timing = timing;
         }
@@ -297,7 +314,8 @@ impl<'n> Machine<'n> {
 /// The state that holds the one token.
 fn start(net: &Net<'_>) -> Result<PlaceId, NotAStateMachine> {
     let places = (0..).map(PlaceId).zip(net.places);
-    let marked: Vec<_> = places.filter(|(_, it)| it.role == Role::State && it.initial > 0).collect();
+    let marked: Vec<_> =
+        places.filter(|(_, it)| it.role == Role::State && it.initial > 0).collect();
     match marked.as_slice() {
         [(id, place)] if place.initial == 1 => Ok(*id),
         _ => {

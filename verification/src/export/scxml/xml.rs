@@ -64,7 +64,8 @@ const RESERVED: [&str; 51] = [
 pub(super) fn document(machine: &Machine<'_>) -> String {
     let net = machine.net;
     let signals = net.events.iter().map(|it| it.name);
-    let timeouts: Vec<String> = net.transitions.iter().map(|it| format!("timeout_{}", it.name)).collect();
+    let timeouts: Vec<String> =
+        net.transitions.iter().map(|it| format!("timeout_{}", it.name)).collect();
     let mut writer = Writer {
         machine,
         text: String::from("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"),
@@ -92,14 +93,19 @@ impl Writer<'_, '_> {
         let net = self.machine.net;
         self.comment(0, net.doc);
         let moves = self.machine.moves.iter().zip(net.transitions);
-        let unkept =
-            moves.filter(|(it, _)| it.timing == Timing::Unkept).map(|(_, transition)| transition.name);
+        let unkept = moves
+            .filter(|(it, _)| it.timing == Timing::Unkept)
+            .map(|(_, transition)| transition.name);
         let unkept: Vec<&str> = unkept.collect();
         if !unkept.is_empty() {
-            self.comment(0, &format!("Intervals that no timer of this chart keeps: {}.", unkept.join(", ")));
+            self.comment(
+                0,
+                &format!("Intervals that no timer of this chart keeps: {}.", unkept.join(", ")),
+            );
         }
         let name = identifiers([net.name].into_iter(), "-", &[]).concat();
-        self.text += "<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" xmlns:cotama=\"urn:cotama:net:1\"";
+        self.text +=
+            "<scxml xmlns=\"http://www.w3.org/2005/07/scxml\" xmlns:cotama=\"urn:cotama:net:1\"";
         self.text += " version=\"1.0\" datamodel=\"ecmascript\"";
         self.attribute("name", &name);
         self.attribute("initial", &self.places[self.machine.initial.0 as usize].clone());
@@ -108,7 +114,9 @@ impl Writer<'_, '_> {
         self.datamodel();
         // The transitions of each state in document order.
         let mut order: Vec<usize> = (0..net.transitions.len()).collect();
-        order.sort_by_key(|&id| (self.machine.moves[id].from, Reverse(net.transitions[id].priority), id));
+        order.sort_by_key(|&id| {
+            (self.machine.moves[id].from, Reverse(net.transitions[id].priority), id)
+        });
         for (id, place) in (0..).map(PlaceId).zip(net.places) {
             if place.role == Role::State {
                 let begin = order.partition_point(|&it| self.machine.moves[it].from < id);
@@ -130,7 +138,8 @@ impl Writer<'_, '_> {
             self.text += "    <data";
             let name = self.variables[id.0 as usize].clone();
             self.attribute("id", &name);
-            let start = if boolean { (place.initial == 1).to_string() } else { place.initial.to_string() };
+            let start =
+                if boolean { (place.initial == 1).to_string() } else { place.initial.to_string() };
             self.attribute("expr", &start);
             self.original(place.name, &name);
             self.text += "/>\n";
@@ -226,7 +235,8 @@ impl Writer<'_, '_> {
             self.attribute("target", "#_parent");
             self.text += "/>\n";
         }
-        // A transition that fires starts its own clock again; one that leaves does so by entering the state.
+        // A transition that fires starts its own clock again; one that leaves does so by entering
+        // the state.
         if let (Timing::Timer(delay), None) = (it.timing, it.to) {
             self.start_timer(id, delay);
         }
@@ -275,7 +285,8 @@ impl Writer<'_, '_> {
         }
     }
 
-    /// A comment, unless there is nothing to say. Two hyphens would end it, so a blank goes between them.
+    /// A comment, unless there is nothing to say. Two hyphens would end it, so a blank goes between
+    /// them.
     fn comment(&mut self, indent: usize, text: &str) {
         if text.trim().is_empty() {
             return;

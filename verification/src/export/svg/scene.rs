@@ -62,11 +62,12 @@ pub(super) struct Sign {
 impl<'n> Scene<'n> {
     pub(super) fn of(net: &Net<'n>, figure: Figure<'n>, highlight: &Highlight<'_>) -> Self {
         let is_hot = |label: &Label<'_>| label.transitions.iter().any(|&at| highlight.has(at));
-        let mut signs: Vec<Sign> = figure.nodes.iter().map(|node| sign(net, node, highlight)).collect();
+        let mut signs: Vec<Sign> =
+            figure.nodes.iter().map(|node| sign(net, node, highlight)).collect();
         let mut labels = Vec::new();
         let mut route_of = Vec::new();
-        // A state that only entries lead to is where trouble ends: its edges lead back. A place that nothing marks is
-        // a source.
+        // A state that only entries lead to is where trouble ends: its edges lead back. A place
+        // that nothing marks is a source.
         let mut graph = Graph { strays_last: figure.is_states, ..Graph::default() };
         for edge in &figure.edges {
             let mut label = Block::default();
@@ -81,9 +82,10 @@ impl<'n> Scene<'n> {
                 signs[edge.from].to_itself = label.clone();
                 route_of.push(None);
             } else {
-                // All edges between states span two layers, so that states and labels never share one.
-                let size =
-                    (figure.is_states || !label.lines.is_empty()).then_some((label.width + 4, label.height));
+                // All edges between states span two layers, so that states and labels never share
+                // one.
+                let size = (figure.is_states || !label.lines.is_empty())
+                    .then_some((label.width + 4, label.height));
                 route_of.push(Some(graph.edges.len()));
                 graph.edges.push(layout::Edge { from: edge.from, to: edge.to, label: size });
             }
@@ -114,7 +116,8 @@ impl<'n> Scene<'n> {
             Kind::Transition(at) => highlight.has(at as u32),
             Kind::State(_) | Kind::Place { .. } => false,
         };
-        let labelled = it.labels.iter().flat_map(|label| &label.transitions).any(|&at| highlight.has(at));
+        let labelled =
+            it.labels.iter().flat_map(|label| &label.transitions).any(|&at| highlight.has(at));
         labelled || (it.flow != Flow::Read && (of(it.from) || of(it.to)))
     }
 }
@@ -146,7 +149,8 @@ fn sign(net: &Net<'_>, node: &Node<'_>, highlight: &Highlight<'_>) -> Sign {
             sign.is_hot = highlight.has(at as u32);
             sign.text.text(Face::Strong, &name.replace(' ', "\u{a0}"), sign.is_hot);
             // An event of the same name need not be said twice.
-            if let Some(label) = node.label.as_ref().filter(|label| label.to_string() != node.name) {
+            if let Some(label) = node.label.as_ref().filter(|label| label.to_string() != node.name)
+            {
                 sign.text.label(label, sign.is_hot);
             }
         }
@@ -163,8 +167,9 @@ fn sign(net: &Net<'_>, node: &Node<'_>, highlight: &Highlight<'_>) -> Sign {
 /// The size of a node at which so many lines start, or end.
 fn node(node: &Node<'_>, sign: &Sign, lines: i64) -> layout::Node {
     let crowd = (lines - 1) * PORT / 2 + 8;
-    let beside =
-        |block: &Block, arrow: i64| if block.lines.is_empty() { 0 } else { arrow + SPACE + block.width };
+    let beside = |block: &Block, arrow: i64| {
+        if block.lines.is_empty() { 0 } else { arrow + SPACE + block.width }
+    };
     let half = |block: &Block| (block.height + 1) / 2;
     match node.kind {
         Kind::State(_) => {

@@ -21,17 +21,18 @@ const WRAP: i64 = 150;
 /// Longer names are cut in the middle; the title of the element has them whole.
 const LONGEST: usize = 40;
 
-/// Widths of the characters from space to tilde in Helvetica, in thousandths of the size (Adobe font metrics).
+/// Widths of the characters from space to tilde in Helvetica, in thousandths of the size (Adobe
+/// font metrics).
 const HELVETICA: [u16; 95] = [
-    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556, 556, 556,
-    556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667, 611, 778, 722, 278,
-    500, 667, 556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667, 667, 611, 278, 278, 278, 469,
-    556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500, 222, 833, 556, 556, 556, 556, 333, 500,
-    278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
+    278, 278, 355, 556, 556, 889, 667, 191, 333, 333, 389, 584, 278, 333, 278, 278, 556, 556, 556,
+    556, 556, 556, 556, 556, 556, 556, 278, 278, 584, 584, 584, 556, 1015, 667, 667, 722, 722, 667,
+    611, 778, 722, 278, 500, 667, 556, 833, 722, 778, 667, 778, 722, 667, 611, 722, 667, 944, 667,
+    667, 611, 278, 278, 278, 469, 556, 333, 556, 556, 500, 556, 556, 278, 556, 556, 222, 222, 500,
+    222, 833, 556, 556, 556, 556, 333, 500, 278, 556, 500, 722, 500, 500, 500, 334, 260, 334, 584,
 ];
 
-/// The width of a text at a size, in pixels, rounded up. Characters beyond ASCII count as an average capital, those
-/// from the East Asian scripts on as a square.
+/// The width of a text at a size, in pixels, rounded up. Characters beyond ASCII count as an
+/// average capital, those from the East Asian scripts on as a square.
 pub fn width(text: &str, size: i64) -> i64 {
     let thousandths = |c: char| match c {
         ' '..='~' => i64::from(HELVETICA[c as usize - ' ' as usize]),
@@ -56,7 +57,8 @@ pub(crate) fn short(name: &str) -> String {
     plain[..half].iter().chain(&['…']).chain(&plain[plain.len() - half..]).collect()
 }
 
-/// Escapes a text for XML, in elements and in attributes. Characters that XML 1.0 has no way to write become U+FFFD.
+/// Escapes a text for XML, in elements and in attributes. Characters that XML 1.0 has no way to
+/// write become U+FFFD.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -118,15 +120,21 @@ impl Block {
         self.words(text.split(' ').map(|word| (face, word.to_owned())), hot);
     }
 
-    /// Adds a label: in one line if it is short, otherwise event and guard, actions and timing in lines of their own.
+    /// Adds a label: in one line if it is short, otherwise event and guard, actions and timing in
+    /// lines of their own.
     pub(super) fn label(&mut self, label: &Label<'_>, hot: bool) {
         let words = |face, items: Vec<String>| -> Vec<(Face, String)> {
-            items.iter().flat_map(|item| item.split(' ')).map(|word| (face, word.to_owned())).collect()
+            items
+                .iter()
+                .flat_map(|item| item.split(' '))
+                .map(|word| (face, word.to_owned()))
+                .collect()
         };
         let joined = |items: &[String], open: &str, with: &str, close: &str| -> Vec<String> {
             let last = items.len().saturating_sub(1);
             let item = |(at, item): (usize, &String)| {
-                let (open, close) = (if at == 0 { open } else { "" }, if at == last { close } else { with });
+                let (open, close) =
+                    (if at == 0 { open } else { "" }, if at == last { close } else { with });
                 // Within an item the space does not break.
                 format!("{open}{}{close}", short(item).replace(' ', "\u{a0}"))
             };

@@ -24,8 +24,8 @@ entries! {
     Hand: by_hand::Drive;
 }
 
-// `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with `offer_`, which
-// nothing else does, and the linker starts at one of them to measure it alone.
+// `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
+// `offer_`, which nothing else does, and the linker starts at one of them to measure it alone.
 macro_rules! offers {
     ($($(#[$doc:meta])* $name:ident: $supervisor:ty;)*) => {$(
         $(#[$doc])*

@@ -1,5 +1,6 @@
-//! Offers the first events of the stream to each supervisor, between marks at which an emulator counts instructions, and
-//! prints what each of them did. The first region is empty, those after it time a call without a supervisor.
+//! Offers the first events of the stream to each supervisor, between marks at which an emulator
+//! counts instructions, and prints what each of them did. The first region is empty, those after it
+//! time a call without a supervisor.
 #![no_std]
 #![no_main]
 

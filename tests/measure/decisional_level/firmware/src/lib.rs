@@ -11,8 +11,8 @@ use cotama_models::cotama::{Cause, DecisionalLevel, Flags, Modules, Told};
 use cotama_models::tables::Rest;
 use decisional_level::{Concluded, Robot};
 
-// `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with `robot_`, which nothing
-// else does, and the linker starts at them.
+// `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
+// `robot_`, which nothing else does, and the linker starts at them.
 macro_rules! entries {
     ($($(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $(-> $out:ty)? = $body:expr;)*) => {$(
         $(#[$doc])*

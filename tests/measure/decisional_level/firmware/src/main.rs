@@ -1,5 +1,6 @@
-//! Does everything that the level can do, between marks at which an emulator counts instructions. A line `batch NAME COUNT`
-//! is printed for each row of regions; that of the exploration, for each state: a round, then each event.
+//! Does everything that the level can do, between marks at which an emulator counts instructions. A
+//! line `batch NAME COUNT` is printed for each row of regions; that of the exploration, for each
+//! state: a round, then each event.
 #![no_std]
 #![no_main]
 
