@@ -15,8 +15,9 @@
 //! | [`exact`] | the best plan, proven; anytime, with a bound |
 //! | [`front`] | all plans that no other plan beats |
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
-//! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling, and their player |
+//! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling |
 //! | [`mod@system`] | several nets that work together |
+//! | [`player`] | plays a net or a system: events and time in, what fired out |
 //! | [`executive`] | periodic modules on one processor: their scheduler, its watchdog, and proofs that they are in time |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
@@ -40,6 +41,7 @@ pub mod hardware;
 pub mod monitor;
 pub mod net;
 pub mod panorama;
+pub mod player;
 pub mod problem;
 pub mod system;
 pub mod units;

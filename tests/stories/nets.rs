@@ -3,12 +3,10 @@
 mod limits;
 mod snapshots;
 
-use cotama_core::net::code::Code;
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{
-    EventId, Firing, Loaded, Net, Outcome, OutputId, Packed, PlaceId, Player, TransitionId, Why,
-    clocks, words,
-};
+use cotama_core::net::{EventId, Net, OutputId, PlaceId, TransitionId};
+use cotama_core::player::code::Code;
+use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player, Why, clocks, words};
 use cotama_core::units::Millis;
 use cotama_tests::instances::Draw;
 use cotama_tests::textbook::nets::{CLOCKS, Time, WORDS, one_in, pick, random_net};

@@ -1,7 +1,8 @@
 //! Stories of nets that work together.
 
 use cotama_core::net::EventId;
-use cotama_core::system::{Happening, Of, Offered, Player, Program, SystemDefect, Turned, Witness};
+use cotama_core::player::{Player, Program};
+use cotama_core::system::{Happening, Of, Offered, SystemDefect, Turned, Witness};
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
 

@@ -3,16 +3,15 @@
 //!
 //! Tokens are numbers in a list, clocks are instants, and every question is answered by looking at
 //! all transitions. It is slow, and short enough to be compared with the definitions by eye: those
-//! of [`Player`](cotama_core::net::Player) for one event after the other, of
-//! [`Round`](cotama_core::net::Round) for synchronous rounds.
+//! of [`Player`](cotama_core::player::Player) for one event after the other, of
+//! [`Stepped`](cotama_core::player::Stepped) for synchronous steps.
 
 pub mod nets;
-mod rounds;
+mod steps;
 
-use cotama_core::net::code::LARGEST;
-use cotama_core::net::{
-    Arc, CATCH_UP, EventId, Ignored, Net, Outcome, PlaceId, SETTLE, TransitionId, Why, Within,
-};
+use cotama_core::net::{Arc, EventId, Ignored, Net, PlaceId, TransitionId, Within};
+use cotama_core::player::LARGEST;
+use cotama_core::player::{CATCH_UP, Outcome, SETTLE, Why};
 use std::cmp::Reverse;
 
 /// A net that is being played.

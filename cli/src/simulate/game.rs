@@ -1,10 +1,11 @@
 //! A player of any net, whatever its size.
 
 use crate::exit::{Exit, Failure};
-use cotama_core::net::{
-    Defect, EventId, Firing, Loaded, Net, Outcome, OutputId, Packed, Place, Player, Round,
-    TransitionId, clocks, words,
+use cotama_core::net::{Defect, EventId, Net, Place, TransitionId};
+use cotama_core::player::{
+    Checked, Firing, Loaded, Outcome, Packed, Player, Stepped, Why, clocks, words,
 };
+use cotama_core::system::{Component, System};
 use cotama_core::units::Millis;
 
 /// The sizes of the players: machine words of a marking, and transitions with an interval.
@@ -28,20 +29,23 @@ pub(super) trait Game<'c> {
     fn wake_at(&self) -> Option<Millis>;
     /// As [`Player::advance`]; whether there is more to catch up with.
     fn advance(&mut self, to: Millis, fired: &mut Vec<Fired>) -> bool;
-    /// As [`Player::offer`].
+    /// As [`Player::offer`]: what fired, or why nothing did.
     fn offer(
         &mut self,
         at: Millis,
         event: EventId,
         fired: &mut Vec<Fired>,
-    ) -> Outcome<TransitionId>;
-    /// As [`Player::round`].
-    fn round(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Round;
+    ) -> Result<TransitionId, Why<TransitionId>>;
+    /// As [`Player::step`].
+    fn step(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Stepped;
     /// The same game, to go on with in another way.
     fn fork(&self) -> Box<dyn Game<'c> + 'c>;
 }
 
-impl<'c, const W: usize, const C: usize> Game<'c> for Player<Loaded<'c, W>, W, C> {
+/// What is played: bounds are checked, so that steps can be taken too.
+type Played<'c, const W: usize, const C: usize> = Checked<Loaded<'c, W, C>>;
+
+impl<'c, const W: usize, const C: usize> Game<'c> for Player<Played<'c, W, C>, W, C> {
     fn now(&self) -> Millis {
         Player::now(self)
     }
@@ -51,7 +55,7 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Player<Loaded<'c, W>, W, C
     }
 
     fn advance(&mut self, to: Millis, fired: &mut Vec<Fired>) -> bool {
-        self.advance_with(to, &mut |it: &Seen<'_>| fired.push(it.into())).behind
+        self.advance_with(to, &mut |it: &Seen<'_, 'c, W, C>| fired.push(it.into())).behind
     }
 
     fn offer(
@@ -59,12 +63,20 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Player<Loaded<'c, W>, W, C
         at: Millis,
         event: EventId,
         fired: &mut Vec<Fired>,
-    ) -> Outcome<TransitionId> {
-        self.offer_with(at, &event, &mut |it: &Seen<'_>| fired.push(it.into()))
+    ) -> Result<TransitionId, Why<TransitionId>> {
+        let outcome = self
+            .offer_with(at, &event.into(), &mut |it: &Seen<'_, 'c, W, C>| fired.push(it.into()));
+        match outcome.map(|it| it.id) {
+            Outcome::Fired { transition, .. } => Ok(transition),
+            Outcome::Ignored { why } => Err(why),
+            // A net alone has no mailboxes.
+            Outcome::Refused { .. } => Err(Why::NotEnabled),
+        }
     }
 
-    fn round(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Round {
-        self.round_with(at, events, &mut |it: &Seen<'_>| fired.push(it.into()))
+    fn step(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Stepped {
+        let events: Vec<_> = events.iter().map(|&it| it.into()).collect();
+        self.step_with(at, &events, &mut |it: &Seen<'_, 'c, W, C>| fired.push(it.into()))
     }
 
     fn fork(&self) -> Box<dyn Game<'c> + 'c> {
@@ -72,11 +84,11 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Player<Loaded<'c, W>, W, C
     }
 }
 
-type Seen<'f> = Firing<'f, EventId, TransitionId, OutputId>;
+type Seen<'f, 'c, const W: usize, const C: usize> = Firing<'f, Played<'c, W, C>>;
 
-impl From<&Seen<'_>> for Fired {
-    fn from(firing: &Seen<'_>) -> Self {
-        Self { transition: firing.id, at: firing.at, offered: firing.event.is_some() }
+impl<const W: usize, const C: usize> From<&Seen<'_, '_, W, C>> for Fired {
+    fn from(firing: &Seen<'_, '_, W, C>) -> Self {
+        Self { transition: firing.id.id, at: firing.at, offered: firing.on.is_some() }
     }
 }
 
@@ -86,7 +98,7 @@ pub(super) type Then<'t> =
 
 /// Plays a net from its start, at time zero.
 pub(super) fn play(net: &Net<'_>, then: &mut Then<'_>) -> Result<Exit, Failure> {
-    match words(net) {
+    match words(&System::alone(&[Component::alone(net)])) {
         Some(0..=1) => with_words::<1>(net, then),
         Some(2..=4) => with_words::<4>(net, then),
         Some(5..=16) => with_words::<16>(net, then),
@@ -109,28 +121,27 @@ pub(super) fn play(net: &Net<'_>, then: &mut Then<'_>) -> Result<Exit, Failure> 
 }
 
 fn with_words<const W: usize>(net: &Net<'_>, then: &mut Then<'_>) -> Result<Exit, Failure> {
-    let packed = Packed::<W>::of(net).map_err(|defect| refused(net, defect))?;
-    let program = packed.load(net);
-    let mut fired = vec![];
-    let game = match clocks(net) {
-        0 => start::<W, 0>(program, &mut fired),
-        1..=16 => start::<W, 16>(program, &mut fired),
-        17..=MOST_CLOCKS => start::<W, MOST_CLOCKS>(program, &mut fired),
-        clocks => {
-            return Err(large(&format!(
-                "{clocks} transitions have an interval, and {MOST_CLOCKS} are the most"
-            )));
-        }
-    };
-    then(game, fired)
+    match clocks(&System::alone(&[Component::alone(net)])) {
+        0 => with::<W, 0>(net, then),
+        1..=16 => with::<W, 16>(net, then),
+        17..=MOST_CLOCKS => with::<W, MOST_CLOCKS>(net, then),
+        clocks => Err(large(&format!(
+            "{clocks} transitions have an interval, and {MOST_CLOCKS} are the most"
+        ))),
+    }
 }
 
-fn start<'c, const W: usize, const C: usize>(
-    program: Loaded<'c, W>,
-    fired: &mut Vec<Fired>,
-) -> Box<dyn Game<'c> + 'c> {
-    let mut observer = |it: &Seen<'_>| fired.push(it.into());
-    Box::new(Player::<_, W, C>::start(program, Millis(0), &mut observer))
+fn with<const W: usize, const C: usize>(
+    net: &Net<'_>,
+    then: &mut Then<'_>,
+) -> Result<Exit, Failure> {
+    let packed = Packed::<W, C>::alone(net).map_err(|defect| refused(net, defect))?;
+    let alone = [Component::alone(net)];
+    let program = Checked(packed.load(&System::alone(&alone)));
+    let mut fired = vec![];
+    let mut observer = |it: &Seen<'_, '_, W, C>| fired.push(it.into());
+    let game = Player::<_, W, C>::start(program, Millis(0), &mut observer);
+    then(Box::new(game), fired)
 }
 
 fn large(why: &str) -> Failure {

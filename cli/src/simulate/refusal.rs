@@ -1,9 +1,8 @@
 //! Why no transition uses an event, in words.
 
 use crate::answers::model::{RefusalReason, RefusalRow};
-use cotama_core::net::{
-    Arc, EventId, Net, Place, PlaceId, Role, Transition, TransitionId, Why, Within,
-};
+use cotama_core::net::{Arc, EventId, Net, Place, PlaceId, Role, Transition, TransitionId, Within};
+use cotama_core::player::Why;
 
 /// The most transitions of which it is said what they lack.
 const SHOWN: usize = 2;
@@ -40,7 +39,7 @@ pub(super) fn refusal(
             );
             (RefusalReason::Full, text)
         }
-        Why::NotEnabled | Why::Behind => {
+        Why::NotEnabled | Why::Behind | Why::NoSuchEvent => {
             (RefusalReason::NotEnabled, not_enabled(net, marking, event))
         }
     };

@@ -7,9 +7,8 @@ use super::step::Step;
 use crate::answers::model::{
     DeadlineRow, EnabledRow, RefusalRow, SimulateAnswer, StepRow, TokensRow,
 };
-use cotama_core::net::{
-    Arc, EventId, Net, Outcome, OutputId, PlaceId, Round, Transition, TransitionId, Why,
-};
+use cotama_core::net::{Arc, EventId, Net, OutputId, PlaceId, Transition, TransitionId};
+use cotama_core::player::{Stepped, Why};
 use cotama_core::units::Millis;
 use std::collections::BTreeMap;
 
@@ -60,8 +59,8 @@ impl<'n, 'c> Session<'n, 'c> {
         for &event in &step.events {
             let mut fired = vec![];
             match self.game.offer(step.at, event, &mut fired) {
-                Outcome::Fired { .. } => self.record(&fired),
-                Outcome::Ignored { why } => {
+                Ok(_) => self.record(&fired),
+                Err(why) => {
                     let ignored = vec![refusal(self.net, &self.marking, event, why)];
                     self.push(step.at, &[event], &[], ignored);
                 }
@@ -88,7 +87,7 @@ impl<'n, 'c> Session<'n, 'c> {
     fn round(&mut self, step: &Step) -> Result<(), Endless> {
         let before = self.game.fork();
         let mut fired = vec![];
-        let round = self.game.round(step.at, &step.events, &mut fired);
+        let round = self.game.step(step.at, &step.events, &mut fired);
         let used = |event| fired.iter().any(|it| self.is_on(it, event));
         let unused = step.events.iter().filter(|&&event| !used(event));
         let ignored =
@@ -106,22 +105,22 @@ impl<'n, 'c> Session<'n, 'c> {
         &self,
         before: &(dyn Game<'c> + 'c),
         at: Millis,
-        round: Round,
+        round: Stepped,
         event: EventId,
     ) -> RefusalRow {
         if round.full {
             return round_is_full(self.net, event);
         }
         let mut fired = vec![];
-        let _ = before.fork().round(at, &[event], &mut fired);
+        let _ = before.fork().step(at, &[event], &mut fired);
         if fired.iter().any(|it| self.is_on(it, event)) {
             return taken_by_others(self.net, event);
         }
         // Offered alone, it is the marking and the clocks that refuse it; what settles before that
         // is for later rounds.
         let why = match before.fork().offer(at, event, &mut vec![]) {
-            Outcome::Ignored { why } => why,
-            Outcome::Fired { .. } => Why::NotEnabled,
+            Err(why) => why,
+            Ok(_) => Why::NotEnabled,
         };
         refusal(self.net, &self.marking, event, why)
     }
@@ -248,14 +247,14 @@ impl<'n, 'c> Session<'n, 'c> {
     fn prospect(&self, event: EventId) -> Result<String, RefusalRow> {
         let (now, mut game, mut fired) = (self.now(), self.game.fork(), vec![]);
         if self.rounds {
-            let round = game.round(now, &[event], &mut fired);
+            let round = game.step(now, &[event], &mut fired);
             let user = fired.iter().find(|it| self.is_on(it, event));
             let user = user.ok_or_else(|| self.refused_round(&*self.game, now, round, event))?;
             return Ok(self.name(user.transition));
         }
         match game.offer(now, event, &mut fired) {
-            Outcome::Fired { transition, .. } => Ok(self.name(transition)),
-            Outcome::Ignored { why } => Err(refusal(self.net, &self.marking, event, why)),
+            Ok(transition) => Ok(self.name(transition)),
+            Err(why) => Err(refusal(self.net, &self.marking, event, why)),
         }
     }
 

@@ -4,9 +4,9 @@
 //! places that a net shares with others change as those others please. Breadth first, transitions
 //! in their order, so the way to a marking is a shortest one.
 
-use super::code::Code;
 use super::data::{Net, Role};
 use super::text::Text;
+use crate::player::code::Code;
 
 /// The most markings that are explored while compiling.
 pub const MARKINGS: usize = 1_024;

@@ -1,10 +1,10 @@
 //! The laws of a small net, checked while compiling; one that does not hold is a compile error that
 //! names the culprit and the shortest way there.
 
-use super::code::Code;
 use super::data::{Law, Net, PlaceId, Role};
 use super::explore::{AT_ONCE, FIRINGS, Graph, MARKINGS, NONE, SHARED, held, marked, said};
 use super::text::Text;
+use crate::player::code::Code;
 
 /// What is known of a net when it is compiled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,7 +108,7 @@ impl<const W: usize> Check<'_, W> {
 
     const fn exceeded(&self, from: usize, by: usize) -> ! {
         let entry = &self.code.entries[by];
-        let after = self.code.after(&self.graph.markings[from], &entry.delta);
+        let after = crate::player::code::plus(&self.graph.markings[from], &entry.delta);
         let mut at = 0;
         while held(self.code, &after, at) <= self.net.places[at].bound as u64 {
             at += 1;
@@ -348,13 +348,7 @@ impl<const W: usize> Check<'_, W> {
             }
             let mut event = first;
             while event < most && event < first + 64 {
-                let mut word = if answered >> (event - first) & 1 == 0 { 0 } else { W + 1 };
-                while word < W
-                    && self.code.ignored[event][word] & self.graph.markings[marking][word] == 0
-                {
-                    word += 1;
-                }
-                if word == W {
+                if answered >> (event - first) & 1 == 0 && !self.ignores(event, marking) {
                     return event;
                 }
                 event += 1;
@@ -362,6 +356,19 @@ impl<const W: usize> Check<'_, W> {
             first += 64;
         }
         most
+    }
+
+    /// Whether some place that ignores this event on purpose is marked.
+    const fn ignores(&self, event: usize, marking: usize) -> bool {
+        let mut at = 0;
+        while at < self.net.ignored.len() {
+            let it = self.net.ignored[at];
+            if it.event.0 as usize == event && self.tokens(it.place, marking) > 0 {
+                return true;
+            }
+            at += 1;
+        }
+        false
     }
 
     /// The first marked place that `net!` has a name for.

@@ -574,3 +574,14 @@ impl<
         laws
     }
 }
+
+/// The line of each transition.
+pub const fn lines<const N: usize>(net: &super::Net<'_>) -> [u16; N] {
+    let mut lines = [0; N];
+    let mut at = 0;
+    while at < N {
+        lines[at] = net.transitions[at].line as u16;
+        at += 1;
+    }
+    lines
+}

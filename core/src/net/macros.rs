@@ -3,7 +3,7 @@
 /// Defines a supervisor, checks it while compiling, and makes it ready to be played.
 ///
 /// ```
-/// use cotama_core::{net, net::Outcome::{Fired, Ignored}, net::Why, units::Millis};
+/// use cotama_core::{net, player::Outcome::{Fired, Ignored}, player::Why, units::Millis};
 ///
 /// net! {
 ///     /// Stops the robot when the operator falls silent.
@@ -127,7 +127,8 @@ macro_rules! net {
         $vis mod $name {
             #[allow(unused_imports)]
             use super::*;
-            use $crate::net::{code as net_code, lower as net_lower, source as net_source};
+            use $crate::net::{lower as net_lower, source as net_source};
+            use $crate::player::code as net_code;
 
             const SOURCE: net_source::Source<'static> = net_source::Source {
                 name: stringify!($name),
@@ -210,21 +211,33 @@ macro_rules! net {
                 ignored: LOWERED.ignored(),
                 laws: &LOWERED.laws(),
             };
-            const CODE_SIZE: net_code::CodeSize = net_code::size_of(&NET);
+            const ALONE: &[$crate::system::Component<'static>; 1] =
+                &[$crate::system::Component::alone(&NET)];
+            const SYSTEM: $crate::system::System<'static> =
+                $crate::system::System::alone(ALONE);
+            const CODE_SIZE: net_code::Size = net_code::size_of(&SYSTEM);
             const ARRAYS: &net_code::Arrays<
                 { CODE_SIZE.words },
                 { CODE_SIZE.entries },
+                { CODE_SIZE.takes },
                 { CODE_SIZE.rows },
-                { CODE_SIZE.clocks },
+                { CODE_SIZE.routes },
+                { CODE_SIZE.says },
+                { CODE_SIZE.mailboxes },
+                { CODE_SIZE.components + 1 },
                 { CODE_SIZE.fields },
-                { CODE_SIZE.events },
-            > = &net_code::Arrays::of(&NET);
+                { CODE_SIZE.complements },
+                { CODE_SIZE.clocks },
+                { CODE_SIZE.clears },
+                { CODE_SIZE.ignored },
+            > = &net_code::Arrays::of(&SYSTEM);
 
             /// How the net was checked.
             pub const KNOWN: $crate::net::Known =
                 $crate::net::check(&NET, &ARRAYS.code(0, false), SOURCE.left_to_checker());
 
-            const CODE: net_code::Code<'static, { CODE_SIZE.words }> = ARRAYS.code(KNOWN.settle(), KNOWN.bounded());
+            const CODE: net_code::Code<'static, { CODE_SIZE.words }> =
+                ARRAYS.code(KNOWN.settle(), KNOWN.bounded());
 
             /// A place, flag, counter or shared place.
             #[allow(missing_docs, non_camel_case_types)]
@@ -240,6 +253,13 @@ macro_rules! net {
                 #[inline]
                 fn from(place: Place) -> Self {
                     Self(place as u32)
+                }
+            }
+
+            impl ::core::convert::From<Place> for $crate::system::Of<$crate::net::PlaceId> {
+                #[inline]
+                fn from(place: Place) -> Self {
+                    Self { component: 0, id: place.into() }
                 }
             }
 
@@ -262,12 +282,13 @@ macro_rules! net {
                 $( $( $event, )* )?
             }
 
-            impl $crate::net::Kind for Event {
+            impl $crate::player::Kind for Event {
                 #[inline]
-                fn id(&self) -> $crate::net::EventId {
-                    match *self {
-                        $( $( Self::$event { .. } => $crate::net::EventId(EventNumber::$event as u32), )* )?
-                    }
+                fn id(&self) -> $crate::system::Of<$crate::net::EventId> {
+                    let number = match *self {
+                        $( $( Self::$event { .. } => EventNumber::$event as u32, )* )?
+                    };
+                    $crate::system::Of { component: 0, id: $crate::net::EventId(number) }
                 }
             }
 
@@ -289,49 +310,85 @@ macro_rules! net {
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
             pub struct Program;
 
-            const LINES: [u16; SIZE.transitions] = net_code::lines(&NET);
+            const LINES: [u16; SIZE.transitions] = net_lower::lines(&NET);
 
-            impl $crate::net::Program<{ CODE_SIZE.words }> for Program {
+            impl $crate::player::Names for Program {
                 type Event = Event;
                 type Transition = Transition;
                 type Output = Output;
 
                 #[inline]
+                fn transition(
+                    &self,
+                    id: $crate::system::Of<$crate::net::TransitionId>,
+                ) -> Transition {
+                    const BY_LINE: &[Transition] = &[$( Transition::$line, )*];
+                    const ALL: [Transition; SIZE.transitions] = {
+                        let mut all = [BY_LINE[0]; SIZE.transitions];
+                        let mut at = 0;
+                        while at < all.len() {
+                            all[at] = BY_LINE[LINES[at] as usize];
+                            at += 1;
+                        }
+                        all
+                    };
+                    ALL.get(id.id.0 as usize).copied().unwrap_or(ALL[0])
+                }
+
+                #[inline]
+                fn output(
+                    &self,
+                    id: $crate::system::Of<$crate::net::TransitionId>,
+                    at: usize,
+                ) -> Option<Output> {
+                    const BY_LINE: &[&[Output]] = &[$( &[$( $( Output::$emit, )+ )?], )*];
+                    let line = *LINES.get(id.id.0 as usize)?;
+                    BY_LINE.get(line as usize)?.get(at).copied()
+                }
+            }
+
+            impl $crate::player::Program<{ CODE_SIZE.words }, { CODE_SIZE.clocks }> for Program {
+                #[inline]
                 fn code(&self) -> net_code::Code<'_, { CODE_SIZE.words }> {
                     CODE
                 }
 
-                #[inline]
-                fn transition(&self, id: $crate::net::TransitionId) -> Transition {
-                    const ALL: &[Transition] = &[$( Transition::$line, )*];
-                    let line = LINES.get(id.0 as usize).copied().unwrap_or(0);
-                    *ALL.get(line as usize).unwrap_or(&ALL[0])
+                fn system(&self) -> $crate::system::System<'_> {
+                    SYSTEM
                 }
 
-                #[inline]
-                fn outputs(&self, id: $crate::net::TransitionId) -> &[Output] {
-                    const ALL: &[&[Output]] = &[$( &[$( $( Output::$emit, )+ )?], )*];
-                    let line = LINES.get(id.0 as usize).copied().unwrap_or(0);
-                    ALL.get(line as usize).copied().unwrap_or(&[])
+                fn takes(&self, transition: u16) -> [u64; CODE_SIZE.words] {
+                    let takes = STEPS.takes.get(usize::from(transition));
+                    takes.copied().unwrap_or([0; CODE_SIZE.words])
                 }
 
-                fn laws(&self) -> &[$crate::net::Law<'_>] {
-                    NET.laws
-                }
-
-                fn places(&self) -> &[$crate::net::Place<'_>] {
-                    NET.places
+                fn ordered(&self, at: usize) -> Option<u16> {
+                    STEPS.order.get(at).copied()
                 }
             }
 
-            impl $crate::net::StateMachine for Program {
+            const STEPS: &$crate::player::Steps<{ SIZE.transitions }, { CODE_SIZE.words }> =
+                &$crate::player::Steps::of(&SYSTEM, &CODE);
+
+            impl $crate::player::StateMachine for Program {
                 type State = State;
                 const STATES: &'static [State] = &[$( State::$place, )*];
-                const IS_ONE: bool = net_code::is_state_machine(&NET);
+                const IS_ONE: bool = $crate::player::is_state_machine(&NET);
             }
 
             /// Plays the net.
-            pub type Player = $crate::net::Player<Program, { CODE_SIZE.words }, { CODE_SIZE.clocks }>;
+            pub type Player =
+                $crate::player::Player<Program, { CODE_SIZE.words }, { CODE_SIZE.clocks }>;
+
+            /// Plays the net and takes nothing to be proven: for stored markings, and for steps.
+            pub type Checked = $crate::player::Player<
+                $crate::player::Checked<Program>,
+                { CODE_SIZE.words },
+                { CODE_SIZE.clocks },
+            >;
+
+            /// A transition that has just fired, as an observer of the player is told.
+            pub type Firing<'f> = $crate::player::Firing<'f, Program>;
         }
     };
 }

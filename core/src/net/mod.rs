@@ -1,28 +1,25 @@
-//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while
-//! compiling, played anywhere.
+//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while compiling,
+//! played anywhere.
 //!
 //! A net is plain data ([`Net`]). A state machine is a net with one token. `net!` makes it and
-//! checks its laws; a [`Player`] executes it, one event after the other or in synchronous
-//! [rounds](Round). With the feature `alloc`, nets are also made at run time (`owned`).
+//! checks its laws; a [`Player`](crate::player::Player) executes it. With the feature `alloc`, nets
+//! are also made at run time (`owned`).
 //!
 //! ```text
 //! net! { .. } -> Source -> Net -> Code (packed) -> Known (its laws hold)
 //!                 names    ids     words           Player { marking, clocks } -> Outcome
 //! ```
 
-pub mod code;
-mod data;
+pub(crate) mod data;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod declarations;
-mod defect;
+pub(crate) mod defect;
 #[allow(
     clippy::large_stack_arrays,
     clippy::large_types_passed_by_value,
     reason = "they live while compiling"
 )]
 mod explore;
-#[cfg(feature = "alloc")]
-mod heap;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod laws;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
@@ -32,12 +29,8 @@ pub mod lower;
 mod macros;
 #[cfg(feature = "alloc")]
 pub mod owned;
-mod player;
-mod program;
-mod rounds;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod settling;
-mod snapshot;
 pub mod source;
 pub(crate) mod text;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
@@ -49,10 +42,4 @@ pub use data::{
 };
 pub use defect::Defect;
 pub use explore::{Graph, MARKINGS};
-#[cfg(feature = "alloc")]
-pub use heap::{Packed, SETTLE, clocks, words};
 pub use laws::{Known, check};
-pub use player::{Advanced, CATCH_UP, Outcome, Player, Why};
-pub use program::{Firing, FiringOf, Kind, Loaded, Observer, Program, StateMachine};
-pub use rounds::Round;
-pub use snapshot::{RestoreError, Snapshot};

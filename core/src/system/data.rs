@@ -1,6 +1,7 @@
 //! Several nets that work together, as plain data.
 
-use crate::net::{EventId, Net, OutputId, PlaceId};
+use crate::net::data::{EventId, Net, OutputId, PlaceId};
+use crate::net::defect::Defect;
 
 /// Nets in the order in which they take their turns, and what connects them.
 ///
@@ -33,6 +34,13 @@ pub struct Component<'s> {
     pub net: &'s Net<'s>,
 }
 
+impl<'s> Component<'s> {
+    /// A net alone, by its own name.
+    pub const fn alone(net: &'s Net<'s>) -> Self {
+        Self { name: net.name, net }
+    }
+}
+
 /// Something of a component: its position in [`System::components`], and an id of its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Of<T> {
@@ -40,6 +48,13 @@ pub struct Of<T> {
     pub component: u16,
     /// What of its net.
     pub id: T,
+}
+
+/// Of a net alone.
+impl<T> From<T> for Of<T> {
+    fn from(id: T) -> Self {
+        Self { component: 0, id }
+    }
 }
 
 /// An output that causes an event.
@@ -96,6 +111,13 @@ pub struct Clear {
 /// What is wrong with a [`System`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SystemDefect {
+    /// A net is not sound.
+    Net {
+        /// Which component.
+        component: u16,
+        /// What is wrong with its net.
+        defect: Defect,
+    },
     /// A link, binding or clear at this position names something that is not there.
     UnknownId {
         /// In which list: links, bindings or clears.
@@ -124,13 +146,27 @@ pub enum SystemDefect {
         component: u16,
     },
     /// A transition changes a shared place that is a mailbox.
-    ChangesMailbox(Of<crate::net::TransitionId>),
+    ChangesMailbox(Of<crate::net::data::TransitionId>),
 }
 
 /// The most rendezvous that follow from one another.
 pub const DEPTH: usize = 8;
 
 impl<'s> System<'s> {
+    /// A net alone. Its shared places are its own.
+    pub const fn alone(component: &'s [Component<'s>; 1]) -> Self {
+        let Net { name, doc, .. } = *component[0].net;
+        Self { name, doc, components: component, links: &[], bindings: &[], clears: &[] }
+    }
+
+    /// Whether it is a net alone: nothing is connected.
+    pub const fn is_alone(&self) -> bool {
+        self.components.len() == 1
+            && self.links.is_empty()
+            && self.bindings.is_empty()
+            && self.clears.is_empty()
+    }
+
     const fn net(&self, component: u16) -> Option<&'s Net<'s>> {
         if (component as usize) < self.components.len() {
             Some(self.components[component as usize].net)
@@ -175,6 +211,9 @@ impl<'s> System<'s> {
 
     /// What is wrong with it, if anything. Its nets are taken to be sound.
     pub const fn defect(&self) -> Option<SystemDefect> {
+        if self.is_alone() {
+            return None;
+        }
         if self.components.len() > u16::MAX as usize - 1 || self.links.len() > u16::MAX as usize - 1
         {
             return Some(SystemDefect::TooLong);
@@ -230,13 +269,13 @@ impl<'s> System<'s> {
                         give[arc - take.len()].place
                     };
                     let of = match net.places[place.0 as usize].role {
-                        crate::net::Role::Complement(of) => of,
+                        crate::net::data::Role::Complement(of) => of,
                         _ => place,
                     };
                     if let Some(Target::Mailbox(_)) =
                         self.target(Of { component: component as u16, id: of })
                     {
-                        let id = crate::net::TransitionId(at as u32);
+                        let id = crate::net::data::TransitionId(at as u32);
                         return Some(SystemDefect::ChangesMailbox(Of {
                             component: component as u16,
                             id,
@@ -266,7 +305,7 @@ impl<'s> System<'s> {
                         &self.components[owner.component as usize].net.places[owner.id.0 as usize];
                     if matches!(
                         owner.role,
-                        crate::net::Role::Shared | crate::net::Role::Complement(_)
+                        crate::net::data::Role::Shared | crate::net::data::Role::Complement(_)
                     ) {
                         0
                     } else {
@@ -287,7 +326,7 @@ impl<'s> System<'s> {
                 }
                 other += 1;
             }
-            if bound != place.bound || !matches!(place.role, crate::net::Role::Shared) {
+            if bound != place.bound || !matches!(place.role, crate::net::data::Role::Shared) {
                 return Some(SystemDefect::Binding { at });
             }
             at += 1;
@@ -298,7 +337,7 @@ impl<'s> System<'s> {
             let mut place = 0;
             while place < net.places.len() {
                 let of = Of { component: component as u16, id: PlaceId(place as u32) };
-                if matches!(net.places[place].role, crate::net::Role::Shared)
+                if matches!(net.places[place].role, crate::net::data::Role::Shared)
                     && self.target(of).is_none()
                 {
                     return Some(SystemDefect::Unbound(of));

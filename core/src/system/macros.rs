@@ -4,7 +4,7 @@
 ///
 /// ```
 /// use cotama_core::{net, system, units::Millis};
-/// use cotama_core::system::{Offered, Turned};
+/// use cotama_core::player::Round;
 ///
 /// net! {
 ///     /// Somebody at the door.
@@ -40,12 +40,12 @@
 /// }
 ///
 /// fn main() {
-///     let mut house = house::Player::<()>::new();
-///     let arrive = house::on::visitor(&visitor::Event::arrive);
-///     assert!(matches!(house.offer(Millis(0), arrive, (), &mut ()), Offered::Fired(_)));
-///     assert_eq!(house.waiting(house::on::door(&door::Event::bell)), 1);
-///     assert_eq!(house.round(Millis(100), &mut ()), Turned { fired: 1, ..Turned::default() });
-///     assert_eq!(house.tokens(house::at::visitor(visitor::Place::Inside)), 1);
+///     let mut house = house::Player::new();
+///     let arrive = house::Event::visitor(visitor::Event::arrive);
+///     assert!(house.offer(Millis(0), &arrive).fired());
+///     assert_eq!(house.waiting(&house::Event::door(door::Event::bell)), 1);
+///     assert_eq!(house.round(Millis(100)), Round { fired: 1, ..Round::default() });
+///     assert_eq!(house::state::visitor(&house), visitor::State::Inside);
 /// }
 /// ```
 ///
@@ -60,9 +60,9 @@
 /// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
 /// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
 ///
-/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the functions `on::NET` (an event of a
-/// net) and `at::NET` (a place), the type `Program`, and the type `Player<M>`, where `M` is what
-/// events carry along.
+/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the enums `Event`, `Place`, `Output`
+/// and `Transition` with a variant for each net, the functions `state::NET`, the types `Program`,
+/// `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M` along.
 #[macro_export]
 macro_rules! system {
     (
@@ -81,7 +81,8 @@ macro_rules! system {
         $vis mod $name {
             #[allow(unused_imports)]
             use super::*;
-            use $crate::system::{code as system_code, source as system_source};
+            use $crate::player::code as system_code;
+            use $crate::system::source as system_source;
 
             const NAME: &str = stringify!($name);
             const COMPONENTS: &[$crate::system::Component<'static>] =
@@ -121,7 +122,8 @@ macro_rules! system {
                     (stringify!($cleared), stringify!($clear_box)),
                 ), )+ )* )?],
             };
-            /// How many words, clocks and slots its player has, and how long its packed lists are.
+            /// How many words, clocks and slots its player has, and how long its packed lists
+            /// are.
             pub const SIZE: system_code::Size = {
                 system_source::check(&SYSTEM);
                 system_code::size_of(&SYSTEM)
@@ -133,50 +135,158 @@ macro_rules! system {
                 { SIZE.takes },
                 { SIZE.rows },
                 { SIZE.routes },
+                { SIZE.says },
                 { SIZE.mailboxes },
                 { SIZE.components + 1 },
                 { SIZE.fields },
+                { SIZE.complements },
                 { SIZE.clocks },
                 { SIZE.clears },
+                { SIZE.ignored },
             > = system_code::Arrays::of(&SYSTEM);
-            const CODE: system_code::Code<'static, { SIZE.words }> = ARRAYS.code();
+            const CODE: system_code::Code<'static, { SIZE.words }> =
+                ARRAYS.code($crate::player::SETTLE, false);
+
+            #[allow(dead_code, non_camel_case_types)]
+            enum Number { $( $component, )* }
+
+            /// An event of one of the nets.
+            #[allow(missing_docs, non_camel_case_types)]
+            #[derive(Clone, Copy, Debug, PartialEq)]
+            pub enum Event { $( $component($net::Event), )* }
+
+            impl $crate::player::Kind for Event {
+                #[inline]
+                fn id(&self) -> $crate::system::Of<$crate::net::EventId> {
+                    let (component, id) = match self {
+                        $( Self::$component(it) => {
+                            (Number::$component as u16, $crate::player::Kind::id(it).id)
+                        } )*
+                    };
+                    $crate::system::Of { component, id }
+                }
+            }
+
+            /// A place of one of the nets.
+            #[allow(missing_docs, non_camel_case_types)]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub enum Place { $( $component($net::Place), )* }
+
+            impl ::core::convert::From<Place> for $crate::system::Of<$crate::net::PlaceId> {
+                #[inline]
+                fn from(place: Place) -> Self {
+                    let (component, id) = match place {
+                        $( Place::$component(it) => (Number::$component as u16, it.into()), )*
+                    };
+                    Self { component, id }
+                }
+            }
+
+            /// What one of the nets says.
+            #[allow(missing_docs, non_camel_case_types)]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub enum Output { $( $component($net::Output), )* }
+
+            /// The line of a transition of one of the nets.
+            #[allow(missing_docs, non_camel_case_types)]
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub enum Transition { $( $component($net::Transition), )* }
 
             /// The system as a player runs it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
             pub struct Program;
 
-            impl $crate::system::Program<{ SIZE.words }> for Program {
+            impl $crate::player::Names for Program {
+                type Event = Event;
+                type Transition = Transition;
+                type Output = Output;
+
+                fn transition(
+                    &self,
+                    id: $crate::system::Of<$crate::net::TransitionId>,
+                ) -> Transition {
+                    const ALL: &[fn($crate::system::Of<$crate::net::TransitionId>) -> Transition] =
+                        &[$( |id| Transition::$component(
+                            $crate::player::Names::transition(&$net::Program, id),
+                        ), )*];
+                    ALL.get(usize::from(id.component)).unwrap_or(&ALL[0])(id)
+                }
+
+                fn output(
+                    &self,
+                    id: $crate::system::Of<$crate::net::TransitionId>,
+                    at: usize,
+                ) -> Option<Output> {
+                    $( if id.component == Number::$component as u16 {
+                        let output = $crate::player::Names::output(&$net::Program, id, at);
+                        return output.map(Output::$component);
+                    } )*
+                    None
+                }
+            }
+
+            impl $crate::player::Program<{ SIZE.words }, { SIZE.clocks }, { SIZE.slots }>
+                for Program
+            {
                 #[inline]
                 fn code(&self) -> system_code::Code<'_, { SIZE.words }> {
                     CODE
                 }
+
+                fn system(&self) -> $crate::system::System<'_> {
+                    SYSTEM
+                }
+
+                fn takes(&self, _: u16) -> [u64; SIZE.words] {
+                    [0; SIZE.words]
+                }
+
+                fn ordered(&self, _: usize) -> Option<u16> {
+                    None
+                }
             }
 
             /// Runs the system; `M` is what events carry along.
-            pub type Player<M> =
-                $crate::system::Player<Program, M, { SIZE.words }, { SIZE.clocks }, { SIZE.slots }>;
+            pub type Carrying<M> = $crate::player::Player<
+                Program,
+                { SIZE.words },
+                { SIZE.clocks },
+                { SIZE.slots },
+                M,
+            >;
 
-            #[allow(dead_code, non_camel_case_types)]
-            enum Number { $( $component, )* }
+            /// Runs the system.
+            pub type Player = Carrying<()>;
 
-            /// Events of the nets.
+            /// Runs the system and takes nothing to be proven: for stored markings.
+            pub type Checked<M = ()> = $crate::player::Player<
+                $crate::player::Checked<Program>,
+                { SIZE.words },
+                { SIZE.clocks },
+                { SIZE.slots },
+                M,
+            >;
+
+            /// A transition that has just fired, as an observer of the player is told.
+            pub type Firing<'f, M = ()> = $crate::player::Firing<'f, Program, M>;
+
+            /// The marked places of those nets that are state machines.
             #[allow(missing_docs)]
-            pub mod on {
+            pub mod state {
                 #[allow(unused_imports)]
                 use super::*;
-                $( pub fn $component(event: &$net::Event) -> $crate::system::Of<$crate::net::EventId> {
-                    $crate::system::event(Number::$component as u16, event)
-                } )*
-            }
-
-            /// Places of the nets.
-            #[allow(missing_docs)]
-            pub mod at {
-                #[allow(unused_imports)]
-                use super::*;
-                $( pub fn $component(place: $net::Place) -> $crate::system::Of<$crate::net::PlaceId> {
-                    $crate::system::Of { component: Number::$component as u16, id: place.into() }
-                } )*
+                $(
+                    #[inline]
+                    pub fn $component<P, const W: usize, const C: usize, const S: usize, M>(
+                        player: &$crate::player::Player<P, W, C, S, M>,
+                    ) -> $net::State
+                    where
+                        P: $crate::player::Program<W, C, S>,
+                        M: ::core::marker::Copy + ::core::default::Default,
+                    {
+                        player.state_of::<$net::Program>(Number::$component as u16)
+                    }
+                )*
             }
         }
     };

@@ -208,6 +208,7 @@ pub const fn check(system: &System<'_>) {
     let text = Text::new().with("system ").name(system.name).with(": ");
     match system.defect() {
         None => {}
+        Some(SystemDefect::Net { .. }) => text.with("one of its nets is not sound").stop(),
         Some(SystemDefect::UnknownId { list, at }) => text.with("number ").number(at as u64 + 1).with(" of the ")
             .with(list).with(" names a mailbox of an event that does not arrive by mail").stop(),
         Some(SystemDefect::TooLong) => text.with("it is too large").stop(),

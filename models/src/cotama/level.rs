@@ -4,17 +4,31 @@
 use super::situation::{Loss, Losses, Situation};
 use super::{
     Configuration, Module, Modules, delivery, faults, global, local, operator, path_following,
-    permit, recovering, recovering_faults, teleoperation,
+    permit, recovering, recovering_faults,
 };
 use core::marker::PhantomData;
-use cotama_core::net::{EventId, PlaceId};
-use cotama_core::system::{Happening, Of, Offered, Player, Program, Turned, Witness};
+use cotama_core::net::{EventId, PlaceId, TransitionId};
+use cotama_core::player::{Kind, Observer, Outcome, Player, Program, Round, Stored};
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
 /// What an event goes back to: a number that the caller chose, for example the position of a fault
 /// in its list. It travels with everything that is done because of the event.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cause(pub u16);
+
+/// As its number.
+impl Stored for Cause {
+    const BYTES: usize = u16::BYTES;
+
+    fn write(&self, bytes: &mut [u8]) {
+        self.0.write(bytes);
+    }
+
+    fn read(bytes: &[u8]) -> Option<Self> {
+        u16::read(bytes).map(Self)
+    }
+}
 
 /// The event of a global supervisor made from a mission in which the robot waits, behind those of
 /// [`global`].
@@ -90,15 +104,16 @@ pub enum Told {
 impl Told {
     /// Its event in [`delivery`](delivery::SYSTEM).
     pub fn event(&self) -> Of<EventId> {
-        match self {
-            Self::Mission(event) => delivery::on::gs(event),
+        match *self {
+            Self::Mission(event) => delivery::Event::gs(event).id(),
             Self::WaitOver => {
-                Of { component: delivery::on::gs(&global::Event::stopped).component, id: WAIT_OVER }
+                let mission = delivery::Event::gs(global::Event::stopped).id();
+                Of { id: WAIT_OVER, ..mission }
             }
-            Self::Drive(event) => delivery::on::ls(event),
-            Self::Failure(event) => delivery::on::faults(event),
-            Self::Operator(event) => delivery::on::operator(event),
-            Self::Return(module) => recovering::on::faults(&module.event()),
+            Self::Drive(event) => delivery::Event::ls(event).id(),
+            Self::Failure(event) => delivery::Event::faults(event).id(),
+            Self::Operator(event) => delivery::Event::operator(event).id(),
+            Self::Return(module) => recovering::Event::faults(module.event()).id(),
         }
     }
 }
@@ -121,7 +136,7 @@ pub struct Permit<'l>(PhantomData<&'l ()>);
 /// The supervisors of a mission, running. `P` is the packed system: that of
 /// [`delivery`](delivery::SYSTEM), or one with the global supervisor of another mission.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, Cause, W, C, S>);
+pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, W, C, S, Cause>);
 
 /// The supervisors of the embedded mission.
 ///
@@ -146,23 +161,11 @@ pub type DecisionalLevel = Level<
 
 impl Default for DecisionalLevel {
     fn default() -> Self {
-        Self(delivery::Player::new())
+        Self(delivery::Carrying::new())
     }
 }
 
-/// The state of a net with one token.
-macro_rules! marked {
-    ($player:expr, $net:ident, $module:ident, $first:ident $(, $state:ident)*) => {{
-        let tokens = |place| $player.tokens(delivery::at::$net(place));
-        match () {
-            $(() if tokens($module::Place::$state) > 0 => $module::State::$state,)*
-            // One of them is always marked: an invariant of the net.
-            () => $module::State::$first,
-        }
-    }};
-}
-
-impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, C, S> {
+impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<P, W, C, S> {
     /// The supervisors of a packed system whose components are those of
     /// [`delivery`](delivery::SYSTEM) or [`recovering`](recovering::SYSTEM), in their order.
     pub fn start(program: P) -> Self {
@@ -175,67 +178,53 @@ impl<P: Program<W>, const W: usize, const C: usize, const S: usize> Level<P, W, 
         now: Millis,
         told: Told,
         cause: Cause,
-        witness: &mut impl Witness<Cause>,
-    ) -> Offered {
-        self.0.offer(now, told.event(), cause, witness)
+        observer: &mut impl Observer<P, Cause>,
+    ) -> Outcome<Of<TransitionId>> {
+        self.0.offer_id(now, told.event(), cause, observer)
     }
 
     /// One round: each supervisor takes its turn.
-    pub fn round(&mut self, now: Millis, witness: &mut impl Witness<Cause>) -> Turned {
-        self.0.round(now, witness)
+    pub fn round(&mut self, now: Millis, observer: &mut impl Observer<P, Cause>) -> Round {
+        self.0.round_with(now, observer)
     }
 
     /// The right to move, if an activity runs that moves the robot.
     pub fn permit(&self) -> Option<Permit<'_>> {
-        let granted = self.0.tokens(delivery::at::permit(permit::Place::Granted)) > 0;
+        let granted = self.0.tokens(delivery::Place::permit(permit::Place::Granted)) > 0;
         granted.then_some(Permit(PhantomData))
     }
 
     /// Whether motion has ended for good.
     pub fn halted(&self) -> bool {
-        self.0.tokens(delivery::at::permit(permit::Place::Destroyed)) > 0
+        self.0.tokens(delivery::Place::permit(permit::Place::Destroyed)) > 0
     }
 
     /// The place of the global supervisor, by its number in that net.
     pub fn global(&self) -> PlaceId {
-        let component = delivery::at::gs(global::Place::Wait).component;
-        let places = 0..u32::from(u8::MAX);
-        let mut marked = places.map(PlaceId).filter(|&id| self.0.tokens(Of { component, id }) > 0);
+        let first = Of::<PlaceId>::from(delivery::Place::gs(global::Place::Wait));
+        let places = (0..u32::from(u8::MAX)).map(PlaceId);
+        let mut marked = places.filter(|&id| self.0.tokens(Of { id, ..first }) > 0);
         marked.next().unwrap_or(PlaceId(0))
     }
 
     /// Where the supervisors of a drive are, with these losses.
     pub fn situation(&self, lost: Losses) -> Situation {
-        let local = marked!(
-            self.0,
-            ls,
-            local,
-            Idle,
-            Planning,
-            Following,
-            HandOver,
-            Teleprogrammed,
-            Teleoperated,
-            End
-        );
-        let following =
-            marked!(self.0, pf, path_following, Off, Optimal, Reduced, Odometric, Degraded);
-        let teleoperation = marked!(self.0, to, teleoperation, Off, Full, Degraded);
-        let level = self.0.tokens(delivery::at::pf(path_following::Place::level)) as u8;
+        let local = delivery::state::ls(&self.0);
+        let following = delivery::state::pf(&self.0);
+        let teleoperation = delivery::state::to(&self.0);
+        let level = self.0.tokens(delivery::Place::pf(path_following::Place::level)) as u8;
         Situation { local, following, teleoperation, level, lost }
     }
 
     /// The player under the names.
-    pub fn player(&self) -> &Player<P, Cause, W, C, S> {
+    pub fn player(&self) -> &Player<P, W, C, S, Cause> {
         &self.0
     }
 }
 
-/// Why something fired: the transition, and the cause it goes back to. The other happenings say
-/// `None`.
-pub fn fired(happening: &Happening<Cause>) -> Option<(&'static str, &'static str, Cause)> {
-    let Happening::Fired { transition, carries, .. } = happening else { return None };
+/// The names of a component of [`delivery`](delivery::SYSTEM) and of one of its transitions.
+pub fn named(transition: Of<TransitionId>) -> Option<(&'static str, &'static str)> {
     let component = delivery::SYSTEM.components.get(usize::from(transition.component))?;
     let transition = component.net.transitions.get(transition.id.0 as usize)?;
-    Some((component.name, transition.name, *carries))
+    Some((component.name, transition.name))
 }

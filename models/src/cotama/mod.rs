@@ -59,7 +59,7 @@ pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
 pub use guarded::Guarded;
 pub use health::{Health, Status, StatusVector};
 pub use label::Label;
-pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told, fired};
+pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told, named};
 pub use module_table::MODULES;
 pub use modules::{Kind, Module, ModuleFacts, Modules, available};
 pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};

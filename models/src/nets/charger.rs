@@ -18,7 +18,7 @@
 //! - Timers restart with their phase, as their transitions become enabled anew.
 //!
 //! ```
-//! use cotama_core::{net::Outcome, net::Why, units::Millis};
+//! use cotama_core::{player::Outcome, player::Why, units::Millis};
 //! use cotama_models::nets::charger::{Event, Place, Player, State, Transition};
 //!
 //! let minutes = |it: u64| Millis(it * 60_000);

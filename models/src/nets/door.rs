@@ -7,7 +7,7 @@
 //! What to learn from it:
 //!
 //! - A state machine is a net with one token: [`Place::Closed`] to [`Place::Blocked`] are its
-//!   states, and [`Player::state`](cotama_core::net::Player::state) can be matched on.
+//!   states, and [`Player::state`](cotama_core::player::Player::state) can be matched on.
 //! - `obstacle` is a flag: it remembers what an event said, and guards read it. What the door knows
 //!   is thus part of the net, and the laws can speak of it: `never_both(Closing, obstacle)` is the
 //!   reason why the door may be built.
@@ -16,11 +16,11 @@
 //!   of `Open` and gives it back.
 //! - `ignore` says where an event is no news. `handles(all)` then shows that nothing was forgotten.
 //!
-//! Time is told, never asked for: [`wake_at`](cotama_core::net::Player::wake_at) says when the door
+//! Time is told, never asked for: [`wake_at`](cotama_core::player::Player::wake_at) says when the door
 //! wants to be woken.
 //!
 //! ```
-//! use cotama_core::{net::Outcome, net::Why, units::Millis};
+//! use cotama_core::{player::Outcome, player::Why, units::Millis};
 //! use cotama_models::nets::door::{Event, Player, State, Transition};
 //!
 //! let mut door = Player::new();

@@ -1,7 +1,7 @@
 //! The executive of the core and the nets of its watchdogs do the same, event by event.
 
 use cotama_core::executive::{Executive, Happening, Stage, Task, What};
-use cotama_core::net::{Firing, Outcome, Why};
+use cotama_core::player::{Firing, Outcome, Why};
 use cotama_core::units::{Micros, Millis};
 use cotama_models::watchdog;
 use proptest::prelude::*;

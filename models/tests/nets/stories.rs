@@ -2,7 +2,8 @@
 
 use crate::textbook::{Marking, explore, settled};
 use crate::time::{Answer, Timed};
-use cotama_core::net::{Firing, MARKINGS, Outcome};
+use cotama_core::net::MARKINGS;
+use cotama_core::player::{Firing, Outcome};
 use cotama_core::units::Millis;
 use cotama_models::nets::{ace, watchdog};
 

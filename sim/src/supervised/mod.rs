@@ -27,8 +27,10 @@ use crate::options::{Aim, Planner};
 use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, PlanMade};
 use crate::trace::Outcome;
+use cotama_core::net::Net;
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::system::{Packed, Program, System, SystemDefect};
+use cotama_core::player::{Packed, Program};
+use cotama_core::system::{Component, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
     Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told,
@@ -36,7 +38,7 @@ use cotama_models::cotama::{
 };
 use cotama_models::faults::{Faults, IncidentKind};
 use cotama_models::mission::{Does, Mission};
-use world::World;
+use world::{CLOCKS, World};
 
 /// What goes wrong, and what the operator answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -241,11 +243,14 @@ enum Supervisors {
     /// The same where modules may return.
     Recovering,
     /// One of both with a global supervisor that was made from the mission.
-    Made(OwnedNet, Box<Packed<WORDS>>),
+    Made(OwnedNet, Box<Packed<WORDS, CLOCKS, SLOTS>>),
 }
 
 /// Words of a marking that suffice for the most objectives of a mission.
 const WORDS: usize = 16;
+
+/// What can wait in the mailboxes of the supervisors, whatever the objectives.
+const SLOTS: usize = recovering::SIZE.slots;
 
 /// Why a mission has no supervisors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -289,10 +294,8 @@ impl<'m> Supervised<'m> {
         } else {
             let view = made.view();
             let net = view.net();
-            let shipped = shipped(mission);
-            let mut components = shipped.components.to_vec();
-            components[0].net = &net;
-            let system = System { components: &components, ..shipped };
+            let components = components(mission, &net);
+            let system = System { components: &components, ..shipped(mission) };
             let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
             Supervisors::Made(made.clone(), Box::new(packed))
         };
@@ -340,7 +343,11 @@ impl<'m> Supervised<'m> {
             }
             Supervisors::Made(net, packed) => {
                 let view = net.view();
-                let world = World::start(mission, view.net(), packed.code(), script, planner)?;
+                let net = view.net();
+                let components = components(mission, &net);
+                let system = System { components: &components, ..shipped(mission) };
+                let program = packed.load(&system);
+                let world = World::start(mission, net, program, script, planner)?;
                 Ok(finish(world, period, recorder))
             }
         }
@@ -352,6 +359,13 @@ fn shipped(mission: &Mission) -> System<'static> {
     if mission.recovery { recovering::SYSTEM } else { delivery::SYSTEM }
 }
 
+/// The same nets with another global supervisor.
+fn components<'n>(mission: &Mission, global: &'n Net<'n>) -> Vec<Component<'n>> {
+    let mut components = shipped(mission).components.to_vec();
+    components[0].net = global;
+    components
+}
+
 /// Whether the objectives are those of the embedded mission, in their order.
 fn is_delivery(mission: &Mission) -> bool {
     use Does::{Deliver, Drive, Receive};
@@ -359,8 +373,8 @@ fn is_delivery(mission: &Mission) -> bool {
     does.eq([Drive, Receive, Drive, Deliver].map(Some))
 }
 
-fn finish<P: Program<W>, const W: usize, R: Recorder>(
-    mut world: World<'_, P, W>,
+fn finish<P: Program<W, CLOCKS, S>, const W: usize, const S: usize, R: Recorder>(
+    mut world: World<'_, P, W, S>,
     period: Millis,
     recorder: &mut R,
 ) -> Run {

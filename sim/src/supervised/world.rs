@@ -15,7 +15,8 @@ use crate::options::Planner;
 use crate::run::{self, NoPlan};
 use crate::trace::Outcome;
 use cotama_core::net::{Net, PlaceId};
-use cotama_core::system::{Program, System};
+use cotama_core::player::Program;
+use cotama_core::system::System;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
     Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, local, recovering,
@@ -39,9 +40,8 @@ pub const PLANNING: Millis = Millis(2_000);
 /// A run ends after this time, whatever it does.
 pub const LONGEST: Millis = Millis(3_600_000);
 
-/// Clocks and slots of a player are those of the largest supervisors, whatever the objectives.
-const CLOCKS: usize = recovering::SIZE.clocks;
-const SLOTS: usize = recovering::SIZE.slots;
+/// No supervisor has an interval, whatever the objectives.
+pub(super) const CLOCKS: usize = recovering::SIZE.clocks;
 
 /// A failure under way; its number is its place in [`Run::conduct`].
 #[derive(Clone, Copy, Debug)]
@@ -56,13 +56,13 @@ struct Failure {
 }
 
 /// A mission under way.
-pub(super) struct World<'m, P, const W: usize> {
+pub(super) struct World<'m, P, const W: usize, const S: usize> {
     mission: &'m Mission,
     /// The supervisors, and the net of the global one, which may be another one.
     system: System<'static>,
     global_net: Net<'m>,
     waiting: Vec<Injection>,
-    level: Level<P, W, CLOCKS, SLOTS>,
+    level: Level<P, W, CLOCKS, S>,
     now: Millis,
     robot: Robot,
     operator: Operator,
@@ -95,7 +95,7 @@ pub(super) struct World<'m, P, const W: usize> {
     run: Run,
 }
 
-impl<'m, P: Program<W>, const W: usize> World<'m, P, W> {
+impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, W, S> {
     /// A robot at the start of its mission, with its plan.
     pub(super) fn start(
         mission: &'m Mission,

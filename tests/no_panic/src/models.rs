@@ -2,9 +2,8 @@
 //!
 //! A generic function can panic with one net and not with another, so each net has its own roots.
 
-use cotama_core::net::{
-    Advanced, Firing, Observer, Outcome, RestoreError, Round, Snapshot, TransitionId,
-};
+use cotama_core::net::TransitionId;
+use cotama_core::player::{Advanced, Firing, Observer, Outcome, RestoreError, Round, Snapshot};
 use cotama_core::units::Millis;
 
 /// An observer that reads all it is shown.

@@ -1,7 +1,8 @@
 //! The roots of the systems: every operation of a player, for every system of nets that ships, and
 //! for one on time.
 
-use cotama_core::net::{Advanced, EventId, PlaceId};
+use cotama_core::net::{EventId, PlaceId};
+use cotama_core::player::Advanced;
 use cotama_core::system::{Happening, Of, Offered, Turned, Witness};
 use cotama_core::units::Millis;
 

@@ -2,10 +2,8 @@
 
 use super::{Played, load, nets, with_size_of};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{
-    Advanced, CATCH_UP, EventId, Net, Outcome, Packed, PlaceId, Player, Round, SETTLE,
-    TransitionId, Why,
-};
+use cotama_core::net::{EventId, Net, PlaceId, TransitionId};
+use cotama_core::player::{Advanced, CATCH_UP, Outcome, Packed, Player, Round, SETTLE, Why};
 use cotama_core::units::Millis;
 use cotama_tests::instances::Draw;
 use cotama_tests::textbook::Game;

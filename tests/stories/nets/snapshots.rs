@@ -2,10 +2,8 @@
 
 use super::{Played, delay, nets, with_size_of};
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{
-    EventId, Law, Loaded, Net, Packed, PlaceId, Player, Program, RestoreError, Role, Snapshot,
-    Within, clocks, words,
-};
+use cotama_core::net::{EventId, Law, Net, PlaceId, Role, Within};
+use cotama_core::player::{Loaded, Packed, Player, Program, RestoreError, Snapshot, clocks, words};
 use cotama_core::units::Millis;
 use cotama_tests::instances::Draw;
 use cotama_tests::textbook::Game;

@@ -1,5 +1,5 @@
 //! A system as one net that acts in rounds: the meaning that
-//! [`Player`](cotama_core::system::Player) gives it.
+//! [`Player`](cotama_core::player::Player) gives it.
 //!
 //! One token passes through the places of a round. It begins in `round`, where a round ends too;
 //! then it goes from mailbox to mailbox in the order of turns, `turn.net.event`, over those that

@@ -1,11 +1,12 @@
-//! How a system acts: the rules of [`Player`](cotama_core::system::Player), over markings that are
+//! How a system acts: the rules of [`Player`](cotama_core::player::Player), over markings that are
 //! known in part.
 
 use super::branch::{Branch, Sum};
 use super::{Flat, FlatError};
 use cotama_core::net::owned::OwnedPlace;
 use cotama_core::net::{EventId, Law, Net, OutputId, PlaceId, Role, Transition};
-use cotama_core::system::{Delivery, Link, Of, SETTLE};
+use cotama_core::player::SETTLE;
+use cotama_core::system::{Delivery, Link, Of};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -2,9 +2,8 @@
 //! of them does not, and the player runs into it.
 
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{
-    EventId, Firing, Loaded, Net, Outcome, Packed, PlaceId, Player, TransitionId, clocks, words,
-};
+use cotama_core::net::{EventId, Net, PlaceId, TransitionId};
+use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player, clocks, words};
 use cotama_core::units::Millis;
 use cotama_models::nets::{Model as Shipped, all};
 use cotama_verification::check::{Answer, Choice, Model, Options, Verdict, check_all, laws};

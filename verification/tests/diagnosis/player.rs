@@ -2,7 +2,8 @@
 
 use crate::{checked, nets, parse, timed};
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{EventId, Loaded, Outcome, Packed, Player, TransitionId, clocks, words};
+use cotama_core::net::{EventId, TransitionId};
+use cotama_core::player::{Loaded, Outcome, Packed, Player, clocks, words};
 use cotama_core::units::Millis;
 use cotama_models::nets::find;
 use cotama_verification::diagnosis::Run;
@@ -30,8 +31,9 @@ fn play<const W: usize>(net: &cotama_core::net::Net<'_>, run: &Run, dates: &[tpn
     let packed = Packed::<W>::of(net).unwrap();
     let expected: Vec<TransitionId> = run.firings().collect();
     let mut fired = Vec::new();
-    let mut observer =
-        |it: &cotama_core::net::Firing<'_, EventId, TransitionId, _>| fired.push((it.id, it.at.0));
+    let mut observer = |it: &cotama_core::player::Firing<'_, EventId, TransitionId, _>| {
+        fired.push((it.id, it.at.0))
+    };
     let mut player =
         Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
     for (at, transition) in expected.iter().enumerate() {

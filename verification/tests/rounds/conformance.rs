@@ -3,7 +3,8 @@
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{EventId, Net, OutputId, Place, PlaceId, Role};
-use cotama_core::system::{Clear, Component, Delivery, Link, Of, Offered, Packed, Player, System};
+use cotama_core::player::{Packed, Player};
+use cotama_core::system::{Clear, Component, Delivery, Link, Of, Offered, System};
 use cotama_core::units::Millis;
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{FlatError, Rounds, Size, rounds};

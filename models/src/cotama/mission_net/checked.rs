@@ -6,7 +6,10 @@ use super::{
     STOPPED, WAIT, WARN, ends_with, kinds,
 };
 use crate::mission::{Does, Objective};
-use cotama_core::net::{Arc, Defect, EventId, Net, OutputId, Packed, PlaceId, Transition, words};
+use cotama_core::net::{Arc, Defect, EventId, Net, OutputId, PlaceId, Transition};
+use cotama_core::player::code::plus;
+use cotama_core::player::{Packed, words};
+use cotama_core::system::{Component, System};
 use std::fmt;
 
 /// What was looked at.
@@ -138,7 +141,7 @@ impl std::error::Error for Fault {}
 pub fn check(net: &Net<'_>, objectives: &[Objective]) -> Result<Explored, Vec<Fault>> {
     let kinds = kinds(objectives).map_err(|error| vec![Fault::Objectives(error)])?;
     let one = |fault| vec![fault];
-    let (graph, walk) = match words(net) {
+    let (graph, walk) = match words(&System::alone(&[Component::alone(net)])) {
         Some(0..=1) => explore::<1>(net),
         _ => explore::<8>(net),
     }
@@ -168,7 +171,7 @@ struct Graph {
 
 /// Every marking, from the start; at the first with other than one token it ends.
 fn explore<const W: usize>(net: &Net<'_>) -> Result<Graph, Fault> {
-    let packed = Packed::<W>::of(net).map_err(Fault::Defect)?;
+    let packed = Packed::<W>::alone(net).map_err(Fault::Defect)?;
     let code = packed.code();
     let tokens = net.places.iter().map(|place| place.initial).fold(0, u32::saturating_add);
     if tokens != 1 {
@@ -186,14 +189,14 @@ fn explore<const W: usize>(net: &Net<'_>) -> Result<Graph, Fault> {
     while let Some(&marking) = queue.get(next) {
         next += 1;
         for entry in code.entries.iter().filter(|entry| code.holds(&marking, &entry.need)) {
-            let number = entry.id().0 as usize;
+            let number = usize::from(entry.transition);
             let transition = &net.transitions[number];
             // It is enabled with one token, so it takes one at most.
             let tokens = (1 - weight(transition.take)).saturating_add(weight(transition.give));
             if tokens != 1 {
                 return Err(Fault::Tokens { after: Some(transition.name.to_owned()), tokens });
             }
-            let after = code.after(&marking, &entry.delta);
+            let after = plus(&marking, &entry.delta);
             let (from, to) = (marked(&marking), marked(&after));
             graph.firings.push((from, to, number));
             if !std::mem::replace(&mut graph.reached[to], true) {

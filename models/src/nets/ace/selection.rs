@@ -24,7 +24,7 @@
 //! each decision is a round of its own, and then the slots are needed.
 //!
 //! ```
-//! use cotama_core::{net::Outcome, units::Millis};
+//! use cotama_core::{player::Outcome, units::Millis};
 //! use cotama_models::nets::ace::selection::{Event, Place, Player, Transition};
 //!
 //! let (mut ace, now) = (Player::new(), Millis(0));
@@ -35,7 +35,7 @@
 //!
 //! // Navigation asks in vain.
 //! let mut told = Vec::new();
-//! let mut listen = |firing: &cotama_core::net::Firing<'_, _, _, _>| told.extend_from_slice(firing.outputs);
+//! let mut listen = |firing: &cotama_core::player::Firing<'_, _, _, _>| told.extend_from_slice(firing.outputs);
 //! let outcome = ace.offer_with(now, &Event::NavigationTriggers, &mut listen);
 //! assert_eq!(outcome, Outcome::Fired { transition: Transition::navigation_asks, settled: 2 });
 //! assert_eq!(told, [cotama_models::nets::ace::selection::Output::NavigationRefused]);

@@ -2,13 +2,13 @@
 //! after round.
 
 use super::telling::Objective;
-use super::{PERIOD, World};
+use super::{CLOCKS, PERIOD, World};
 use crate::record::Recorder;
 use crate::supervised::{self, Conduct};
 use crate::trace::supervised::{Configured, Decision, Diagnosis, Exposure, Failure, Fired, Told};
 use crate::trace::{Activity, End, Plan, Record, Request, ReturnMargin, Sample};
 use cotama_core::net::{Net, Role, Transition};
-use cotama_core::system::Program;
+use cotama_core::player::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{self, Class, Flag, Mode, Severity};
 
@@ -33,7 +33,7 @@ struct Noted {
     exposing: bool,
 }
 
-impl<P: Program<W>, const W: usize> World<'_, P, W> {
+impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Records what the last round brought.
     pub(in crate::supervised) fn record<R: Recorder>(
         &self,

@@ -1,10 +1,10 @@
 //! What returns, where a mission asks for it: held back until it was sound for long enough, then
 //! planned with and told.
 
-use super::{Failure, World};
+use super::{CLOCKS, Failure, World};
 use crate::run;
 use crate::supervised::Conduct;
-use cotama_core::system::Program;
+use cotama_core::player::Program;
 use cotama_models::cotama::recovery::{Event, Player, State};
 use cotama_models::cotama::{
     Cause, Diagnosis, Health, Loss, Losses, Module, Modules, Return, Told,
@@ -29,7 +29,7 @@ fn found(failure: &Failure, conduct: &Conduct) -> Option<Health> {
     })
 }
 
-impl<P: Program<W>, const W: usize> World<'_, P, W> {
+impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// What is known to be lost is watched; what has been sound for long enough is used again.
     pub(super) fn recover(&mut self) {
         let (known, now, sound) = (self.known.available(), self.now, self.broken().available());

@@ -1,6 +1,6 @@
 //! What the supervisors are told, and what they make of it.
 
-use super::World;
+use super::{CLOCKS, World};
 use crate::run::{self, NoPlan};
 use crate::supervised::effect::{Ends, effect, observable};
 use crate::supervised::operator::View;
@@ -9,7 +9,9 @@ use crate::supervised::{Decided, Fired, Judged, PERIOD, PLANNING};
 
 /// How long the planner may take beyond what it usually does (FMECA, row PPL1).
 const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
-use cotama_core::system::{Happening, Offered, Program};
+use cotama_core::net::{EventId, TransitionId};
+use cotama_core::player::{Firing, Names, Observer, Program};
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Diagnosis, FailureMode, Flags, Health, Loss, Losses, Mode, Module,
@@ -36,7 +38,7 @@ pub(super) enum Objective {
     Safe,
 }
 
-impl<P: Program<W>, const W: usize> World<'_, P, W> {
+impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// What the global supervisor is about. Its places are: waiting, the objectives, done,
     /// security, safe.
     pub(super) fn objective(&self) -> Objective {
@@ -256,14 +258,13 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     /// The supervisors take a round, and are told one thing.
     pub(super) fn take_a_round(&mut self) {
         let mut seen = Vec::new();
-        let _ = self.level.round(self.now, &mut |it: &Happening<Cause>| seen.push(*it));
+        let _ = self.level.round(self.now, &mut Seeing(&mut seen));
         self.run.rounds += 1;
         // What the mission and the operator have to say waits for failures.
         let mut said = if self.untold.is_empty() { self.says() } else { None };
         while let Some((told, cause)) = self.untold.pop_front().or_else(|| said.take()) {
-            let offered =
-                self.level.tell(self.now, told, cause, &mut |it: &Happening<Cause>| seen.push(*it));
-            if let Offered::Fired(_) = offered {
+            let offered = self.level.tell(self.now, told, cause, &mut Seeing(&mut seen));
+            if offered.fired() {
                 self.run.told.push((self.run.rounds, told));
                 break;
             }
@@ -275,11 +276,11 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
     }
 
     /// Notes what happened.
-    fn note(&mut self, happening: &Happening<Cause>) {
+    fn note(&mut self, seen: &Seen) {
         let system = self.system;
         let conduct = |cause: Cause| usize::from(cause.0).checked_sub(1);
-        match *happening {
-            Happening::Fired { transition: id, carries, .. } => {
+        match *seen {
+            Seen::Fired(id, carries) => {
                 let Some(component) = system.components.get(usize::from(id.component)) else {
                     return;
                 };
@@ -316,7 +317,7 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
                     }
                 }
             }
-            Happening::Ignored { event, carries } => {
+            Seen::Ignored(event, carries) => {
                 let contextual = system
                     .components
                     .get(usize::from(event.component))
@@ -328,7 +329,6 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
                     }
                 }
             }
-            _ => {}
         }
     }
 
@@ -450,6 +450,26 @@ impl<P: Program<W>, const W: usize> World<'_, P, W> {
             at_goal,
             moves: self.robot.speed().0 > 0,
         }
+    }
+}
+
+/// What is seen of the supervisors, with the cause that it goes back to.
+#[derive(Clone, Copy, Debug)]
+enum Seen {
+    Fired(Of<TransitionId>, Cause),
+    Ignored(Of<EventId>, Cause),
+}
+
+/// Sees what fires and what is ignored.
+struct Seeing<'s>(&'s mut Vec<Seen>);
+
+impl<P: Names> Observer<P, Cause> for Seeing<'_> {
+    fn on_fire(&mut self, firing: &Firing<'_, P, Cause>) {
+        self.0.push(Seen::Fired(firing.id, firing.carries));
+    }
+
+    fn on_ignore(&mut self, event: Of<EventId>, cause: Cause) {
+        self.0.push(Seen::Ignored(event, cause));
     }
 }
 

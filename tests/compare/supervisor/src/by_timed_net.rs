@@ -2,7 +2,7 @@
 
 use crate::{Event, Line, Outcome, State, Supervisor};
 use cotama_core::net;
-use cotama_core::net::Outcome::{Fired, Ignored};
+use cotama_core::player::Outcome::{Fired, Ignored};
 use cotama_core::units::Millis;
 
 net! {

@@ -15,6 +15,9 @@ pub struct Field {
 }
 
 impl Field {
+    /// Of no place yet.
+    pub(super) const NOWHERE: Self = Self { word: 0, shift: 0, width: 1 };
+
     /// This many tokens in the word of the field.
     pub const fn tokens(self, tokens: u32) -> u64 {
         // Wraps, though a shift is below 64: of a field that is looked up the compiler does not
@@ -33,17 +36,16 @@ impl Field {
     }
 
     /// All tokens that it can hold, at the lowest bits.
-    pub(crate) const fn mask(self) -> u64 {
+    pub(super) const fn mask(self) -> u64 {
         1_u64.wrapping_shl(self.width as u32).wrapping_sub(1)
     }
 }
 
-/// How many bits hold this many tokens.
-pub(crate) const fn width_of(bound: u32) -> u8 {
-    let bound = if bound > LARGEST { LARGEST } else { bound };
-    if bound == 0 { 1 } else { width(bound) }
-}
-
-pub(super) const fn width(bound: u32) -> u8 {
-    (u32::BITS - bound.leading_zeros()) as u8
+/// The bound that a field has for a place of this bound.
+pub(super) const fn clamped(bound: u32) -> u32 {
+    match bound {
+        0 => 1,
+        1..=LARGEST => bound,
+        _ => LARGEST,
+    }
 }

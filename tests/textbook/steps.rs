@@ -1,13 +1,14 @@
-//! Synchronous rounds: all transitions see the marking at the start of the round.
+//! Synchronous steps: all transitions see the marking at the start of the step.
 
 use super::{Fired, Game};
-use cotama_core::net::code::LARGEST;
-use cotama_core::net::{EventId, Round, TransitionId};
+use cotama_core::net::{EventId, TransitionId};
+use cotama_core::player::LARGEST;
+use cotama_core::player::Stepped;
 
 impl Game<'_> {
-    /// One round: time passes and nothing fires meanwhile; then everything is taken, then
+    /// One step: time passes and nothing fires meanwhile; then everything is taken, then
     /// everything is given.
-    pub fn round(&mut self, now: u64, events: &[EventId]) -> Round {
+    pub fn step(&mut self, now: u64, events: &[EventId]) -> Stepped {
         self.now = now.max(self.now);
         let mut left = self.clone();
         let mut firing = Vec::new();
@@ -28,7 +29,7 @@ impl Game<'_> {
                 .take(64)
                 .enumerate()
                 .fold(0, |bits, (position, _)| bits | 1 << position);
-            return Round { fired: 0, ignored: all, full: true };
+            return Stepped { fired: 0, ignored: all, full: true };
         }
         left.stop_clocks();
         for &transition in &firing {
@@ -40,7 +41,7 @@ impl Game<'_> {
         }
         left.start_clocks();
         *self = left;
-        Round { fired: firing.len() as u32, ignored, full: false }
+        Stepped { fired: firing.len() as u32, ignored, full: false }
     }
 
     /// Fires a transition whatever the bounds and the time, as the laws see it; `false` when it

@@ -1,0 +1,122 @@
+//! What the arcs of a transition are in a packed marking.
+
+use super::code::Lists;
+use super::field::Field;
+use super::layout::{lacks_complement, made_complement};
+use crate::net::data::{Arc, PlaceId, Role, Transition};
+use crate::system::data::{Of, System, Target};
+
+/// What a transition asks for and does.
+pub(super) struct Moved<const W: usize> {
+    pub(super) need: [u64; W],
+    pub(super) take: [u64; W],
+    pub(super) delta: [u64; W],
+}
+
+/// The arcs of a transition of a component.
+pub(super) const fn moved<const W: usize>(
+    system: &System<'_>,
+    lists: &Lists<'_, W>,
+    component: usize,
+    at: usize,
+) -> Moved<W> {
+    let it = &system.components[component].net.transitions[at];
+    let (mut need, mut give) = ([0; W], [0; W]);
+    let first = lists.places[component] as usize;
+    add(&mut need, lists.fields, first, it.take);
+    let mut take = need;
+    add(&mut need, lists.fields, first, it.read);
+    add(&mut give, lists.fields, first, it.give);
+    // Complements that the system makes follow their places, by what a transition changes in the
+    // end.
+    let mut arc = 0;
+    while lists.complements.len() > 0 && arc < it.take.len() + it.give.len() {
+        let taken = arc < it.take.len();
+        let place = if taken { it.take[arc].place } else { it.give[arc - it.take.len()].place };
+        let owner = match system.target(Of { component: component as u16, id: place }) {
+            Some(Target::Place(owner)) => owner,
+            _ => Of { component: component as u16, id: place },
+        };
+        // Of a place that is taken and given the arc that takes counts for both.
+        let counts = taken || weight(it.take, place) == 0;
+        if counts
+            && lacks_complement(system, owner.component as usize, owner.id.0 as usize)
+            && !mirrored(system, component, owner, it)
+        {
+            let of = lists.places[owner.component as usize] + owner.id.0 as u16;
+            let field = made_complement(lists.complements, of);
+            let word = field.word as usize;
+            let (lost, gained) = (weight(it.take, place), weight(it.give, place));
+            if lost > gained {
+                give[word] += field.tokens(lost - gained);
+            } else {
+                need[word] += field.tokens(gained - lost);
+                take[word] += field.tokens(gained - lost);
+            }
+        }
+        arc += 1;
+    }
+    let mut delta = [0; W];
+    let mut word = 0;
+    while word < W {
+        delta[word] = give[word].wrapping_sub(take[word]);
+        word += 1;
+    }
+    Moved { need, take, delta }
+}
+
+/// Whether a transition of another net, which shares the place, moves the complement itself.
+const fn mirrored(
+    system: &System<'_>,
+    component: usize,
+    owner: Of<PlaceId>,
+    it: &Transition<'_>,
+) -> bool {
+    if owner.component as usize == component {
+        return false;
+    }
+    let net = system.components[component].net;
+    let mut arc = 0;
+    while arc < it.take.len() + it.give.len() {
+        let place = if arc < it.take.len() {
+            it.take[arc].place
+        } else {
+            it.give[arc - it.take.len()].place
+        };
+        if let Role::Complement(of) = net.places[place.0 as usize].role
+            && let Some(Target::Place(target)) =
+                system.target(Of { component: component as u16, id: of })
+            && target.component == owner.component
+            && target.id.0 == owner.id.0
+        {
+            return true;
+        }
+        arc += 1;
+    }
+    false
+}
+
+/// The weight of a place among arcs.
+const fn weight(arcs: &[Arc], place: PlaceId) -> u32 {
+    let mut at = 0;
+    while at < arcs.len() {
+        if arcs[at].place.0 == place.0 {
+            return arcs[at].weight;
+        }
+        at += 1;
+    }
+    0
+}
+
+/// Adds arcs to a sum. A weight beyond the field becomes its guard bit: as a need it is never met,
+/// as a gift it exceeds the bound.
+const fn add<const W: usize>(sum: &mut [u64; W], fields: &[Field], first: usize, arcs: &[Arc]) {
+    let mut at = 0;
+    while at < arcs.len() {
+        let field = fields[first + arcs[at].place.0 as usize];
+        let guard = 1 << field.width;
+        let weight = if arcs[at].weight > guard { guard } else { arcs[at].weight };
+        sum[field.word as usize] += field.tokens(weight);
+        at += 1;
+    }
+}

@@ -1,0 +1,87 @@
+//! The clocks of a player: how long transitions with an interval have been enabled.
+
+use super::code::{Code, Entry, NONE, minus, plus};
+use super::player::Player;
+use super::program::Program;
+
+impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
+    Player<P, W, C, S, M>
+{
+    /// Moves the tokens of a transition.
+    #[inline]
+    pub(super) fn apply(&mut self, entry: &Entry<W>) {
+        let after = plus(&self.marking, &entry.delta);
+        if C > 0
+            && let Some(take) = self.program.code().takes.get(usize::from(entry.transition))
+        {
+            self.restart(&minus(&self.marking, take));
+            if let Some(elapsed) = self.clocks.get_mut(usize::from(entry.clock)) {
+                *elapsed = 0;
+            }
+        }
+        self.marking = after;
+    }
+
+    /// Starts clocks anew of transitions that what was taken has left disabled; given what is left.
+    pub(super) fn restart(&mut self, left: &[u64; W]) {
+        let code = self.program.code();
+        for (elapsed, clock) in self.clocks.iter_mut().zip(code.clocks) {
+            if !code.holds(left, &clock.need) {
+                *elapsed = 0;
+            }
+        }
+    }
+
+    /// Lets time pass for the clocks alone.
+    pub(super) fn pass(&mut self, time: u64) {
+        self.now.0 = self.now.0.saturating_add(time);
+        if C == 0 || time == 0 {
+            return;
+        }
+        let code = self.program.code();
+        let time = u32::try_from(time).unwrap_or(u32::MAX);
+        for (elapsed, clock) in self.clocks.iter_mut().zip(code.clocks) {
+            if code.holds(&self.marking, &clock.need) {
+                *elapsed = elapsed.saturating_add(time).min(clock.cap());
+            }
+        }
+    }
+
+    /// Whether the interval of a transition allows it to fire now.
+    #[inline]
+    pub(super) fn open(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
+        if C == 0 || entry.clock == NONE {
+            return true;
+        }
+        let clock = usize::from(entry.clock);
+        match (code.clocks.get(clock), self.clocks.get(clock)) {
+            (Some(clock), Some(&elapsed)) => clock.is_open(elapsed),
+            _ => true,
+        }
+    }
+
+    /// The transition without event that is due first, and how long it has to wait; of those that
+    /// are not refused.
+    #[inline]
+    pub(super) fn due(&self, refused: &[bool; C]) -> Option<(u32, Entry<W>)> {
+        if C == 0 {
+            return None;
+        }
+        let code = self.program.code();
+        let mut first: Option<(u32, &Entry<W>)> = None;
+        // In their order, so that of several due at one instant the first one goes first.
+        for entry in code.row(code.timed(), &self.marking)? {
+            let number = usize::from(entry.clock);
+            let (Some(clock), Some(&elapsed), Some(false)) =
+                (code.clocks.get(number), self.clocks.get(number), refused.get(number))
+            else {
+                continue;
+            };
+            let waits = clock.earliest.saturating_sub(elapsed);
+            if first.is_none_or(|(least, _)| waits < least) && self.can(&code, entry) {
+                first = Some((waits, entry));
+            }
+        }
+        first.map(|(waits, entry)| (waits, *entry))
+    }
+}

@@ -1,0 +1,393 @@
+//! A system packed for execution: a marking is a few machine words, a transition a comparison and a
+//! sum.
+//!
+//! Every place is a field of a word, wide enough for its bound, with one guard bit above it. A
+//! transition is enabled when `((marking | guards) - need) & guards == guards`: one subtraction
+//! compares all fields of a word at once, and a field that holds too little borrows its own guard
+//! bit and nothing else's. Firing adds a word.
+//!
+//! Places come first, a shared one counted once. A mailbox is two fields more: what waits, and the
+//! room that is left. A net alone is a system of one component, without links.
+//!
+//! Transitions, events and places are numbered over all nets, in the order of the components.
+
+use super::field::Field;
+use super::lists::lists;
+pub use super::pack::{pack, size, size_of};
+use crate::net::data::{EventId, PlaceId, TransitionId};
+use crate::system::data::Of;
+
+/// One transition, packed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Entry<const W: usize> {
+    /// Tokens that must be there.
+    pub need: [u64; W],
+    /// What is added to the marking, modulo 2^64 in each word.
+    pub delta: [u64; W],
+    /// Its number.
+    pub transition: u16,
+    /// Its position in [`Code::clocks`]; [`NONE`] when it has no interval.
+    pub clock: u16,
+}
+
+/// No clock, no mailbox, no row.
+pub const NONE: u16 = u16::MAX;
+
+/// A transition with an interval.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clock<const W: usize> {
+    /// Tokens that must be there for it to run: those that its transition needs.
+    pub need: [u64; W],
+    /// Its position in [`Code::entries`].
+    pub entry: u16,
+    /// Whether it waits for an event.
+    pub event: bool,
+    /// Not before, in milliseconds since it became enabled.
+    pub earliest: u32,
+    /// Not after; `u32::MAX`: no limit.
+    pub latest: u32,
+}
+
+impl<const W: usize> Clock<W> {
+    /// The time beyond which it makes no difference how long it has been enabled.
+    pub const fn cap(&self) -> u32 {
+        if self.latest == u32::MAX { self.earliest } else { self.latest + 1 }
+    }
+
+    /// Whether its interval is open when it has been enabled for so long. For a transition without
+    /// event the end does not count: it fires as soon as it can.
+    #[inline]
+    pub const fn is_open(&self, elapsed: u32) -> bool {
+        self.earliest <= elapsed
+            && (!self.event || self.latest == u32::MAX || elapsed <= self.latest)
+    }
+}
+
+/// Where an output goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Route {
+    /// The number of the event.
+    pub event: u16,
+    /// The position of its mailbox, or [`NONE`] when the event happens at once.
+    pub mailbox: u16,
+}
+
+/// Where what is under way waits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Mailbox {
+    /// The number of the event.
+    pub event: u16,
+    /// How many wait.
+    pub waiting: Field,
+    /// For how many more there is room.
+    pub room: Field,
+    /// Where what they carry begins.
+    pub slot: u16,
+    /// How many can wait.
+    pub capacity: u16,
+}
+
+lists! {
+    /// Transitions by row: those of an event, by the state that they need where rows have states,
+    /// then by priority and number.
+    entries: Entry<W> [T] = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NONE },
+    /// What each transition removes, by its number; nothing is listed without clocks.
+    takes: [u64; W] [K] = [0; W],
+    /// Where each row begins and ends in `entries`: two numbers, at `2 * (kind * states + state)`;
+    /// a row without any begins at [`NONE`]. The kinds: events, then for each component what fires
+    /// at once by itself, then all that fires by itself in an interval.
+    rows: u16 [R] = 0,
+    /// Where the outputs of all transitions go.
+    routes: Route [O] = Route { event: 0, mailbox: NONE },
+    /// Where those of each transition begin in `routes`, by its number, and at the end how many
+    /// there are; nothing is listed without routes.
+    says: u16 [D] = 0,
+    /// Mailboxes, by component and then by event.
+    mailboxes: Mailbox [B] = Mailbox {
+        event: 0, waiting: Field::NOWHERE, room: Field::NOWHERE, slot: 0, capacity: 0,
+    },
+    /// For each component where its mailboxes begin, and at the end how many there are.
+    turns: u16 [N] = 0,
+    /// For each component the number of its first event, and at the end how many there are.
+    events: u16 [N] = 0,
+    /// For each component the number of its first transition, and at the end how many there are.
+    transitions: u16 [N] = 0,
+    /// For each component the number of its first place, and at the end how many there are.
+    places: u16 [N] = 0,
+    /// Where each place lies.
+    fields: Field [P] = Field::NOWHERE,
+    /// Complements that no net has, and the system needs: the number of the place, and where its
+    /// complement lies.
+    complements: (u16, Field) [X] = (0, Field::NOWHERE),
+    /// Transitions with an interval.
+    clocks: Clock<W> [C] = Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 },
+    /// Pairs of an event and the position of a mailbox that it empties.
+    clears: (u16, u16) [E] = (0, 0),
+    /// Pairs of an event and a place that ignores it on purpose.
+    ignored: (u16, u16) [G] = (0, 0),
+}
+
+/// What is not a list in a [`Code`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Words<const W: usize> {
+    /// The highest bit of every field.
+    pub guards: [u64; W],
+    /// The bound of every field.
+    pub bounds: [u64; W],
+    /// The marking at the start.
+    pub initial: [u64; W],
+    /// Where nothing of this is marked, no transition fires at once by itself: a place of each of
+    /// them, or the guard bit of one that needs no place.
+    pub restless: [u64; W],
+    /// The bits of the places of which exactly one is marked at any time; zero unless it is a net
+    /// alone that is such a state machine.
+    pub control: u64,
+    /// How many such places; one when there is none.
+    pub states: u16,
+    /// Tells systems apart.
+    pub fingerprint: u64,
+}
+
+impl<const W: usize> Words<W> {
+    pub(super) const NOTHING: Self = Self {
+        guards: [0; W],
+        bounds: [0; W],
+        initial: [0; W],
+        restless: [0; W],
+        control: 0,
+        states: 1,
+        fingerprint: 0,
+    };
+}
+
+/// How long the lists of a [`Code`] are.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[expect(missing_docs, reason = "they are the lists of `Code`")]
+pub struct Size {
+    /// Words of a marking.
+    pub words: usize,
+    pub components: usize,
+    pub entries: usize,
+    pub takes: usize,
+    pub rows: usize,
+    pub routes: usize,
+    pub says: usize,
+    pub mailboxes: usize,
+    pub fields: usize,
+    pub complements: usize,
+    pub clocks: usize,
+    pub clears: usize,
+    pub ignored: usize,
+    /// What can wait in all mailboxes together.
+    pub slots: usize,
+}
+
+impl<'c, const W: usize> Code<'c, W> {
+    /// Whether it is a net alone: what an event does ends when the net has settled.
+    #[inline]
+    pub const fn is_alone(&self) -> bool {
+        self.turns.len() <= 2 && self.routes.is_empty()
+    }
+
+    /// How many components.
+    #[inline]
+    pub(super) const fn components(&self) -> usize {
+        self.turns.len().saturating_sub(1)
+    }
+
+    /// How many events over all nets: the first kind beyond them is what fires at once by itself.
+    #[inline]
+    pub(super) fn first_urgent(&self) -> usize {
+        self.events.last().map_or(0, |&it| usize::from(it))
+    }
+
+    /// The kind of what fires by itself in an interval.
+    #[inline]
+    pub(super) fn timed(&self) -> usize {
+        self.first_urgent().saturating_add(self.components())
+    }
+
+    /// The first transition of a kind that may be enabled in this marking and `can`.
+    #[inline]
+    pub fn first(
+        &self,
+        kind: usize,
+        marking: &[u64; W],
+        can: impl Fn(&Entry<W>) -> bool,
+    ) -> Option<&'c Entry<W>> {
+        let (start, end) = self.row_bounds(kind, marking)?;
+        let mut at = usize::from(start);
+        loop {
+            let entry = self.entries.get(at)?;
+            if can(entry) {
+                return Some(entry);
+            }
+            at += 1;
+            if at >= usize::from(end) {
+                return None;
+            }
+        }
+    }
+
+    /// The transitions of a kind that may be enabled in this marking; `None` when it has none.
+    #[inline]
+    pub fn row(&self, kind: usize, marking: &[u64; W]) -> Option<&'c [Entry<W>]> {
+        let (start, end) = self.row_bounds(kind, marking)?;
+        self.entries.get(usize::from(start)..usize::from(end))
+    }
+
+    /// Where the transitions of a kind that the state enables begin in `entries`, and where they
+    /// end.
+    #[inline]
+    fn row_bounds(&self, kind: usize, marking: &[u64; W]) -> Option<(u16, u16)> {
+        let of_kind = kind.checked_mul(2 * usize::from(self.states))?;
+        let row = of_kind.checked_add(self.control_bit(marking))?;
+        Some((*self.rows.get(row)?, *self.rows.get(row.checked_add(1)?)?))
+    }
+
+    /// All transitions of some kinds that follow each other.
+    pub(super) fn kinds(&self, kinds: core::ops::Range<usize>) -> &'c [Entry<W>] {
+        // Where the last row of a kind ends the first one of the next begins.
+        let end = |kinds: usize| {
+            let row = kinds.checked_mul(2 * usize::from(self.states))?.checked_sub(1)?;
+            Some(usize::from(*self.rows.get(row)?))
+        };
+        let entries =
+            end(kinds.end).and_then(|last| self.entries.get(end(kinds.start).unwrap_or(0)..last));
+        entries.unwrap_or(&[])
+    }
+
+    /// The position of the marked place of a state machine.
+    #[inline]
+    pub fn state(&self, marking: &[u64; W]) -> usize {
+        self.control_bit(marking) / 2
+    }
+
+    /// The bit of the marked place of a state machine: twice its position. Zero for a net that is
+    /// none.
+    #[inline]
+    fn control_bit(&self, marking: &[u64; W]) -> usize {
+        let marked = marking.first().map_or(0, |word| word & self.control);
+        // Most have up to sixteen states: half a word, for which small processors need half the
+        // instructions.
+        let bit = if self.control == 0 {
+            0
+        } else if u32::try_from(self.control).is_ok() {
+            (marked as u32).trailing_zeros()
+        } else {
+            marked.trailing_zeros()
+        };
+        bit as usize
+    }
+
+    /// Whether it is clear at once that nothing fires at once by itself.
+    #[inline]
+    pub(super) const fn rests(&self, marking: &[u64; W]) -> bool {
+        let mut word = 0;
+        let mut rests = true;
+        while word < W {
+            rests &= (marking[word] | self.guards[word]) & self.restless[word] == 0;
+            word += 1;
+        }
+        rests
+    }
+
+    /// Whether these tokens are there.
+    #[inline]
+    pub const fn holds(&self, marking: &[u64; W], need: &[u64; W]) -> bool {
+        let (mut word, mut lacking) = (0, 0);
+        while word < W {
+            let guards = self.guards[word];
+            lacking |= !(marking[word] | guards).wrapping_sub(need[word]) & guards;
+            word += 1;
+        }
+        lacking == 0
+    }
+
+    /// The tokens of a place.
+    #[inline]
+    pub fn tokens(&self, marking: &[u64; W], place: impl Into<Of<PlaceId>>) -> u32 {
+        let place = place.into();
+        let at = number(self.places, place.component, place.id.0);
+        at.and_then(|at| self.fields.get(at)).map_or(0, |field| field.of(marking))
+    }
+
+    /// The number of an event.
+    #[inline]
+    pub fn event_number(&self, event: Of<EventId>) -> Option<usize> {
+        number(self.events, event.component, event.id.0)
+    }
+
+    /// The event of a number.
+    pub fn event(&self, number: u16) -> Of<EventId> {
+        let (component, id) = of(self.events, number);
+        Of { component, id: EventId(id) }
+    }
+
+    /// The transition of a number.
+    #[inline]
+    pub fn transition(&self, number: u16) -> Of<TransitionId> {
+        let (component, id) = of(self.transitions, number);
+        Of { component, id: TransitionId(id) }
+    }
+
+    /// Whether some place that ignores this event on purpose is marked.
+    pub fn ignores(&self, marking: &[u64; W], event: usize) -> bool {
+        self.ignored.iter().any(|&(ignored, place)| {
+            usize::from(ignored) == event
+                && self.fields.get(usize::from(place)).is_some_and(|it| it.of(marking) > 0)
+        })
+    }
+}
+
+/// The marking after something is added to it, modulo 2^64 in each word.
+#[inline]
+pub const fn plus<const W: usize>(marking: &[u64; W], delta: &[u64; W]) -> [u64; W] {
+    let mut after = *marking;
+    let mut word = 0;
+    while word < W {
+        after[word] = after[word].wrapping_add(delta[word]);
+        word += 1;
+    }
+    after
+}
+
+/// What is left of a marking; what is taken is there.
+#[inline]
+pub const fn minus<const W: usize>(marking: &[u64; W], take: &[u64; W]) -> [u64; W] {
+    let mut left = *marking;
+    let mut word = 0;
+    while word < W {
+        left[word] = left[word].wrapping_sub(take[word]);
+        word += 1;
+    }
+    left
+}
+
+/// The number of something of a component, given the first numbers of all components.
+#[inline]
+fn number(firsts: &[u16], component: u16, id: u32) -> Option<usize> {
+    let (first, next) = bounds(firsts, usize::from(component));
+    let number = first.checked_add(id as usize)?;
+    (number < next).then_some(number)
+}
+
+/// The component of a number and what it is there.
+#[inline]
+fn of(firsts: &[u16], number: u16) -> (u16, u32) {
+    if firsts.len() <= 2 {
+        return (0, u32::from(number));
+    }
+    let component = firsts.partition_point(|&first| first <= number).saturating_sub(1);
+    let first = firsts.get(component).copied().unwrap_or(0);
+    (component as u16, u32::from(number.saturating_sub(first)))
+}
+
+/// From the `at`-th of these numbers up to the next one.
+#[inline]
+pub(super) fn bounds(firsts: &[u16], at: usize) -> (usize, usize) {
+    match (firsts.get(at), firsts.get(at.saturating_add(1))) {
+        (Some(&first), Some(&next)) => (usize::from(first), usize::from(next)),
+        _ => (0, 0),
+    }
+}

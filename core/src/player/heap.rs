@@ -1,0 +1,65 @@
+//! Systems made at run time, packed on the heap so that a [`Player`](super::Player) plays them.
+
+use super::LARGEST;
+use super::code::{Packed, size};
+use super::program::Loaded;
+use crate::net::data::Net;
+use crate::net::defect::Defect;
+use crate::system::data::{Component, System, SystemDefect};
+
+/// How many machine words a marking of this system needs; `None` when it has too many places,
+/// events, transitions or links to be played.
+pub fn words(system: &System<'_>) -> Option<usize> {
+    size(system).map(|size| size.words)
+}
+
+/// What can wait in all mailboxes of this system together: the `S` of its player, at least.
+pub fn slots(system: &System<'_>) -> usize {
+    size(system).map_or(0, |size| size.slots)
+}
+
+/// How many transitions of this system have an interval: the `C` of its player, at least.
+pub fn clocks(system: &System<'_>) -> usize {
+    let transitions = system.components.iter().flat_map(|it| it.net.transitions);
+    transitions.filter(|it| it.within.is_some()).count()
+}
+
+impl<const W: usize, const C: usize, const S: usize> Packed<W, C, S> {
+    /// Packs a system. Places of which no bound is claimed hold up to [`LARGEST`] tokens.
+    ///
+    /// # Errors
+    /// The defect of the system or of one of its nets; [`Defect::Place`] when a place starts with
+    /// more than that; [`SystemDefect::TooLong`] when it has too many parts, `W` is less than
+    /// [`words`], `C` less than [`clocks`], or `S` less than [`slots`].
+    pub fn of(system: &System<'_>) -> Result<Self, SystemDefect> {
+        for (component, it) in (0..).zip(system.components) {
+            let large = || it.net.places.iter().position(|place| place.initial > LARGEST);
+            let defect = it.net.defect().or_else(|| Some(Defect::Place { place: large()? }));
+            if let Some(defect) = defect {
+                return Err(SystemDefect::Net { component, defect });
+            }
+        }
+        if let Some(defect) = system.defect() {
+            return Err(defect);
+        }
+        let fits = |it: &super::code::Size| it.words <= W && it.clocks <= C && it.slots <= S;
+        let size = size(system).filter(fits).ok_or(SystemDefect::TooLong)?;
+        Ok(Self::sound(system, &size))
+    }
+
+    /// Packs a net alone; see [`of`](Self::of).
+    ///
+    /// # Errors
+    /// The defect of the net; [`Defect::TooLong`] also when it does not fit.
+    pub fn alone(net: &Net<'_>) -> Result<Self, Defect> {
+        Self::of(&System::alone(&[Component::alone(net)])).map_err(|defect| match defect {
+            SystemDefect::Net { defect, .. } => defect,
+            _ => Defect::TooLong,
+        })
+    }
+
+    /// What a player plays; `system` is the one that was packed.
+    pub fn load<'c>(&'c self, system: &System<'c>) -> Loaded<'c, W, C, S> {
+        Loaded { system: *system, code: self.code(), order: &self.order }
+    }
+}

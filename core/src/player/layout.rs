@@ -1,0 +1,199 @@
+//! Where the places and mailboxes of a system lie in a marking.
+
+use super::code::{Lists, Mailbox, NONE, Words};
+use super::field::{Field, clamped};
+use crate::net::data::{EventId, Net, Place, PlaceId, Role};
+use crate::system::data::{Delivery, Of, System, Target};
+
+/// What is laid out so far.
+pub(super) struct Used {
+    word: u16,
+    bits: u8,
+}
+
+impl Used {
+    pub(super) const NOTHING: Self = Self { word: 0, bits: 0 };
+
+    /// How many words.
+    pub(super) const fn words(&self) -> usize {
+        self.word as usize + 1
+    }
+
+    /// A field is appended; where it lies.
+    pub(super) const fn place(&mut self, bound: u32) -> Field {
+        let width = (u32::BITS - clamped(bound).leading_zeros()) as u8;
+        if self.bits + width + 1 > 64 {
+            self.word += 1;
+            self.bits = 0;
+        }
+        let field = Field { word: self.word, shift: self.bits, width };
+        self.bits += width + 1;
+        field
+    }
+}
+
+/// Whether a place has a field of its own: one that is shared, and the complement of such a one, lie
+/// where their owner's do. A net alone owns all of its places.
+pub(super) const fn owns(system: &System<'_>, component: usize, at: usize) -> bool {
+    let places = system.components[component].net.places;
+    let shared = match places[at].role {
+        Role::Shared => at,
+        Role::Complement(of) if matches!(places[of.0 as usize].role, Role::Shared) => of.0 as usize,
+        _ => return true,
+    };
+    let of = Of { component: component as u16, id: PlaceId(shared as u32) };
+    system.target(of).is_none()
+}
+
+/// The complement of a place in its net.
+pub(super) const fn complement(net: &Net<'_>, of: PlaceId) -> Option<PlaceId> {
+    let mut at = 0;
+    while at < net.places.len() {
+        if let Role::Complement(other) = net.places[at].role
+            && other.0 == of.0
+        {
+            return Some(PlaceId(at as u32));
+        }
+        at += 1;
+    }
+    None
+}
+
+/// Whether a place is bound by some shared place and has no complement in its own net: the system
+/// makes one.
+pub(super) const fn lacks_complement(system: &System<'_>, component: usize, at: usize) -> bool {
+    let mut binding = 0;
+    while binding < system.bindings.len() {
+        if let Target::Place(owner) = system.bindings[binding].target
+            && owner.component as usize == component
+            && owner.id.0 as usize == at
+        {
+            return complement(system.components[component].net, owner.id).is_none();
+        }
+        binding += 1;
+    }
+    false
+}
+
+/// Lays out all fields.
+pub(super) const fn layout<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    words: &mut Words<W>,
+) {
+    let mut used = Used::NOTHING;
+    let (mut made, mut component) = (0, 0);
+    while component < system.components.len() {
+        let places = system.components[component].net.places;
+        let first = lists.places[component] as usize;
+        let mut at = 0;
+        while at < places.len() {
+            let Place { initial, bound, .. } = places[at];
+            if owns(system, component, at) {
+                let field = used.place(bound);
+                lists.fields[first + at] = field;
+                fill(words, field, initial, bound);
+                if lacks_complement(system, component, at) {
+                    let field = used.place(bound);
+                    lists.complements[made] = ((first + at) as u16, field);
+                    made += 1;
+                    fill(words, field, clamped(bound) - initial, bound);
+                }
+            }
+            at += 1;
+        }
+        component += 1;
+    }
+    mailboxes(system, lists, words, &mut used);
+    shared(system, lists);
+}
+
+/// A pair of fields for each mailbox.
+const fn mailboxes<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    words: &mut Words<W>,
+    used: &mut Used,
+) {
+    let (mut count, mut slot, mut component) = (0, 0, 0);
+    while component < system.components.len() {
+        lists.turns[component] = count as u16;
+        let mut at = 0;
+        while at < system.components[component].net.events.len() {
+            let of = Of { component: component as u16, id: EventId(at as u32) };
+            if let Some(Delivery::Mail { capacity }) = system.delivery(of) {
+                let most = capacity as u32;
+                let (waiting, room) = (used.place(most), used.place(most));
+                fill(words, waiting, 0, most);
+                fill(words, room, most, most);
+                let event = lists.events[component] + at as u16;
+                lists.mailboxes[count] = Mailbox { event, waiting, room, slot, capacity };
+                count += 1;
+                slot += capacity;
+            }
+            at += 1;
+        }
+        component += 1;
+    }
+    lists.turns[component] = count as u16;
+}
+
+const fn fill<const W: usize>(words: &mut Words<W>, field: Field, initial: u32, bound: u32) {
+    let word = field.word as usize;
+    words.guards[word] |= 1 << (field.shift + field.width);
+    words.bounds[word] |= field.tokens(clamped(bound));
+    words.initial[word] |= field.tokens(initial);
+}
+
+/// Shared places, and their complements, lie where the places lie that they are bound to.
+const fn shared<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
+    let mut at = 0;
+    while at < system.bindings.len() {
+        let binding = system.bindings[at];
+        let own = lists.places[binding.shared.component as usize] as usize;
+        let (place, absence) = match binding.target {
+            Target::Place(owner) => {
+                let first = lists.places[owner.component as usize] as usize;
+                let of = first + owner.id.0 as usize;
+                let net = system.components[owner.component as usize].net;
+                let absence = match complement(net, owner.id) {
+                    Some(complement) => lists.fields[first + complement.0 as usize],
+                    None => made_complement(lists.complements, of as u16),
+                };
+                (lists.fields[of], absence)
+            }
+            Target::Mailbox(event) => {
+                let event = lists.events[event.component as usize] + event.id.0 as u16;
+                let mailbox = lists.mailboxes[mailbox_of(lists.mailboxes, event) as usize];
+                (mailbox.waiting, mailbox.room)
+            }
+        };
+        lists.fields[own + binding.shared.id.0 as usize] = place;
+        let net = system.components[binding.shared.component as usize].net;
+        if let Some(complement) = complement(net, binding.shared.id) {
+            lists.fields[own + complement.0 as usize] = absence;
+        }
+        at += 1;
+    }
+}
+
+/// Where the complement lies that the system makes for this place.
+pub(super) const fn made_complement(complements: &[(u16, Field)], place: u16) -> Field {
+    let mut at = 0;
+    while complements[at].0 != place {
+        at += 1;
+    }
+    complements[at].1
+}
+
+/// The position of the mailbox of an event.
+pub(super) const fn mailbox_of(mailboxes: &[Mailbox], event: u16) -> u16 {
+    let mut at = 0;
+    while at < mailboxes.len() {
+        if mailboxes[at].event == event {
+            return at as u16;
+        }
+        at += 1;
+    }
+    NONE
+}

@@ -1,0 +1,83 @@
+//! Plays a system of nets, or a net alone: events go in, transitions fire, and what happened comes
+//! out.
+//!
+//! A net alone is a system of one component: one player executes both.
+//!
+//! Time comes in as an argument and the next deadline goes out ([`Player::wake_at`]), so the same
+//! player serves firmware, a simulator and proofs. At every instant, in this order:
+//!
+//! 1. Transitions without event fire as soon as their interval allows, the one due first going
+//!    first; of several due at the same instant the one of the highest priority, then the earlier
+//!    one. After each of them all nets *settle*: transitions without event and interval fire until
+//!    none is enabled, those of the first component first.
+//! 2. An event is *offered*: the first enabled transition on it fires (by priority, then by line),
+//!    and all nets settle; or the event is ignored, and the player says why.
+//! 3. In a *round* each net takes its turn, in the order of the system: it settles, then reads its
+//!    mailboxes in the order in which its events are listed, each as far as it was filled when the
+//!    turn began. What it reads makes a transition fire, or is ignored for good, or, when a mailbox
+//!    is full, goes on waiting. Then all nets settle. [`Player::round_is_due`] says whether
+//!    something waits; a net alone has no mailboxes.
+//!
+//! **What a firing does.** What a transition emits *now* makes the receivers fire in the same step,
+//! one after the other and depth first; what it *mails* waits. Then its net settles. All of it
+//! happens or nothing: when a mailbox on the way is full, an offered event is
+//! [refused](Outcome::Refused), a transition that would fire by itself waits until there is room,
+//! and the system is as it was. What an event carries along, of type `M`, travels with everything
+//! that is done because of it.
+//!
+//! **Time.** The clock of a transition starts when the marking enables it, and starts anew whenever
+//! a firing disturbs it: when it fires itself, or when what the firing takes leaves it disabled,
+//! even if what is given back enables it again (Merlin's time Petri nets, with single-server
+//! clocks). Reading disturbs no clock. The semantics is *strong* for transitions without event:
+//! time does not pass their last instant. They fire at their first, so a later last instant only
+//! tells the checker what to allow for. For a transition on an event it is *weak*: when its last
+//! instant has passed, it is not enabled any more until its clock starts anew. A player that is
+//! told the time late catches up: what was due fires at the time when it was due, in order. So
+//! however often it is told the time in between, the same events and rounds at the same instants
+//! give the same firings at the same instants.
+//!
+//! ```text
+//! net! { .. } or system! { .. } -> System -> Code (packed) -> Player { marking, clocks, slots }
+//!                                  ids       words            -> Outcome, Firing
+//! ```
+
+mod arcs;
+mod cascade;
+mod clocks;
+pub mod code;
+mod field;
+mod fingerprint;
+#[cfg(feature = "alloc")]
+mod heap;
+mod layout;
+mod lists;
+mod machine;
+mod observer;
+mod outcome;
+mod pack;
+#[allow(clippy::module_inception, reason = "the door of the room is the player")]
+mod player;
+mod program;
+mod snapshot;
+mod step;
+
+#[cfg(feature = "alloc")]
+pub use code::Packed;
+pub use code::{Arrays, Code};
+pub use field::{Field, LARGEST};
+#[cfg(feature = "alloc")]
+pub use heap::{clocks, slots, words};
+pub use machine::is_state_machine;
+pub use observer::{Firing, Observer};
+pub use outcome::{Advanced, Outcome, Round, Stepped, Why};
+pub use player::Player;
+pub use program::{Checked, Kind, Loaded, Names, Program, StateMachine, Steps};
+pub use snapshot::{RestoreError, Snapshot, Stored};
+
+/// The most transitions that one call lets fire by themselves while it catches up; see
+/// [`Advanced::behind`].
+pub const CATCH_UP: u32 = 10_000;
+
+/// The most transitions that fire at once by themselves one after another, where no bound is
+/// proven.
+pub const SETTLE: u32 = 1_000;

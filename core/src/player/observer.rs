@@ -1,0 +1,76 @@
+//! Who is told what a player does.
+
+use super::program::Names;
+use crate::net::data::{EventId, TransitionId};
+use crate::system::data::Of;
+use crate::units::Millis;
+
+/// A transition that has just fired.
+#[derive(Debug)]
+pub struct Firing<'f, P: Names, M = ()> {
+    /// The line of the definition.
+    pub transition: P::Transition,
+    /// The transition.
+    pub id: Of<TransitionId>,
+    /// The event on which it fired; `None` for one that fires by itself.
+    pub on: Option<Of<EventId>>,
+    /// That event as it was offered from outside, with what it carries along; `None` when another
+    /// net caused it.
+    pub event: Option<&'f P::Event>,
+    /// What travels with everything that is done because of an event: the default value for what
+    /// fires by itself.
+    pub carries: M,
+    /// When it fired. A transition that was due earlier than the player was told so fired when it
+    /// was due.
+    pub at: Millis,
+    pub(super) program: &'f P,
+}
+
+impl<'f, P: Names, M> Firing<'f, P, M> {
+    /// What it says, in this order.
+    #[inline]
+    pub fn outputs(&self) -> impl Iterator<Item = P::Output> + use<'f, P, M> {
+        let (program, id) = (self.program, self.id);
+        (0..).map_while(move |at| program.output(id, at))
+    }
+
+    /// Whether it says this.
+    #[inline]
+    pub fn says(&self, output: P::Output) -> bool {
+        self.outputs().any(|it| it == output)
+    }
+}
+
+/// Is told what a player does, in the order in which it happens: where actions, logs and recorders
+/// hang on. `()` observes nothing and costs nothing; any closure that takes a [`Firing`] is one.
+pub trait Observer<P: Names, M = ()> {
+    /// A transition has fired.
+    fn on_fire(&mut self, firing: &Firing<'_, P, M>);
+
+    /// A net ignored an event for good, with what it carries along.
+    fn on_ignore(&mut self, event: Of<EventId>, carries: M) {
+        let _ = (event, carries);
+    }
+
+    /// Something was put into the mailbox of an event.
+    fn on_mail(&mut self, to: Of<EventId>, carries: M) {
+        let _ = (to, carries);
+    }
+
+    /// Something was taken out of the mailbox of an event, by an event that empties it.
+    fn on_clear(&mut self, mailbox: Of<EventId>, carries: M) {
+        let _ = (mailbox, carries);
+    }
+}
+
+impl<P: Names, M> Observer<P, M> for () {
+    #[inline]
+    fn on_fire(&mut self, _: &Firing<'_, P, M>) {}
+}
+
+impl<P: Names, M, F: FnMut(&Firing<'_, P, M>)> Observer<P, M> for F {
+    #[inline]
+    fn on_fire(&mut self, firing: &Firing<'_, P, M>) {
+        self(firing);
+    }
+}

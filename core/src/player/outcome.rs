@@ -1,0 +1,116 @@
+//! What a player answers.
+
+use crate::net::data::EventId;
+use crate::system::data::Of;
+
+/// What became of an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[must_use = "an event may have been ignored or refused"]
+pub enum Outcome<T> {
+    /// A transition fired.
+    Fired {
+        /// Its line.
+        transition: T,
+        /// How many more fired at the same instant: by a rendezvous, or at once by themselves.
+        settled: u32,
+    },
+    /// None fired; the event is gone.
+    Ignored {
+        /// Why.
+        why: Why<T>,
+    },
+    /// A transition could not fire because this mailbox, of this event, is full; nothing has
+    /// happened.
+    Refused {
+        /// The event whose mailbox is full.
+        full: Of<EventId>,
+    },
+}
+
+impl<T> Outcome<T> {
+    /// Whether a transition fired.
+    pub const fn fired(&self) -> bool {
+        matches!(self, Self::Fired { .. })
+    }
+
+    /// The same with transitions told in another way.
+    #[inline]
+    pub fn map<U>(self, f: impl FnOnce(T) -> U) -> Outcome<U> {
+        match self {
+            Self::Fired { transition, settled } => {
+                Outcome::Fired { transition: f(transition), settled }
+            }
+            Self::Ignored { why } => Outcome::Ignored {
+                why: match why {
+                    Why::OnPurpose => Why::OnPurpose,
+                    Why::NotEnabled => Why::NotEnabled,
+                    Why::TooEarly(it) => Why::TooEarly(f(it)),
+                    Why::TooLate(it) => Why::TooLate(f(it)),
+                    Why::Full(it) => Why::Full(f(it)),
+                    Why::Behind => Why::Behind,
+                    Why::NoSuchEvent => Why::NoSuchEvent,
+                },
+            },
+            Self::Refused { full } => Outcome::Refused { full },
+        }
+    }
+}
+
+/// Why an event is ignored. When a transition on it has its tokens: what else the first such one
+/// lacks, even where the event is ignored on purpose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Why<T> {
+    /// A marked place ignores it on purpose.
+    OnPurpose,
+    /// No transition on it has the tokens it needs.
+    NotEnabled,
+    /// This one has, but its interval has not begun.
+    TooEarly(T),
+    /// This one has, but its interval is over.
+    TooLate(T),
+    /// This one has, but a place would hold more than its bound.
+    Full(T),
+    /// The player is behind the time it was told: [`Player::advance`](super::Player::advance) it
+    /// first.
+    Behind,
+    /// There is no such event.
+    NoSuchEvent,
+}
+
+/// What happened while time passed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[must_use = "the player may be behind"]
+pub struct Advanced {
+    /// How many transitions fired.
+    pub fired: u32,
+    /// Whether there is more to catch up with than [`CATCH_UP`](super::CATCH_UP) transitions: call
+    /// again.
+    pub behind: bool,
+}
+
+/// What a round did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[must_use = "something may have been ignored or may still wait"]
+pub struct Round {
+    /// How much was read and made a transition fire.
+    pub fired: u32,
+    /// How much was read and ignored.
+    pub ignored: u32,
+    /// In how many mailboxes something goes on waiting because another one is full.
+    pub waiting: u32,
+    /// Whether there was no round: there is more to catch up with first, so call again.
+    pub behind: bool,
+}
+
+/// What a synchronous step did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[must_use = "an event may have been ignored"]
+pub struct Stepped {
+    /// How many transitions fired.
+    pub fired: u32,
+    /// Bit `i` is set when no transition on the `i`-th of the events fired; of the first 64.
+    pub ignored: u64,
+    /// Whether nothing happened because a place would have held more than its bound. Not in a net
+    /// whose bounds are proven.
+    pub full: bool,
+}

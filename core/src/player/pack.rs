@@ -1,0 +1,423 @@
+//! Packs a system: how long its lists are, and what stands in them.
+
+use super::arcs::{Moved, moved};
+use super::code::{Clock, Entry, Lists, NONE, Route, Size, Words};
+use super::fingerprint::fingerprint;
+use super::layout::{Used, lacks_complement, layout, mailbox_of, owns};
+use super::machine::{machine, needs_state};
+use crate::net::data::{EventId, OutputId};
+use crate::system::data::{Delivery, Of, System};
+
+/// The most of anything that a packed system counts.
+const MOST: usize = u16::MAX as usize - 1;
+
+/// How long the lists will be; `None` when one is longer than 65,534.
+pub const fn size(system: &System<'_>) -> Option<Size> {
+    let mut it = Size {
+        words: 1,
+        components: system.components.len(),
+        entries: 0,
+        takes: 0,
+        rows: 0,
+        routes: 0,
+        says: 0,
+        mailboxes: 0,
+        fields: 0,
+        complements: 0,
+        clocks: 0,
+        clears: system.clears.len(),
+        ignored: 0,
+        slots: 0,
+    };
+    let mut used = Used::NOTHING;
+    let (mut component, mut events) = (0, 0);
+    while component < system.components.len() {
+        let net = system.components[component].net;
+        it.fields += net.places.len();
+        it.entries += net.transitions.len();
+        it.ignored += net.ignored.len();
+        events += net.events.len();
+        if it.fields > MOST || it.entries > MOST || it.ignored > MOST || events > MOST {
+            return None;
+        }
+        let mut at = 0;
+        while at < net.places.len() {
+            if owns(system, component, at) {
+                used.place(net.places[at].bound);
+                if lacks_complement(system, component, at) {
+                    used.place(net.places[at].bound);
+                    it.complements += 1;
+                }
+            }
+            at += 1;
+        }
+        let mut at = 0;
+        while at < net.transitions.len() {
+            it.clocks += net.transitions[at].within.is_some() as usize;
+            it.routes += routes(system, component, net.transitions[at].emits);
+            at += 1;
+        }
+        component += 1;
+    }
+    component = 0;
+    while component < system.components.len() {
+        let mut at = 0;
+        while at < system.components[component].net.events.len() {
+            let of = Of { component: component as u16, id: EventId(at as u32) };
+            if let Some(Delivery::Mail { capacity }) = system.delivery(of) {
+                it.mailboxes += 1;
+                it.slots += capacity as usize;
+                used.place(capacity as u32);
+                used.place(capacity as u32);
+            }
+            at += 1;
+        }
+        component += 1;
+    }
+    it.words = used.words();
+    it.takes = if it.clocks == 0 { 0 } else { it.entries };
+    it.says = if it.routes == 0 { 0 } else { it.entries + 1 };
+    it.rows = 2 * (events + system.components.len() + 1) * machine(system).0;
+    let long = it.rows > MOST || it.routes > MOST || it.slots > MOST;
+    if long { None } else { Some(it) }
+}
+
+/// [`size`], in a `const`.
+///
+/// # Panics
+/// When the system is too large: at compile time.
+pub const fn size_of(system: &System<'_>) -> Size {
+    match size(system) {
+        Some(size) => size,
+        None => panic!("at most 65,534 transitions, places, events and links fit into a system"),
+    }
+}
+
+/// To how many events these outputs go.
+const fn routes(system: &System<'_>, component: usize, emits: &[OutputId]) -> usize {
+    let mut count = 0;
+    let mut at = 0;
+    while at < emits.len() {
+        let mut link = 0;
+        while link < system.links.len() {
+            let from = system.links[link].from;
+            count += (from.component as usize == component && from.id.0 == emits[at].0) as usize;
+            link += 1;
+        }
+        at += 1;
+    }
+    count
+}
+
+/// Packs a system. The lists are as long as [`size`] says, `W` is [`Size::words`] or more, and the
+/// system and its nets have no defect.
+pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) -> Words<W> {
+    let (states, control) = machine(system);
+    let mut words = Words { states: states as u16, ..Words::NOTHING };
+    words.fingerprint = fingerprint(system);
+    count(system, lists);
+    layout(system, lists, &mut words);
+    if control {
+        let mut at = 0;
+        while at < states {
+            words.control |= lists.fields[at].tokens(1);
+            at += 1;
+        }
+    }
+    entries(system, lists, states, control);
+    words.restless = restless(system, lists, &words);
+    clocks(system, lists);
+    say(system, lists);
+    ignore(system, lists);
+    words
+}
+
+/// Counts events, transitions and places over all nets.
+const fn count<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
+    let (mut component, mut events, mut transitions, mut places) = (0, 0, 0, 0);
+    while component < system.components.len() {
+        lists.events[component] = events;
+        lists.transitions[component] = transitions;
+        lists.places[component] = places;
+        let net = system.components[component].net;
+        events += net.events.len() as u16;
+        transitions += net.transitions.len() as u16;
+        places += net.places.len() as u16;
+        component += 1;
+    }
+    lists.events[component] = events;
+    lists.transitions[component] = transitions;
+    lists.places[component] = places;
+}
+
+/// A kind of transitions of some components.
+#[derive(Clone, Copy)]
+enum Kind {
+    On(EventId),
+    AtOnce,
+    InTime,
+}
+
+/// Rows of entries.
+const fn entries<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    states: usize,
+    control: bool,
+) {
+    let count = system.components.len();
+    let mut done = (0, 0);
+    let mut component = 0;
+    while component < count {
+        let mut event = 0;
+        while event < system.components[component].net.events.len() {
+            let on = Kind::On(EventId(event as u32));
+            done = rows(system, lists, (component, component + 1), on, states, control, done);
+            event += 1;
+        }
+        component += 1;
+    }
+    component = 0;
+    while component < count {
+        let of = (component, component + 1);
+        done = rows(system, lists, of, Kind::AtOnce, states, control, done);
+        component += 1;
+    }
+    rows(system, lists, (0, count), Kind::InTime, states, control, done);
+}
+
+/// The rows of a kind: one for each state, or one for all of them where a transition fires in any.
+/// Takes how many entries and numbers of rows there are, and says how many there are then.
+const fn rows<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    of: (usize, usize),
+    kind: Kind,
+    states: usize,
+    control: bool,
+    done: (usize, usize),
+) -> (usize, usize) {
+    let (mut entry, mut row) = done;
+    let apart = control && is_by_state(system, kind, states);
+    let (mut first, mut state) = (entry, 0);
+    while state < states {
+        if state == 0 || apart {
+            first = entry;
+            let mut component = of.0;
+            while component < of.1 {
+                let net = system.components[component].net;
+                let mut at = 0;
+                while at < net.transitions.len() {
+                    let it = &net.transitions[at];
+                    if is_of(it, kind) && (!apart || needs_state(it, state)) {
+                        let Moved { need, delta, take } = moved(system, lists, component, at);
+                        let transition = lists.transitions[component] + at as u16;
+                        if lists.takes.len() > 0 {
+                            lists.takes[transition as usize] = take;
+                        }
+                        lists.entries[entry] = Entry { need, delta, transition, clock: NONE };
+                        insert(system, lists, first, entry);
+                        entry += 1;
+                    }
+                    at += 1;
+                }
+                component += 1;
+            }
+        }
+        lists.rows[row] = if first < entry { first as u16 } else { NONE };
+        lists.rows[row + 1] = entry as u16;
+        row += 2;
+        state += 1;
+    }
+    (entry, row)
+}
+
+const fn is_of(it: &crate::net::data::Transition<'_>, kind: Kind) -> bool {
+    match (it.on, kind) {
+        (Some(on), Kind::On(event)) => on.0 == event.0,
+        (None, Kind::AtOnce) => it.within.is_none(),
+        (None, Kind::InTime) => it.within.is_some(),
+        _ => false,
+    }
+}
+
+/// Whether every transition of this kind of a state machine needs one of its states.
+const fn is_by_state(system: &System<'_>, kind: Kind, states: usize) -> bool {
+    let net = system.components[0].net;
+    let mut at = 0;
+    while at < net.transitions.len() {
+        let it = &net.transitions[at];
+        if is_of(it, kind) {
+            let mut state = 0;
+            while state < states && !needs_state(it, state) {
+                state += 1;
+            }
+            if state == states {
+                return false;
+            }
+        }
+        at += 1;
+    }
+    true
+}
+
+/// Moves the last entry of a row to where its priority belongs.
+const fn insert<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    first: usize,
+    last: usize,
+) {
+    let this = lists.entries[last];
+    let priority = transition(system, lists.transitions, this.transition).priority;
+    let mut at = last;
+    while at > first {
+        let before = lists.entries[at - 1];
+        if transition(system, lists.transitions, before.transition).priority >= priority {
+            return;
+        }
+        lists.entries[at] = before;
+        lists.entries[at - 1] = this;
+        at -= 1;
+    }
+}
+
+/// The transition of a number.
+const fn transition<'s>(
+    system: &System<'s>,
+    firsts: &[u16],
+    number: u16,
+) -> &'s crate::net::data::Transition<'s> {
+    let mut component = 0;
+    while component + 2 < firsts.len() && firsts[component + 1] <= number {
+        component += 1;
+    }
+    &system.components[component].net.transitions[(number - firsts[component]) as usize]
+}
+
+/// See [`Words::restless`]: the first place that each transition needs which fires at once by
+/// itself.
+const fn restless<const W: usize>(
+    system: &System<'_>,
+    lists: &Lists<'_, W>,
+    words: &Words<W>,
+) -> [u64; W] {
+    let mut restless = [0; W];
+    let mut at = 0;
+    while at < lists.entries.len() {
+        let entry = &lists.entries[at];
+        let it = transition(system, lists.transitions, entry.transition);
+        if is_of(it, Kind::AtOnce) {
+            let mut field = 0;
+            while field < lists.fields.len() && lists.fields[field].of(&entry.need) == 0 {
+                field += 1;
+            }
+            if field < lists.fields.len() {
+                let field = lists.fields[field];
+                restless[field.word as usize] |= field.mask() << field.shift;
+            } else {
+                restless[0] |= words.guards[0];
+            }
+        }
+        at += 1;
+    }
+    restless
+}
+
+/// Clocks, in the order of the entries.
+const fn clocks<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
+    let (mut at, mut clock) = (0, 0);
+    while at < lists.entries.len() {
+        let it = transition(system, lists.transitions, lists.entries[at].transition);
+        if let Some(within) = it.within {
+            let latest = match within.latest {
+                Some(latest) => latest,
+                None => u32::MAX,
+            };
+            lists.entries[at].clock = clock as u16;
+            lists.clocks[clock] = Clock {
+                need: lists.entries[at].need,
+                entry: at as u16,
+                event: it.on.is_some(),
+                earliest: within.earliest,
+                latest,
+            };
+            clock += 1;
+        }
+        at += 1;
+    }
+}
+
+/// Routes, by transition, and what is cleared.
+const fn say<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
+    let (mut number, mut route, mut component) = (0, 0, 0);
+    while component < system.components.len() && lists.says.len() > 0 {
+        let net = system.components[component].net;
+        let mut at = 0;
+        while at < net.transitions.len() {
+            lists.says[number] = route as u16;
+            number += 1;
+            let mut said = 0;
+            while said < net.transitions[at].emits.len() {
+                let from = Of { component: component as u16, id: net.transitions[at].emits[said] };
+                route = follow(system, lists, from, route);
+                said += 1;
+            }
+            at += 1;
+        }
+        component += 1;
+    }
+    if lists.says.len() > 0 {
+        lists.says[number] = route as u16;
+    }
+    let mut at = 0;
+    while at < system.clears.len() {
+        let clear = system.clears[at];
+        let first = lists.events[clear.on.component as usize];
+        let emptied = mailbox_of(lists.mailboxes, first + clear.mailbox.0 as u16);
+        lists.clears[at] = (first + clear.on.id.0 as u16, emptied);
+        at += 1;
+    }
+}
+
+/// Adds the routes of an output; how many there are then.
+const fn follow<const W: usize>(
+    system: &System<'_>,
+    lists: &mut Lists<'_, W>,
+    from: Of<OutputId>,
+    mut route: usize,
+) -> usize {
+    let mut link = 0;
+    while link < system.links.len() {
+        let it = system.links[link];
+        if it.from.component == from.component && it.from.id.0 == from.id.0 {
+            let event = lists.events[it.to.component as usize] + it.to.id.0 as u16;
+            let mailbox = match it.delivery {
+                Delivery::Now => NONE,
+                Delivery::Mail { .. } => mailbox_of(lists.mailboxes, event),
+            };
+            lists.routes[route] = Route { event, mailbox };
+            route += 1;
+        }
+        link += 1;
+    }
+    route
+}
+
+/// What places ignore on purpose.
+const fn ignore<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
+    let (mut component, mut count) = (0, 0);
+    while component < system.components.len() {
+        let ignored = system.components[component].net.ignored;
+        let mut at = 0;
+        while at < ignored.len() {
+            lists.ignored[count] = (
+                lists.events[component] + ignored[at].event.0 as u16,
+                lists.places[component] + ignored[at].place.0 as u16,
+            );
+            count += 1;
+            at += 1;
+        }
+        component += 1;
+    }
+}

@@ -1,0 +1,240 @@
+//! What a [`Player`](super::Player) plays: a packed system and the names in it.
+
+use super::code::Code;
+use crate::net::data::{EventId, Net, OutputId, TransitionId};
+use crate::system::data::{Of, System};
+use core::fmt::Debug;
+
+/// An event, with what it carries along.
+pub trait Kind {
+    /// Which event it is. What it carries along cannot decide anything.
+    fn id(&self) -> Of<EventId>;
+}
+
+/// Of a net alone.
+impl Kind for EventId {
+    #[inline]
+    fn id(&self) -> Of<EventId> {
+        Of { component: 0, id: *self }
+    }
+}
+
+impl Kind for Of<EventId> {
+    #[inline]
+    fn id(&self) -> Of<EventId> {
+        *self
+    }
+}
+
+/// The names in a system, as types.
+pub trait Names {
+    /// Its events.
+    type Event: Kind;
+    /// The lines of its definition.
+    type Transition: Copy + Debug + PartialEq;
+    /// Its outputs.
+    type Output: Copy + Debug + PartialEq;
+
+    /// The line of a transition.
+    fn transition(&self, id: Of<TransitionId>) -> Self::Transition;
+
+    /// The `at`-th of what a transition says.
+    fn output(&self, id: Of<TransitionId>, at: usize) -> Option<Self::Output>;
+}
+
+/// A system, or a net alone, that can be played. [`net!`](crate::net!) and
+/// [`system!`](crate::system!) make one without any bytes; [`Loaded`] is one made at run time.
+///
+/// `W` is the number of words of a marking, `C` that of transitions with an interval, and `S` that
+/// of all that can wait in mailboxes: a player of other sizes does not compile.
+pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names {
+    /// The packed system.
+    fn code(&self) -> Code<'_, W>;
+
+    /// The system as plain data.
+    fn system(&self) -> System<'_>;
+
+    /// What each transition of a net alone takes, by its number: for
+    /// [steps](super::Player::step).
+    fn takes(&self, transition: u16) -> [u64; W];
+
+    /// Of a net alone the `at`-th transition by priority, then by number: its position in
+    /// [`Code::entries`]. A system of several nets has none.
+    fn ordered(&self, at: usize) -> Option<u16>;
+}
+
+/// A net whose `Role::State` places are those of a state machine, or are not.
+pub trait StateMachine {
+    /// Its places.
+    type State: Copy + 'static;
+    /// All of them.
+    const STATES: &'static [Self::State];
+    /// Whether exactly one of them is marked at any time.
+    const IS_ONE: bool;
+}
+
+/// What synchronous steps need besides the code, for a net of `T` transitions.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps<const T: usize, const W: usize> {
+    /// What each transition takes, by its number.
+    pub takes: [[u64; W]; T],
+    /// Positions in [`Code::entries`] by priority, then by number.
+    pub order: [u16; T],
+}
+
+impl<const T: usize, const W: usize> Steps<T, W> {
+    /// Those of a net alone of `T` transitions.
+    pub const fn of(system: &System<'_>, code: &Code<'_, W>) -> Self {
+        let net = system.components[0].net;
+        let mut steps = Self { takes: [[0; W]; T], order: [0; T] };
+        let mut at = 0;
+        while at < T {
+            let number = code.entries[at].transition as usize;
+            let mut arc = 0;
+            while arc < net.transitions[number].take.len() {
+                let it = net.transitions[number].take[arc];
+                let field = code.fields[it.place.0 as usize];
+                steps.takes[number][field.word as usize] += field.tokens(it.weight);
+                arc += 1;
+            }
+            at += 1;
+        }
+        order(net, code, &mut steps.order);
+        steps
+    }
+}
+
+/// Positions of entries of a net alone, by priority, then by number.
+pub(super) const fn order<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, order: &mut [u16]) {
+    let mut at = 0;
+    while at < order.len() {
+        let number = code.entries[at].transition as usize;
+        let this = net.transitions[number].priority;
+        let mut place = at;
+        while place > 0 {
+            let before = code.entries[order[place - 1] as usize].transition as usize;
+            let high = net.transitions[before].priority;
+            if high > this || high == this && before < number {
+                break;
+            }
+            order[place] = order[place - 1];
+            place -= 1;
+        }
+        order[place] = at as u16;
+        at += 1;
+    }
+}
+
+/// A system made at run time, packed.
+#[derive(Clone, Copy, Debug)]
+pub struct Loaded<'c, const W: usize, const C: usize = 0, const S: usize = 0> {
+    pub(super) system: System<'c>,
+    pub(super) code: Code<'c, W>,
+    pub(super) order: &'c [u16],
+}
+
+impl<const W: usize, const C: usize, const S: usize> Loaded<'_, W, C, S> {
+    /// The same where it is known that no bound is ever exceeded: by a proof of the caller's.
+    #[must_use]
+    pub fn bounded(self) -> Self {
+        Self { code: Code { bounded: true, ..self.code }, ..self }
+    }
+}
+
+impl<const W: usize, const C: usize, const S: usize> Names for Loaded<'_, W, C, S> {
+    type Event = Of<EventId>;
+    type Transition = Of<TransitionId>;
+    type Output = Of<OutputId>;
+
+    #[inline]
+    fn transition(&self, id: Of<TransitionId>) -> Of<TransitionId> {
+        id
+    }
+
+    fn output(&self, id: Of<TransitionId>, at: usize) -> Option<Of<OutputId>> {
+        let net = self.system.components.get(usize::from(id.component))?.net;
+        let output = *net.transitions.get(id.id.0 as usize)?.emits.get(at)?;
+        Some(Of { component: id.component, id: output })
+    }
+}
+
+impl<const W: usize, const C: usize, const S: usize> Program<W, C, S> for Loaded<'_, W, C, S> {
+    #[inline]
+    fn code(&self) -> Code<'_, W> {
+        self.code
+    }
+
+    fn system(&self) -> System<'_> {
+        self.system
+    }
+
+    fn takes(&self, transition: u16) -> [u64; W] {
+        let mut take = [0_u64; W];
+        let net = self.system.components.first().map(|it| it.net);
+        let transition = net.and_then(|it| it.transitions.get(usize::from(transition)));
+        for arc in transition.map_or(&[][..], |it| it.take) {
+            if let Some(field) = self.code.fields.get(arc.place.0 as usize)
+                && let Some(word) = take.get_mut(usize::from(field.word))
+            {
+                *word = word.wrapping_add(field.tokens(arc.weight));
+            }
+        }
+        take
+    }
+
+    fn ordered(&self, at: usize) -> Option<u16> {
+        self.order.get(at).copied()
+    }
+}
+
+/// A program of which nothing is taken to be proven: every firing is checked against the bounds.
+/// Laws speak of what a player does from its start on by [offers](super::Player::offer) and time;
+/// where a marking may be another one, after a [restore](super::Player::restore) or a synchronous
+/// [step](super::Player::step), only a checked program can be played. `net!` and `system!` name
+/// such a player `Checked`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Checked<P>(pub P);
+
+impl<P: Names> Names for Checked<P> {
+    type Event = P::Event;
+    type Transition = P::Transition;
+    type Output = P::Output;
+
+    #[inline]
+    fn transition(&self, id: Of<TransitionId>) -> P::Transition {
+        self.0.transition(id)
+    }
+
+    #[inline]
+    fn output(&self, id: Of<TransitionId>, at: usize) -> Option<P::Output> {
+        self.0.output(id, at)
+    }
+}
+
+impl<P, const W: usize, const C: usize, const S: usize> Program<W, C, S> for Checked<P>
+where
+    P: Program<W, C, S>,
+{
+    #[inline]
+    fn code(&self) -> Code<'_, W> {
+        Code { bounded: false, settle: super::SETTLE, ..self.0.code() }
+    }
+
+    fn system(&self) -> System<'_> {
+        self.0.system()
+    }
+
+    fn takes(&self, transition: u16) -> [u64; W] {
+        self.0.takes(transition)
+    }
+
+    fn ordered(&self, at: usize) -> Option<u16> {
+        self.0.ordered(at)
+    }
+}
+
+impl<P: StateMachine> StateMachine for Checked<P> {
+    type State = P::State;
+    const STATES: &'static [P::State] = P::STATES;
+    const IS_ONE: bool = P::IS_ONE;
+}
