@@ -53,13 +53,17 @@ stored! { u8 u16 u32 u64 }
 
 /// A stored marking, with its clocks and what waits in mailboxes.
 ///
-/// Only a player makes one, or [`Snapshot::read`] from bytes whose checksum is right.
+/// A player makes one, or [`Snapshot::read`] from bytes whose checksum is right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Snapshot<const W: usize, const C: usize = 0, const S: usize = 0, M = ()> {
-    fingerprint: u64,
-    marking: [u64; W],
-    clocks: [u32; C],
-    slots: [M; S],
+    /// Which system, in which version: [`Code::fingerprint`].
+    pub fingerprint: u64,
+    /// The packed marking.
+    pub marking: [u64; W],
+    /// For each transition with an interval, how long it has been enabled, in milliseconds.
+    pub clocks: [u32; C],
+    /// What waits in mailboxes carries along; where nothing waits, anything.
+    pub slots: [M; S],
 }
 
 /// Why a stored marking is refused.
