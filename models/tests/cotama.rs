@@ -1,8 +1,9 @@
 //! The composed supervisors against the state counts of an independent exploration.
 #![allow(missing_docs)]
 
-use cotama_core::net::{EventId, TransitionId};
-use cotama_core::system::{Happening, Of, Offered};
+use cotama_core::net::EventId;
+use cotama_core::player::Outcome;
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{decision, environment};
 use std::collections::{BTreeSet, HashMap};
@@ -13,7 +14,7 @@ const NOW: Millis = Millis(0);
 /// as counted by two other programs for the same model.
 #[test]
 fn the_rounds_reach_4166_states() {
-    let first = decision::Player::<()>::new();
+    let first = decision::Player::new();
     let mut seen = HashMap::from([(*first.marking(), 0_usize)]);
     let (mut states, mut edges) = (vec![first], 0);
     let mut fired = BTreeSet::new();
@@ -21,21 +22,17 @@ fn the_rounds_reach_4166_states() {
     while let Some(&state) = states.get(at) {
         at += 1;
         let mut after = state;
-        let mut witness = |happening: &Happening<()>| {
-            if let Happening::Fired { transition: Of { component, id: TransitionId(id) }, .. } =
-                happening
-            {
-                fired.insert((*component, *id));
-            }
+        let mut observer = |firing: &decision::Firing<'_>| {
+            fired.insert((firing.id.component, firing.id.id.0));
         };
-        assert_eq!(after.round(NOW, &mut witness).waiting, 0, "no mailbox is ever full");
+        assert_eq!(after.round_with(NOW, &mut observer).waiting, 0, "no mailbox is ever full");
         let events = (0..environment::NET.events.len()).map(|event| Some(EventId(event as u32)));
         for event in std::iter::once(None).chain(events) {
             let mut next = after;
             if let Some(id) = event {
-                match next.offer(NOW, Of { component: 5, id }, (), &mut witness) {
-                    Offered::Fired(_) => {}
-                    Offered::Ignored => continue,
+                match next.offer_id(NOW, Of { component: 5, id }, (), &mut observer) {
+                    Outcome::Fired { .. } => {}
+                    Outcome::Ignored { .. } => continue,
                     other => panic!("{other:?}"),
                 }
             }

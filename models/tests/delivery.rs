@@ -1,8 +1,9 @@
 //! The shipped supervisors, explored in rounds by players.
 #![allow(missing_docs)]
 
-use cotama_core::net::{EventId, TransitionId};
-use cotama_core::system::{Happening, Of, Offered};
+use cotama_core::net::EventId;
+use cotama_core::player::Outcome;
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::delivery;
 use std::collections::{BTreeSet, HashSet};
@@ -21,7 +22,7 @@ fn outside() -> Vec<Of<EventId>> {
 /// The checker counts the same on the net of rounds.
 #[test]
 fn the_shipped_supervisors_reach_31266_states_by_327040_steps() {
-    let first = delivery::Player::<()>::new();
+    let first = delivery::Player::new();
     let mut seen = HashSet::from([*first.marking()]);
     let (mut states, mut edges) = (vec![first], 0);
     let mut fired = BTreeSet::new();
@@ -30,20 +31,16 @@ fn the_shipped_supervisors_reach_31266_states_by_327040_steps() {
     while let Some(&state) = states.get(at) {
         at += 1;
         let mut after = state;
-        let mut witness = |happening: &Happening<()>| {
-            if let Happening::Fired { transition: Of { component, id: TransitionId(id) }, .. } =
-                happening
-            {
-                fired.insert((*component, *id));
-            }
+        let mut observer = |firing: &delivery::Firing<'_>| {
+            fired.insert((firing.id.component, firing.id.id.0));
         };
-        assert_eq!(after.round(NOW, &mut witness).waiting, 0, "no mailbox is ever full");
+        assert_eq!(after.round_with(NOW, &mut observer).waiting, 0, "no mailbox is ever full");
         for event in std::iter::once(None).chain(outside.iter().map(Some)) {
             let mut next = after;
             if let Some(id) = event {
-                match next.offer(NOW, *id, (), &mut witness) {
-                    Offered::Fired(_) => {}
-                    Offered::Ignored => continue,
+                match next.offer_id(NOW, *id, (), &mut observer) {
+                    Outcome::Fired { .. } => {}
+                    Outcome::Ignored { .. } => continue,
                     other => panic!("{other:?}"),
                 }
             }

@@ -2,7 +2,7 @@
 #![allow(missing_docs)]
 
 use cotama_core::net::{EventId, PlaceId};
-use cotama_core::system::{Of, Offered};
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
 use cotama_models::cotama::decision;
@@ -61,7 +61,7 @@ system! {
     }
 }
 
-type Shop = shop::Player<()>;
+type Shop = shop::Player;
 
 /// What a player holds in a place of the flat net.
 fn tokens(player: &Shop, name: &str) -> u32 {
@@ -71,7 +71,7 @@ fn tokens(player: &Shop, name: &str) -> u32 {
     let component = at as u16;
     let waiting = |name: &str| {
         let event = net.events.iter().position(|it| it.name == name).unwrap();
-        player.waiting(Of { component, id: EventId(event as u32) })
+        player.waiting(&Of { component, id: EventId(event as u32) })
     };
     let capacity = |name: &str| if name == "job" { 2 } else { 1 };
     match rest.rsplit_once('.') {
@@ -119,11 +119,11 @@ fn every_state_of_the_rounds_is_one_of_the_interleavings() {
         assert!(reached.contains(&flattened), "{:?} {flattened:?}", pt.places);
         if known.insert(*state.marking()) {
             let mut after = state;
-            let _ = after.round(Millis(0), &mut ());
+            let _ = after.round(Millis(0));
             states.push(after);
             for &event in &events {
                 let mut one = state;
-                if let Offered::Fired(_) = one.offer(Millis(0), event, (), &mut ()) {
+                if one.offer_id(Millis(0), event, (), &mut ()).fired() {
                     states.push(one);
                 }
             }

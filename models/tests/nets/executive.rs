@@ -1,7 +1,7 @@
 //! The executive of the core and the nets of its watchdogs do the same, event by event.
 
 use cotama_core::executive::{Executive, Happening, Stage, Task, What};
-use cotama_core::player::{Firing, Outcome, Why};
+use cotama_core::player::{Outcome, Why};
 use cotama_core::units::{Micros, Millis};
 use cotama_models::watchdog;
 use proptest::prelude::*;
@@ -41,12 +41,11 @@ macro_rules! follow {
         /// Tells the net what the executive says has happened; the net does the same, now, and
         /// nothing else.
         fn $name(player: &mut $name::Player, it: Happening, executive: &Executive<3>) {
-            use $name::{Event, Output, Place, State, Transition as T};
+            use $name::{Event, Firing, Output, Place, State, Transition as T};
             let now = Millis(it.at.0 / 1_000);
             let mut fired = vec![];
-            let mut observer = |of: &Firing<'_, _, T, Output>| {
-                fired.push((of.transition, of.at, of.outputs.to_vec()))
-            };
+            let mut observer =
+                |of: &Firing<'_>| fired.push((of.transition, of.at, of.outputs().collect()));
             match it.what {
                 What::Released => {
                     assert!(player.offer_with(now, &Event::Release, &mut observer).fired())

@@ -6,7 +6,7 @@ use crate::matrix::{matrix, said};
 use crate::textbook::{Marking, explore, settled, words};
 use crate::time::{Timed, turning_points};
 use cotama_core::net::{Known, MARKINGS, Net, PlaceId};
-use cotama_core::player::{Outcome, Player, Program, Snapshot, Why};
+use cotama_core::player::{Checked, Outcome, Player, Program, Snapshot, Why};
 use cotama_core::units::Millis;
 use cotama_models::nets::{ace, charger, crossing, door, watchdog};
 use std::collections::HashSet;
@@ -15,7 +15,7 @@ use std::collections::HashSet;
 /// after another.
 type Counts = (usize, usize, usize, usize);
 
-fn play<P: Program<W> + Copy, const W: usize, const C: usize>(
+fn play<P: Program<W, C> + Copy, const W: usize, const C: usize>(
     program: P,
     net: &Net<'_>,
     known: Known,
@@ -82,12 +82,13 @@ fn clocks(net: &Net<'_>, marking: &Marking) -> Vec<Vec<u64>> {
     })
 }
 
-fn restored<P: Program<W>, const W: usize, const C: usize>(
+fn restored<P: Program<W, C>, const W: usize, const C: usize>(
     program: P,
     timed: &Timed<'_>,
-) -> Player<P, W, C> {
+) -> Player<Checked<P>, W, C> {
     let code = program.code();
-    let mut from = Snapshot { fingerprint: code.fingerprint, marking: [0; W], clocks: [0; C] };
+    let fingerprint = code.fingerprint;
+    let mut from = Snapshot { fingerprint, marking: [0; W], clocks: [0; C], slots: [(); 0] };
     for (field, &tokens) in code.fields.iter().zip(&timed.marking) {
         from.marking[usize::from(field.word)] |= field.tokens(tokens);
     }
@@ -95,11 +96,11 @@ fn restored<P: Program<W>, const W: usize, const C: usize>(
         let transition = code.entries[usize::from(clock.entry)].transition;
         *to = u32::try_from(timed.elapsed[usize::from(transition)]).unwrap();
     }
-    Player::restore(program, Millis(1_000_000), &from).unwrap()
+    Player::restore(Checked(program), Millis(1_000_000), &from).unwrap()
 }
 
 /// The player has the marking and the clocks of the textbook.
-fn same<P: Program<W>, const W: usize, const C: usize>(
+fn same<P: Program<W, C>, const W: usize, const C: usize>(
     player: &Player<P, W, C>,
     timed: &Timed<'_>,
 ) {
@@ -128,7 +129,7 @@ fn answer<T: core::fmt::Debug>(outcome: Outcome<T>) -> String {
         Outcome::Ignored { why: Why::TooLate(transition) } => {
             format!("too late for {transition:?}")
         }
-        Outcome::Ignored { why: why @ (Why::Full(_) | Why::Behind) } => panic!("{why:?}"),
+        other => panic!("{other:?}"),
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::textbook::{Marking, explore, settled};
 use crate::time::{Answer, Timed};
 use cotama_core::net::MARKINGS;
-use cotama_core::player::{Firing, Outcome};
+use cotama_core::player::Outcome;
 use cotama_core::units::Millis;
 use cotama_models::nets::{ace, watchdog};
 
@@ -48,7 +48,7 @@ fn three_misses_in_a_row_are_one_fault_and_two_are_none() {
     ] {
         let (mut player, start) = after(before);
         let mut said = vec![];
-        let mut listen = |firing: &Firing<'_, _, _, Output>| said.extend_from_slice(firing.outputs);
+        let mut listen = |firing: &watchdog::Firing<'_>| said.extend(firing.outputs());
         // The job never ends: its deadline is after 100 ms, and its extra time over 20 ms later.
         assert_eq!(player.advance_with(Millis(start + 119), &mut listen).fired, 1);
         assert_eq!(player.state(), State::Extra);
@@ -124,8 +124,7 @@ fn every_trigger_is_answered_at_once() {
     for first in triggers {
         for second in triggers {
             let (mut ace, mut answers) = (Player::new(), vec![]);
-            let mut listen =
-                |firing: &Firing<'_, _, _, Output>| answers.extend_from_slice(firing.outputs);
+            let mut listen = |firing: &ace::selection::Firing<'_>| answers.extend(firing.outputs());
             assert!(ace.offer_with(Millis(0), &first, &mut listen).fired());
             assert!(ace.offer_with(Millis(0), &second, &mut listen).fired());
             let of = |answer: &Output| {

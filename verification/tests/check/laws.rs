@@ -2,8 +2,9 @@
 //! of them does not, and the player runs into it.
 
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{EventId, Net, PlaceId, TransitionId};
-use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player, clocks, words};
+use cotama_core::net::{Net, PlaceId, TransitionId};
+use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player, words};
+use cotama_core::system::{Component, System};
 use cotama_core::units::Millis;
 use cotama_models::nets::{Model as Shipped, all};
 use cotama_verification::check::{Answer, Choice, Model, Options, Verdict, check_all, laws};
@@ -75,8 +76,7 @@ const CLOCKS: usize = 16;
 /// Whether the player of the core fires just this: each event is offered at its date, all else
 /// comes by itself.
 fn plays(net: &Net<'_>, steps: &[Step]) -> bool {
-    assert!(clocks(net) <= CLOCKS);
-    match words(net) {
+    match words(&System::alone(&[Component::alone(net)])) {
         Some(1) => plays_in::<1>(net, steps),
         Some(2..=4) => plays_in::<4>(net, steps),
         _ => false,
@@ -84,17 +84,18 @@ fn plays(net: &Net<'_>, steps: &[Step]) -> bool {
 }
 
 fn plays_in<const W: usize>(net: &Net<'_>, steps: &[Step]) -> bool {
-    let Ok(packed) = Packed::<W>::of(net) else { return false };
+    let Ok(packed) = Packed::<W, CLOCKS>::alone(net) else { return false };
+    let alone = [Component::alone(net)];
+    let system = System::alone(&alone);
     let mut fired = Vec::new();
-    let mut observer = |it: &Firing<'_, EventId, TransitionId, _>| fired.push((it.id, it.at.0));
-    let mut player =
-        Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
+    let mut observer = |it: &Firing<'_, Loaded<'_, W, CLOCKS>>| fired.push((it.id.id, it.at.0));
+    let mut player = Player::<_, W, CLOCKS>::start(packed.load(&system), Millis(0), &mut observer);
     for step in steps {
         let now = Millis(step.date.parts);
         match net.transitions[step.transition.0 as usize].on {
             Some(event) => {
-                let outcome = player.offer_with(now, &event, &mut observer);
-                if !matches!(outcome, Outcome::Fired { transition, .. } if transition == step.transition)
+                let outcome = player.offer_with(now, &event.into(), &mut observer);
+                if !matches!(outcome, Outcome::Fired { transition, .. } if transition.id == step.transition)
                 {
                     return false;
                 }

@@ -1,9 +1,10 @@
 //! The player of the core fires what a diagnosis says.
 
 use crate::{checked, nets, parse, timed};
+use cotama_core::net::TransitionId;
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{EventId, TransitionId};
-use cotama_core::player::{Loaded, Outcome, Packed, Player, clocks, words};
+use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player, words};
+use cotama_core::system::{Component, System};
 use cotama_core::units::Millis;
 use cotama_models::nets::find;
 use cotama_verification::diagnosis::Run;
@@ -18,8 +19,7 @@ const CLOCKS: usize = 16;
 fn replay(net: &OwnedNet, run: &Run, dates: &[tpn::Step]) {
     let view = net.view();
     let net = view.net();
-    assert!(clocks(&net) <= CLOCKS);
-    match words(&net) {
+    match words(&System::alone(&[Component::alone(&net)])) {
         Some(1) => play::<1>(&net, run, dates),
         Some(2..=4) => play::<4>(&net, run, dates),
         other => panic!("{}: {other:?} words", net.name),
@@ -28,23 +28,23 @@ fn replay(net: &OwnedNet, run: &Run, dates: &[tpn::Step]) {
 
 fn play<const W: usize>(net: &cotama_core::net::Net<'_>, run: &Run, dates: &[tpn::Step]) {
     let pt = Pt::from(net);
-    let packed = Packed::<W>::of(net).unwrap();
+    let packed = Packed::<W, CLOCKS>::alone(net).unwrap();
+    let alone = [Component::alone(net)];
+    let system = System::alone(&alone);
     let expected: Vec<TransitionId> = run.firings().collect();
     let mut fired = Vec::new();
-    let mut observer = |it: &cotama_core::player::Firing<'_, EventId, TransitionId, _>| {
-        fired.push((it.id, it.at.0))
-    };
-    let mut player =
-        Player::<Loaded<'_, W>, W, CLOCKS>::start(packed.load(net), Millis(0), &mut observer);
+    let mut observer = |it: &Firing<'_, Loaded<'_, W, CLOCKS>>| fired.push((it.id.id, it.at.0));
+    let mut player = Player::<_, W, CLOCKS>::start(packed.load(&system), Millis(0), &mut observer);
     for (at, transition) in expected.iter().enumerate() {
         let now = dates.get(at).map(|it| {
             assert_eq!(it.date.per_unit, 1);
             Millis(it.date.parts)
         });
         if let Some(event) = net.transitions[transition.0 as usize].on {
-            let outcome = player.offer_with(now.unwrap_or(player.now()), &event, &mut observer);
+            let outcome =
+                player.offer_with(now.unwrap_or(player.now()), &event.into(), &mut observer);
             let is_it =
-                matches!(outcome, Outcome::Fired { transition: it, .. } if it == *transition);
+                matches!(outcome, Outcome::Fired { transition: it, .. } if it.id == *transition);
             assert!(is_it, "step {}: {outcome:?}", at + 1);
         } else {
             let until = now.or(player.wake_at()).unwrap_or(player.now());

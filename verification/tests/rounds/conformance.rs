@@ -3,8 +3,8 @@
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{EventId, Net, OutputId, Place, PlaceId, Role};
-use cotama_core::player::{Packed, Player};
-use cotama_core::system::{Clear, Component, Delivery, Link, Of, Offered, System};
+use cotama_core::player::{Loaded, Outcome, Packed, Player};
+use cotama_core::system::{Clear, Component, Delivery, Link, Of, System};
 use cotama_core::units::Millis;
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{FlatError, Rounds, Size, rounds};
@@ -38,12 +38,12 @@ fn names(system: &System<'_>) -> Vec<(String, Result<Of<PlaceId>, Of<EventId>>)>
 /// What players reach; `None` when that is much.
 fn played(system: &System<'_>) -> Option<(States, Size)> {
     const NOW: Millis = Millis(0);
-    let packed = Packed::<8>::of(system).unwrap();
-    let first = Player::<_, (), 8, 0, 64>::start(packed.code(), NOW, &mut ());
+    let packed = Packed::<8, 0, 64>::of(system).unwrap();
+    let first = Player::start(packed.load(system), NOW, &mut ());
     let names = names(system);
-    let tokens = |player: &Player<_, (), 8, 0, 64>| {
+    let tokens = |player: &Player<Loaded<'_, 8, 0, 64>, 8, 0, 64>| {
         let of = |it: &(String, Result<_, _>)| {
-            it.1.map_or_else(|event| player.waiting(event), |at| player.tokens(at))
+            it.1.map_or_else(|event| player.waiting(&event), |at| player.tokens(at))
         };
         names.iter().map(of).collect::<Vec<u32>>()
     };
@@ -53,13 +53,13 @@ fn played(system: &System<'_>) -> Option<(States, Size)> {
     let outside: Vec<_> = outside.filter(|&it| system.delivery(it).is_none()).collect();
     let (mut seen, mut next, mut edges) = (States::from([tokens(&first)]), vec![first], 0);
     while let Some(mut player) = next.pop() {
-        let _ = player.round(NOW, &mut ());
+        let _ = player.round(NOW);
         for event in std::iter::once(None).chain(outside.iter().copied().map(Some)) {
             let mut after = player;
             if let Some(event) = event {
-                match after.offer(NOW, event, (), &mut ()) {
-                    Offered::Fired(_) => {}
-                    Offered::Ignored if after.marking() != player.marking() => {}
+                match after.offer(NOW, &event) {
+                    Outcome::Fired { .. } => {}
+                    Outcome::Ignored { .. } if after.marking() != player.marking() => {}
                     _ => continue,
                 }
             }
