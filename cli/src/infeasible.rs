@@ -1,7 +1,7 @@
 //! Why there is no plan, as an answer.
 
 use crate::answers::{Change, Heavy, Kept, Reason, Relaxation, ZoneConstraint};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_models::infeasible::{self, Cause};
 use cotama_models::mission::{AXES, Mission};
 use cotama_models::scenario::Constraint;
@@ -11,7 +11,7 @@ pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];
 
 /// Why a mission has no plan within these limits with this hardware; none if it has one, or if the
 /// search for the explanation was cut short.
-pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Reason> {
+pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Reason> {
     let found = infeasible::explain(mission, limits, available)?;
     let mut reason = match &found.cause {
         Cause::Limit { axis, limit, least } => over(*axis, *limit, *least),

@@ -14,17 +14,17 @@ const GUARDS: u64 = 0x8888_8888_8888_8888;
 /// kinds.
 ///
 /// ```
-/// use cotama_core::hardware::Units;
-/// let sonar_and_two_lasers = Units::NONE.with(0, 1).unwrap().with(1, 2).unwrap();
-/// let one_laser = Units::NONE.with(1, 1).unwrap();
+/// use cotama_core::hardware::Equipment;
+/// let sonar_and_two_lasers = Equipment::NONE.with(0, 1).unwrap().with(1, 2).unwrap();
+/// let one_laser = Equipment::NONE.with(1, 1).unwrap();
 /// assert!(sonar_and_two_lasers.covers(one_laser));
 /// assert!(!one_laser.covers(sonar_and_two_lasers));
 /// assert_eq!(sonar_and_two_lasers.of(1), 2);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Units(u64);
+pub struct Equipment(u64);
 
-impl Units {
+impl Equipment {
     /// No hardware at all.
     pub const NONE: Self = Self(0);
 
@@ -91,8 +91,8 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn units() -> impl Strategy<Value = Units> {
-        any::<u64>().prop_map(|bits| Units(bits & !GUARDS))
+    fn units() -> impl Strategy<Value = Equipment> {
+        any::<u64>().prop_map(|bits| Equipment(bits & !GUARDS))
     }
 
     proptest! {
@@ -119,9 +119,9 @@ mod tests {
 
     #[test]
     fn fields_beyond_the_packing_are_refused() {
-        assert_eq!(Units::NONE.with(MAX_KINDS, 1), None);
-        assert_eq!(Units::NONE.with(0, MAX_UNITS + 1), None);
-        assert_eq!(Units::from_bits(8), None);
-        assert_eq!(Units::NONE.of(MAX_KINDS), 0);
+        assert_eq!(Equipment::NONE.with(MAX_KINDS, 1), None);
+        assert_eq!(Equipment::NONE.with(0, MAX_UNITS + 1), None);
+        assert_eq!(Equipment::from_bits(8), None);
+        assert_eq!(Equipment::NONE.of(MAX_KINDS), 0);
     }
 }

@@ -11,18 +11,18 @@
 //! hardware has come back.
 //!
 //! ```
-//! use cotama_core::hardware::Units;
+//! use cotama_core::hardware::Equipment;
 //! use cotama_core::monitor::{Cause, Monitor, Request};
 //!
 //! let mut monitor = Monitor::new([600_000, 8_640_000], [0, 1]).unwrap();
 //! monitor.planned(&[527_924, 8_563_613]).unwrap();
 //! monitor.spend(&[75_610, 1_377_917]).unwrap();
 //! assert_eq!(monitor.margins(&[452_314, 7_185_696]), Ok([72_076, 76_387]));
-//! let request = monitor.assess(&[452_314, 7_285_696], Units::NONE, Units::NONE);
+//! let request = monitor.assess(&[452_314, 7_285_696], Equipment::NONE, Equipment::NONE);
 //! assert_eq!(request, Ok(Request::Down(Cause::Margin { axis: 1 })));
 //! ```
 
-use crate::hardware::Units;
+use crate::hardware::Equipment;
 use crate::problem::Candidate;
 
 /// The largest amount on an axis: sums of four still fit 64 signed bits.
@@ -187,8 +187,8 @@ impl<const A: usize> Monitor<A> {
     pub fn assess(
         &self,
         rest: &[u64; A],
-        needs: Units,
-        available: Units,
+        needs: Equipment,
+        available: Equipment,
     ) -> Result<Request, AmountOverflow> {
         if !available.covers(needs) {
             return Ok(Request::Down(Cause::Hardware));
@@ -243,14 +243,17 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const ALL: Units = Units::NONE;
+    const ALL: Equipment = Equipment::NONE;
 
     #[test]
     fn a_lost_unit_is_named_before_a_margin() {
         let mut monitor = Monitor::new([10, 10], [0, 1]).unwrap();
         monitor.spend(&[20, 20]).unwrap();
-        let laser = Units::NONE.with(0, 1).unwrap();
-        assert_eq!(monitor.assess(&[0, 0], laser, Units::NONE), Ok(Request::Down(Cause::Hardware)));
+        let laser = Equipment::NONE.with(0, 1).unwrap();
+        assert_eq!(
+            monitor.assess(&[0, 0], laser, Equipment::NONE),
+            Ok(Request::Down(Cause::Hardware))
+        );
         assert_eq!(
             monitor.assess(&[0, 0], laser, laser),
             Ok(Request::Down(Cause::Margin { axis: 0 }))

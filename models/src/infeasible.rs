@@ -37,7 +37,7 @@ mod wording;
 use crate::mission::Mission;
 use crate::scenario::Constraint;
 use cotama_core::exact::Objective;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use std::cmp::Ordering;
 use trials::{Found, Plan, Trial, Trials};
 
@@ -91,7 +91,7 @@ pub enum Cause {
         activity: usize,
         /// What its alternatives need of the kinds of which too few work: each alternative needs at
         /// least one of these. Never empty, and none covers another.
-        lacks: Vec<Units>,
+        lacks: Vec<Equipment>,
         /// The constraints, with the index of their zone, that exclude some combination of its
         /// options.
         constraints: Vec<(usize, Constraint)>,
@@ -172,7 +172,7 @@ pub enum Relaxation {
 
 /// Explains why a mission has no plan within `limits` (ms and mJ, inclusive) with the `available`
 /// hardware; `None` when it has one.
-pub fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Explanation> {
+pub fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Explanation> {
     explain_within(mission, limits, available, STEPS)
 }
 
@@ -180,7 +180,7 @@ pub fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<
 pub fn explain_within(
     mission: &Mission,
     limits: [u64; 2],
-    available: Units,
+    available: Equipment,
     steps: u64,
 ) -> Option<Explanation> {
     let mut trials = Trials::new(mission, steps);
@@ -209,20 +209,20 @@ pub fn explain_within(
     Some(Explanation { cause, heaviest, relaxations, complete: trials.complete() })
 }
 
-fn no_alternative(mission: &Mission, available: Units) -> Option<Cause> {
+fn no_alternative(mission: &Mission, available: Equipment) -> Option<Cause> {
     let activities = &mission.scenario().activities;
     let mut empty = activities.iter().enumerate().filter_map(|(index, activity)| {
         activity.alternatives.iter().all(|it| !available.covers(it.needs)).then_some(index)
     });
     let activity = empty.next()?;
     let others = empty.collect();
-    let short = |needs: Units| {
+    let short = |needs: Equipment| {
         let kinds = 0..mission.hardware.len();
         let short = kinds.filter(|&kind| needs.of(kind) > available.of(kind));
-        short.fold(Units::NONE, |all, kind| all.with(kind, needs.of(kind)).unwrap_or(all))
+        short.fold(Equipment::NONE, |all, kind| all.with(kind, needs.of(kind)).unwrap_or(all))
     };
     let all: Vec<_> = activities[activity].alternatives.iter().map(|it| short(it.needs)).collect();
-    let least = |one: &Units| all.iter().all(|other| other == one || !one.covers(*other));
+    let least = |one: &Equipment| all.iter().all(|other| other == one || !one.covers(*other));
     let mut lacks: Vec<_> = all.iter().copied().filter(least).collect();
     lacks.sort_unstable_by_key(|units| units.to_bits());
     lacks.dedup();
@@ -355,8 +355,8 @@ fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) 
     let now = as_is.available;
     let kinds = mission.hardware.iter().enumerate();
     let lost: Vec<_> = kinds.filter(|(kind, it)| now.of(*kind) < it.units).collect();
-    let mut with = |available: Units| trials.feasible(&Trial { available, ..as_is.clone() });
-    let keep = |units: Units, kind: usize, count: u8| units.with(kind, count).unwrap_or(units);
+    let mut with = |available: Equipment| trials.feasible(&Trial { available, ..as_is.clone() });
+    let keep = |units: Equipment, kind: usize, count: u8| units.with(kind, count).unwrap_or(units);
 
     let mut found = Vec::new();
     for &(hardware, it) in &lost {
@@ -414,8 +414,8 @@ impl Relaxation {
         &self,
         mission: &Mission,
         mut limits: [u64; 2],
-        mut available: Units,
-    ) -> Option<(Mission, [u64; 2], Units)> {
+        mut available: Equipment,
+    ) -> Option<(Mission, [u64; 2], Equipment)> {
         let mut changed = None;
         match self {
             Self::RaiseLimit { axis, to, .. } => *limits.get_mut(*axis)? = *to,

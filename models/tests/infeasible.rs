@@ -4,7 +4,7 @@
 #![cfg(feature = "std")]
 #![allow(clippy::cast_precision_loss)] // shares are compared roughly
 
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_models::embedded;
 use cotama_models::infeasible::{Cause, Explanation, Relaxation, explain, explain_within};
 use cotama_models::mission::Mission;
@@ -34,7 +34,7 @@ fn patrol() -> Mission {
 /// Every pair of total duration and energy that no other beats, with this hardware: none where an
 /// activity has no alternative. No search, and no allocator: sums over the activities, one after
 /// the other.
-fn front(mission: &Mission, available: Units) -> Vec<[u64; 2]> {
+fn front(mission: &Mission, available: Equipment) -> Vec<[u64; 2]> {
     let mut front = vec![[0, 0]];
     for activity in mission.scenario().activities() {
         let mut next = Vec::new();
@@ -53,7 +53,7 @@ fn front(mission: &Mission, available: Units) -> Vec<[u64; 2]> {
     front
 }
 
-fn feasible(mission: &Mission, limits: [u64; 2], available: Units) -> bool {
+fn feasible(mission: &Mission, limits: [u64; 2], available: Equipment) -> bool {
     front(mission, available).iter().any(|cost| cost[0] <= limits[0] && cost[1] <= limits[1])
 }
 
@@ -62,7 +62,7 @@ fn suffices(
     relaxation: &Relaxation,
     mission: &Mission,
     limits: [u64; 2],
-    available: Units,
+    available: Equipment,
 ) -> bool {
     let (mission, limits, available) = relaxation.apply(mission, limits, available).unwrap();
     feasible(&mission, limits, available)
@@ -104,7 +104,7 @@ fn less(relaxation: &Relaxation) -> Vec<Relaxation> {
 }
 
 /// What every complete explanation promises.
-fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Units) {
+fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Equipment) {
     assert!(why.complete);
     for relaxation in &why.relaxations {
         assert!(
@@ -305,7 +305,7 @@ fn without_the_sonar_the_glazed_zones_have_no_alternative() {
     let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
     let cause = Cause::NoAlternative {
         activity: 1,
-        lacks: vec![Units::NONE.with(SONAR, 1).unwrap()],
+        lacks: vec![Equipment::NONE.with(SONAR, 1).unwrap()],
         constraints: vec![(zone("glass-out"), Constraint::Hardware)],
         others: vec![2, 6, 9, 15],
     };

@@ -5,7 +5,7 @@ use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Run};
 use crate::streams::Streams;
 use crate::world::World;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{AmountOverflow, Monitor};
 use cotama_core::problem::Candidate;
 use cotama_core::units::Millis;
@@ -172,7 +172,7 @@ impl<'m> Simulation<'m> {
     }
 
     /// All hardware of the robot.
-    pub(crate) fn all_hardware(&self) -> Units {
+    pub(crate) fn all_hardware(&self) -> Equipment {
         self.mission.scenario().available
     }
 

@@ -7,7 +7,7 @@ use crate::scenario::{Constraint, PlannedActivity, Scenario};
 use crate::tables::Alternative;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ const COMBINATIONS_A_STEP: u64 = 8;
 #[derive(Clone)]
 pub(super) struct Trial<'t> {
     pub(super) limits: [u64; 2],
-    pub(super) available: Units,
+    pub(super) available: Equipment,
     /// The constraints that do not count, sorted.
     pub(super) lifted: &'t [(usize, Constraint)],
     /// The objectives left out.
@@ -44,7 +44,7 @@ pub(super) enum Found {
 /// A combination of options, and what keeps it from being an alternative.
 struct Way<'m> {
     candidate: Candidate<2>,
-    needs: Units,
+    needs: Equipment,
     by: &'m [(usize, Constraint)],
 }
 

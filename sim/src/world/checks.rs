@@ -4,7 +4,7 @@ use super::{MAX_CHECKS, MAX_REPLANS, World};
 use crate::record::Recorder;
 use crate::run::{Cause, Reason};
 use crate::trace::Outcome;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{self, MAX_AMOUNT, Request};
 use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
 use cotama_models::tables::{DURATION, ENERGY};
@@ -78,7 +78,7 @@ impl World<'_> {
     }
 
     /// The planned cost and the needs of what is left.
-    fn remaining(&self) -> ([u64; 2], Units) {
+    fn remaining(&self) -> ([u64; 2], Equipment) {
         let first = self.first_remaining();
         let (later, needs) = self.rest[(self.activity + 1).min(self.choice.len())];
         if first > self.activity {

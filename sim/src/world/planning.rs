@@ -6,7 +6,7 @@ use crate::run::{Cause, NoPlan, PlanMade};
 use crate::setup::NM_PER_MM;
 use crate::solver::NotFound;
 use crate::trace::Record;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::worst;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{Millimetres, mul_div_half_up};
@@ -213,7 +213,7 @@ impl World<'_> {
 }
 
 /// The candidates of a rest with this hardware; one whose cost does not fit is none.
-fn candidates(activity: &Activity<'_>, rest: Rest, available: Units) -> Vec<Candidate<2>> {
+fn candidates(activity: &Activity<'_>, rest: Rest, available: Equipment) -> Vec<Candidate<2>> {
     let working =
         activity.alternatives.iter().zip(0u16..).filter(|(it, _)| available.covers(it.needs));
     working.filter_map(|(it, id)| it.candidate(rest, id)).collect()
