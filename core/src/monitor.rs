@@ -12,14 +12,14 @@
 //!
 //! ```
 //! use cotama_core::hardware::Equipment;
-//! use cotama_core::monitor::{Cause, Monitor, Request};
+//! use cotama_core::monitor::{Trigger, Monitor, Request};
 //!
 //! let mut monitor = Monitor::new([600_000, 8_640_000], [0, 1]).unwrap();
 //! monitor.planned(&[527_924, 8_563_613]).unwrap();
 //! monitor.spend(&[75_610, 1_377_917]).unwrap();
 //! assert_eq!(monitor.margins(&[452_314, 7_185_696]), Ok([72_076, 76_387]));
 //! let request = monitor.assess(&[452_314, 7_285_696], Equipment::NONE, Equipment::NONE);
-//! assert_eq!(request, Ok(Request::Down(Cause::Margin { axis: 1 })));
+//! assert_eq!(request, Ok(Request::Down(Trigger::Margin { axis: 1 })));
 //! ```
 
 use crate::hardware::Equipment;
@@ -59,14 +59,14 @@ pub enum Request {
     /// Nothing; go on.
     Keep,
     /// A plan that needs less.
-    Down(Cause),
+    Down(Trigger),
     /// A better plan, within [`Monitor::room`].
     Up,
 }
 
 /// Why a plan no longer holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
+pub enum Trigger {
     /// The margin of this axis is below zero.
     Margin {
         /// The axis, the first in the order of treatment.
@@ -191,13 +191,13 @@ impl<const A: usize> Monitor<A> {
         available: Equipment,
     ) -> Result<Request, AmountOverflow> {
         if !available.covers(needs) {
-            return Ok(Request::Down(Cause::Hardware));
+            return Ok(Request::Down(Trigger::Hardware));
         }
         let margins = self.margins(rest)?;
         if let Some(axis) =
             self.order.into_iter().find(|&axis| margins.get(axis).is_some_and(|&it| it < 0))
         {
-            return Ok(Request::Down(Cause::Margin { axis }));
+            return Ok(Request::Down(Trigger::Margin { axis }));
         }
         let Some(upward) = self.upward else { return Ok(Request::Keep) };
         let reserve_kept =
@@ -252,11 +252,11 @@ mod tests {
         let laser = Equipment::NONE.with(0, 1).unwrap();
         assert_eq!(
             monitor.assess(&[0, 0], laser, Equipment::NONE),
-            Ok(Request::Down(Cause::Hardware))
+            Ok(Request::Down(Trigger::Hardware))
         );
         assert_eq!(
             monitor.assess(&[0, 0], laser, laser),
-            Ok(Request::Down(Cause::Margin { axis: 0 }))
+            Ok(Request::Down(Trigger::Margin { axis: 0 }))
         );
     }
 
@@ -265,7 +265,7 @@ mod tests {
         let mut monitor = Monitor::new([10], [0]).unwrap();
         monitor.spend(&[4]).unwrap();
         assert_eq!(monitor.assess(&[6], ALL, ALL), Ok(Request::Keep));
-        assert_eq!(monitor.assess(&[7], ALL, ALL), Ok(Request::Down(Cause::Margin { axis: 0 })));
+        assert_eq!(monitor.assess(&[7], ALL, ALL), Ok(Request::Down(Trigger::Margin { axis: 0 })));
     }
 
     #[test]

@@ -30,10 +30,10 @@ impl World<'_> {
             Ok(Request::Keep) | Err(_) => {}
             Ok(_) if self.first_remaining() == self.choice.len() => {}
             Ok(Request::Up) => self.plan_upwards(&rest, margins, recorder),
-            Ok(Request::Down(cause)) => {
-                let cause = match cause {
-                    monitor::Cause::Margin { axis } => Cause::Margin { axis },
-                    monitor::Cause::Hardware => {
+            Ok(Request::Down(trigger)) => {
+                let cause = match trigger {
+                    monitor::Trigger::Margin { axis } => Cause::Margin { axis },
+                    monitor::Trigger::Hardware => {
                         Cause::Hardware { hardware: self.lost.0, units: self.lost.1 }
                     }
                 };
