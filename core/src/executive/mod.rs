@@ -52,6 +52,6 @@ mod task;
 mod tests;
 
 pub use latest::{Latest, Publication};
-pub use response::{ITERATIONS, Overruns, Unschedulable};
+pub use response::{Overruns, Unschedulable};
 pub use scheduler::{Executive, Happening, NotRunning, Watchdog, What};
-pub use task::{Senseless, Task, TaskError, TaskSet};
+pub use task::{ITERATIONS, Senseless, Task, TaskError, TaskSet};
