@@ -91,26 +91,28 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn units() -> impl Strategy<Value = Equipment> {
+    fn equipment() -> impl Strategy<Value = Equipment> {
         any::<u64>().prop_map(|bits| Equipment(bits & !GUARDS))
     }
 
     proptest! {
         #[test]
-        fn covering_is_comparing_every_kind(have in units(), need in units()) {
+        fn covering_is_comparing_every_kind(have in equipment(), need in equipment()) {
             let each = (0..MAX_KINDS).all(|kind| have.of(kind) >= need.of(kind));
             prop_assert_eq!(have.covers(need), each);
         }
 
         #[test]
-        fn a_union_is_the_least_that_covers_both(a in units(), b in units()) {
+        fn a_union_is_the_least_that_covers_both(a in equipment(), b in equipment()) {
             let both = a.union(b);
             prop_assert!(both.covers(a) && both.covers(b));
             prop_assert!((0..MAX_KINDS).all(|k| both.of(k) == a.of(k) || both.of(k) == b.of(k)));
         }
 
         #[test]
-        fn losing_units_never_touches_another_kind(a in units(), kind in 0..MAX_KINDS, count in 0..=MAX_UNITS) {
+        fn losing_units_never_touches_another_kind(
+            a in equipment(), kind in 0..MAX_KINDS, count in 0..=MAX_UNITS
+        ) {
             let rest = a.without(kind, count);
             prop_assert_eq!(rest.of(kind), a.of(kind).saturating_sub(count));
             prop_assert!((0..MAX_KINDS).all(|k| k == kind || rest.of(k) == a.of(k)));

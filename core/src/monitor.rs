@@ -23,7 +23,7 @@
 //! ```
 
 use crate::hardware::Equipment;
-use crate::problem::Candidate;
+use crate::problem::{Candidate, ProblemError, names_every_axis_once};
 
 /// The largest amount on an axis: sums of four still fit 64 signed bits.
 pub const MAX_AMOUNT: u64 = 1 << 61;
@@ -42,6 +42,26 @@ impl core::fmt::Display for AmountOverflow {
 }
 
 impl core::error::Error for AmountOverflow {}
+
+/// Why limits and an order do not make a monitor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MonitorError {
+    /// A limit is beyond [`MAX_AMOUNT`].
+    Limit(AmountOverflow),
+    /// The order of treatment does not name every axis once.
+    BadOrder,
+}
+
+impl core::fmt::Display for MonitorError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Limit(overflow) => overflow.fmt(f),
+            Self::BadOrder => ProblemError::BadOrder.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for MonitorError {}
 
 /// When to ask for a better plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,13 +109,18 @@ pub struct Monitor<const A: usize> {
 }
 
 impl<const A: usize> Monitor<A> {
-    /// A monitor with nothing used, that never asks upwards.
+    /// A monitor of these limits with nothing used, that never asks upwards. Of several margins
+    /// below zero it names the axis that comes first in the order.
     ///
     /// # Errors
-    /// [`AmountOverflow`] for a limit beyond [`MAX_AMOUNT`].
-    pub fn new(limits: [u64; A], order: [usize; A]) -> Result<Self, AmountOverflow> {
+    /// A [`MonitorError`] for a limit beyond [`MAX_AMOUNT`], or for an order that does not name
+    /// every axis once.
+    pub fn new(limits: [u64; A], order: [usize; A]) -> Result<Self, MonitorError> {
         for (axis, &limit) in limits.iter().enumerate() {
-            checked(axis, limit)?;
+            checked(axis, limit).map_err(MonitorError::Limit)?;
+        }
+        if !names_every_axis_once(&order) {
+            return Err(MonitorError::BadOrder);
         }
         Ok(Self {
             limits,
@@ -245,6 +270,21 @@ mod tests {
 
     const ALL: Equipment = Equipment::NONE;
 
+    /// With such an order axis 1 was never looked at, and a margin of -990 there was kept.
+    #[test]
+    fn an_order_that_does_not_name_every_axis_once_is_refused() {
+        for order in [[0, 0], [1, 1], [0, 2], [usize::MAX, 0]] {
+            assert_eq!(Monitor::new([10, 10], order), Err(MonitorError::BadOrder));
+        }
+        for order in [[0, 1], [1, 0]] {
+            let mut monitor = Monitor::new([10, 10], order).unwrap();
+            monitor.spend(&[0, 1_000]).unwrap();
+            assert_eq!(monitor.margins(&[0, 0]), Ok([10, -990]));
+            let down = Request::Down(Trigger::Margin { axis: 1 });
+            assert_eq!(monitor.assess(&[0, 0], ALL, ALL), Ok(down));
+        }
+    }
+
     #[test]
     fn a_lost_unit_is_named_before_a_margin() {
         let mut monitor = Monitor::new([10, 10], [0, 1]).unwrap();
@@ -275,7 +315,8 @@ mod tests {
         assert_eq!(monitor.spend(&[1]), Err(AmountOverflow { axis: 0 }));
         assert_eq!(monitor.used(), [MAX_AMOUNT]);
         assert_eq!(monitor.margins(&[u64::MAX]), Err(AmountOverflow { axis: 0 }));
-        assert!(Monitor::new([u64::MAX], [0]).is_err());
+        let too_large = MonitorError::Limit(AmountOverflow { axis: 0 });
+        assert_eq!(Monitor::new([u64::MAX], [0]), Err(too_large));
     }
 
     #[test]
@@ -294,7 +335,9 @@ mod tests {
     proptest! {
         /// However the rest of the plan moves, upward requests are paid for by savings.
         #[test]
-        fn upward_requests_cannot_flap(steps in prop::collection::vec((0u64..20, 0u64..200), 1..200)) {
+        fn upward_requests_cannot_flap(
+            steps in prop::collection::vec((0u64..20, 0u64..200), 1..200)
+        ) {
             let growth = 25;
             let upward = Upward { growth: [growth], reserve: [10] };
             let mut monitor = Monitor::new([2_000], [0]).unwrap().with_upward(upward);
