@@ -1,45 +1,11 @@
-//! The allocators against plain transcriptions of what they promise.
+//! The exact allocator against brute force.
 
+use crate::brute::every_plan;
+use crate::instances::{Draw, Instance, random_mission, small};
+use crate::solve::exact;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
-use cotama_core::front::{Front, Node};
-use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
-use cotama_tests::instances::{Draw, Instance, Zones, paper_like, random_mission, small};
-
-/// Every plan's choices, costs and quality.
-fn every_plan<const A: usize>(instance: &Instance<A>) -> Vec<(Vec<u16>, [u64; A], u64)> {
-    let mut plans = vec![(Vec::new(), [0u64; A], 0u64)];
-    for candidates in &instance.activities {
-        plans = plans
-            .iter()
-            .flat_map(|(choices, cost, quality)| {
-                candidates.iter().enumerate().map(move |(choice, c)| {
-                    let mut choices = choices.clone();
-                    choices.push(choice as u16);
-                    let cost = core::array::from_fn(|axis| cost[axis] + u64::from(c.cost[axis]));
-                    (choices, cost, quality + u64::from(c.quality))
-                })
-            })
-            .collect();
-    }
-    plans
-}
-
-pub(crate) fn exact<const A: usize>(
-    problem: &Problem<A>,
-    objectives: &[Objective],
-    steps: u64,
-) -> (Answer<A>, Vec<u16>) {
-    let count = problem.activities().iter().map(|c| c.len()).sum();
-    let (mut items, mut stages) =
-        (vec![Item::EMPTY; count], vec![Stage::EMPTY; problem.activities().len()]);
-    let mut plan = vec![0; problem.activities().len()];
-    let answer = Exact::new(objectives, steps, &mut items, &mut stages)
-        .allocate(problem, &mut plan)
-        .unwrap();
-    (answer, plan)
-}
 
 /// Larger is better: the amount of each objective in a plan.
 fn worth<const A: usize>(objectives: &[Objective], cost: &[u64; A], quality: u64) -> Vec<i128> {
@@ -162,7 +128,7 @@ fn anytime_bounds_hold<const A: usize>(problem: &Problem<A>, optimum: Option<u64
                 }
             }
             Answer::Unknown { bound, .. } => {
-                assert!(Some(bound) >= optimum, "seed {seed}, {steps} steps")
+                assert!(Some(bound) >= optimum, "seed {seed}, {steps} steps");
             }
             Answer::Infeasible { .. } => {
                 assert_eq!(optimum, None, "seed {seed}");
@@ -182,157 +148,6 @@ fn exact_is_brute_force_on_20_000_small_problems() {
             _ => exact_is_brute_force::<4>(seed),
         }
     }
-}
-
-#[test]
-fn the_front_is_every_undominated_plan_of_5_000_small_problems() {
-    for seed in 0..5_000 {
-        let instance = small::<2>(seed);
-        let slices = instance.slices();
-        let problem = instance.problem(&slices);
-        let mut feasible: Vec<([u64; 2], u64)> = every_plan(&instance)
-            .into_iter()
-            .map(|(_, cost, quality)| (cost, quality))
-            .filter(|(cost, _)| problem.within_limits(cost))
-            .collect();
-        feasible.sort_unstable();
-        feasible.dedup();
-        let beats = |a: &([u64; 2], u64), b: &([u64; 2], u64)| {
-            a != b && a.0[0] <= b.0[0] && a.0[1] <= b.0[1] && a.1 >= b.1
-        };
-        let expected: Vec<_> = feasible
-            .iter()
-            .copied()
-            .filter(|plan| !feasible.iter().any(|other| beats(other, plan)))
-            .collect();
-        let mut nodes = vec![Node::EMPTY; 20_000];
-        let mut front = Front::new(&mut nodes);
-        let plans = front.find(&problem).unwrap();
-        let mut found: Vec<_> = (0..plans.len()).filter_map(|index| plans.totals(index)).collect();
-        let mut plan = vec![0; slices.len()];
-        for (index, totals) in found.iter().enumerate() {
-            assert!(plans.plan(index, &mut plan));
-            assert_eq!(problem.totals(&plan).as_ref(), Some(totals), "seed {seed}");
-        }
-        found.sort_unstable();
-        assert_eq!(found, expected, "seed {seed}");
-    }
-}
-
-/// The rules of the paper, written down once more without any care for speed.
-fn rules_of_the_paper<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
-    let mut left: Vec<Vec<(usize, &Candidate<A>)>> =
-        problem.activities().iter().map(|c| c.iter().enumerate().collect()).collect();
-    for axis in problem.order() {
-        for candidates in &mut left {
-            candidates.sort_by_key(|(_, c)| c.cost[axis]);
-        }
-        let mut chosen: Vec<usize> = left.iter().map(|candidates| candidates.len() - 1).collect();
-        let sum = |chosen: &[usize]| -> u64 {
-            left.iter()
-                .zip(chosen)
-                .map(|(candidates, &at)| u64::from(candidates[at].1.cost[axis]))
-                .sum()
-        };
-        for activity in (0..left.len()).rev() {
-            while sum(&chosen) > problem.limits()[axis] && chosen[activity] > 0 {
-                chosen[activity] -= 1;
-            }
-        }
-        if sum(&chosen) > problem.limits()[axis] {
-            return None;
-        }
-        for (candidates, at) in left.iter_mut().zip(chosen) {
-            let cap = candidates[at].1.cost[axis];
-            candidates.retain(|(_, c)| c.cost[axis] <= cap);
-        }
-    }
-    let last = *problem.order().last()?;
-    let pick = |candidates: &Vec<(usize, &Candidate<A>)>| {
-        let best = candidates.iter().map(|(_, c)| c.cost[last]).max()?;
-        candidates
-            .iter()
-            .filter(|(_, c)| c.cost[last] == best)
-            .map(|(index, _)| *index as u16)
-            .min()
-    };
-    left.iter().map(pick).collect()
-}
-
-pub(crate) fn panorama<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
-    let activities = problem.activities().len();
-    let (mut caps, mut plan) = (vec![[0; A]; activities], vec![0; activities]);
-    match Panorama::new(&mut caps).allocate(problem, &mut plan).unwrap() {
-        Answer::Planned(planned) => {
-            assert_eq!(problem.totals(&plan), Some((planned.cost, planned.quality)));
-            assert!(problem.within_limits(&planned.cost));
-            Some(plan)
-        }
-        _ => None,
-    }
-}
-
-#[test]
-fn panorama_is_its_rules_on_20_000_small_problems() {
-    for seed in 0..20_000 {
-        let instance = small::<3>(seed);
-        let slices = instance.slices();
-        let problem = instance.problem(&slices);
-        assert_eq!(panorama(&problem), rules_of_the_paper(&problem), "seed {seed}");
-    }
-}
-
-/// A problem over two axes written as (duration, energy) pairs.
-fn pairs(activities: &[&[[u32; 2]]], limits: [u64; 2]) -> Instance<2> {
-    let candidate = |(id, &cost): (usize, &[u32; 2])| Candidate { cost, quality: 0, id: id as u16 };
-    Instance {
-        activities: activities
-            .iter()
-            .map(|c| c.iter().enumerate().map(candidate).collect())
-            .collect(),
-        limits,
-    }
-}
-
-/// Whether the rule of the paper finds a plan with the axes in this order.
-fn rule_finds(instance: &Instance<2>, order: [usize; 2]) -> bool {
-    let slices = instance.slices();
-    panorama(&Problem::new(&slices, instance.limits, order).unwrap()).is_some()
-}
-
-fn exact_finds(instance: &Instance<2>) -> bool {
-    let slices = instance.slices();
-    matches!(exact(&instance.problem(&slices), &[], u64::MAX).0, Answer::Planned(_))
-}
-
-#[test]
-fn the_rule_misses_plans_that_the_exact_allocator_finds() {
-    let one_order = pairs(&[&[[5, 1], [1, 2]], &[[5, 1], [1, 10]]], [6, 3]);
-    assert_eq!((rule_finds(&one_order, [0, 1]), rule_finds(&one_order, [1, 0])), (false, true));
-    assert!(exact_finds(&one_order));
-
-    let both_orders = pairs(&[&[[1, 3], [2, 5]], &[[1, 5], [4, 1], [3, 2]]], [4, 5]);
-    assert_eq!(
-        (rule_finds(&both_orders, [0, 1]), rule_finds(&both_orders, [1, 0])),
-        (false, false)
-    );
-    assert!(exact_finds(&both_orders));
-}
-
-#[test]
-fn random_problems_have_more_plans_that_the_rule_misses_and_none_the_other_way() {
-    let (mut missed, mut missed_in_both_orders) = (0, 0);
-    for seed in 0..20_000 {
-        let instance = small::<2>(seed);
-        let found = [rule_finds(&instance, [0, 1]), rule_finds(&instance, [1, 0])];
-        if exact_finds(&instance) {
-            missed += u32::from(!found[0]);
-            missed_in_both_orders += u32::from(found == [false, false]);
-        } else {
-            assert_eq!(found, [false, false], "seed {seed}: a plan that is none");
-        }
-    }
-    assert_eq!((missed, missed_in_both_orders), (1497, 344));
 }
 
 /// The documented promise to firmware: 17 activities within 100,000 steps and this memory. Most
@@ -394,21 +209,4 @@ fn memory_for_nodes_does_not_change_what_is_proven() {
         }
     }
     assert_eq!(compared, 97, "missions hard enough that nodes are remembered");
-}
-
-/// The paper's rule looks at each candidate a fixed number of times: its steps have a proven bound.
-#[test]
-fn the_rule_takes_at_most_five_looks_at_each_candidate() {
-    for seed in 0..10_000 {
-        let instance = paper_like(17, Zones::Three, [seed % 1000, 999 - seed % 1000], seed);
-        let slices = instance.slices();
-        let problem = instance.problem(&slices);
-        let (mut caps, mut plan) = ([[0; 2]; 17], [0; 17]);
-        let steps = match Panorama::new(&mut caps).allocate(&problem, &mut plan) {
-            Ok(Answer::Planned(planned)) => planned.steps,
-            Ok(Answer::Infeasible { steps, .. }) => steps,
-            other => panic!("seed {seed}: {other:?}"),
-        };
-        assert!(steps <= 5 * slices.iter().map(|c| c.len() as u64).sum::<u64>(), "seed {seed}");
-    }
 }
