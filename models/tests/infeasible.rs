@@ -204,11 +204,29 @@ fn check_order(why: &Explanation, mission: &Mission) {
     assert!(why.relaxations.windows(2).all(|pair| key(&pair[0]) <= key(&pair[1])), "{why:?}");
 }
 
+/// What a cause says of a limit is proven, however early the search ended.
+fn check_cause(cause: &Cause, front: &[[u64; 2]], limits: [u64; 2]) {
+    let least = |axis: usize, other: u64| {
+        front.iter().filter(|cost| cost[1 - axis] <= other).map(|cost| cost[axis]).min()
+    };
+    match *cause {
+        Cause::Limit { axis, limit, least: said } => {
+            assert_eq!((limit, least(axis, limits[1 - axis])), (limits[axis], Some(said)));
+            assert!(said > limit);
+        }
+        Cause::Limits { limits: of, least: said } => {
+            assert_eq!((of, [0, 1].map(|axis| least(axis, u64::MAX))), (limits, said.map(Some)));
+            assert!([0, 1].iter().all(|&axis| said[axis] > limits[axis]));
+        }
+        _ => {}
+    }
+}
+
 fn check_heaviest(why: &Explanation, mission: &Mission) {
     let total = match why.cause {
         Cause::Limit { axis, least, .. } => Some((axis, least)),
         Cause::Limits { least, .. } => Some((mission.order[0], least[mission.order[0]])),
-        Cause::NoAlternative { .. } | Cause::Undecided { .. } => None,
+        Cause::NoAlternative { .. } | Cause::SomeLimit { .. } | Cause::Undecided { .. } => None,
     };
     assert_eq!(total.is_some(), !why.heaviest.is_empty());
     for heavy in &why.heaviest {
@@ -358,6 +376,7 @@ fn a_search_cut_short_says_so() {
                 within.relaxations.iter().all(|it| suffices(it, &mission, limits, all)),
                 "{within:?}"
             );
+            check_cause(&within.cause, &front, limits);
             let undecided = within.cause == Cause::Undecided { steps };
             assert!(!undecided || within.relaxations.is_empty());
             cut_short += usize::from(undecided == (what == "cause"));

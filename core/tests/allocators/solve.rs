@@ -37,6 +37,7 @@ pub fn panorama<const A: usize>(problem: &Problem<A>) -> Option<Vec<u16>> {
             assert!(problem.within_limits(&planned.cost));
             Some(plan)
         }
-        _ => None,
+        Answer::Infeasible { shortfall: Some(_), .. } => None,
+        other => panic!("the rule has no budget, and knows where it fails: {other:?}"),
     }
 }

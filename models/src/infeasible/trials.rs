@@ -28,6 +28,8 @@ pub(super) struct Trial<'t> {
 /// A plan, as far as it matters here.
 #[derive(Clone)]
 pub(super) struct Plan {
+    /// Whether none is better for the objective of its search.
+    pub(super) best: bool,
     pub(super) cost: [u64; 2],
     /// Activities by index and their costs.
     pub(super) activities: Vec<(usize, [u32; 2])>,
@@ -137,7 +139,7 @@ impl<'m> Trials<'m> {
             let least = candidates.iter().min_by_key(|it| (it.cost[axis], it.cost[1 - axis]));
             (index, least.map_or([0; 2], |least| least.cost))
         };
-        Plan::of(self.candidates(trial).into_iter().map(cheapest).collect())
+        Plan::of(self.candidates(trial).into_iter().map(cheapest).collect(), true)
     }
 
     /// Whether there is surely a plan.
@@ -178,7 +180,7 @@ impl<'m> Trials<'m> {
                     (*index, list[usize::from(choice)].cost)
                 };
                 let activities = candidates.iter().zip(&choices).map(cost).collect();
-                (Found::Plan(Plan::of(activities)), planned.steps)
+                (Found::Plan(Plan::of(activities, planned.optimal)), planned.steps)
             }
             Ok(Answer::Infeasible { steps, .. }) => (Found::Nothing, steps),
             Ok(Answer::Unknown { steps, .. }) => (Found::Unknown, steps),
@@ -190,8 +192,8 @@ impl<'m> Trials<'m> {
 }
 
 impl Plan {
-    fn of(activities: Vec<(usize, [u32; 2])>) -> Self {
+    fn of(activities: Vec<(usize, [u32; 2])>, best: bool) -> Self {
         let total = |axis: usize| activities.iter().map(|(_, cost)| u64::from(cost[axis])).sum();
-        Self { cost: [total(0), total(1)], activities }
+        Self { best, cost: [total(0), total(1)], activities }
     }
 }

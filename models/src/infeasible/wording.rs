@@ -54,6 +54,12 @@ impl Cause {
                 }
                 said
             }
+            Self::SomeLimit { steps } => {
+                format!(
+                    "no plan is within the limits; which of them cannot be met, and by how much, \
+                     was not found in {steps} steps"
+                )
+            }
             Self::Undecided { steps } => {
                 format!(
                     "neither a plan nor the proof that there is none was found in {steps} steps"

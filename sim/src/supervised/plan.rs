@@ -7,7 +7,7 @@
 
 use crate::options::Planner;
 use crate::run::{Cause, NoPlan, PlanMade};
-use crate::solver::{NotFound, Solver};
+use crate::solver::Solver;
 use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
@@ -96,12 +96,7 @@ impl<'m> Planning<'m> {
         let Ok(problem) = Problem::new(&lists, left, scenario.order) else {
             return Err(NoPlan::Unknown { steps: 0 });
         };
-        let found = self.solver.solve(self.planner, &problem).map_err(|none| match none {
-            NotFound::Infeasible { axis, least } => {
-                NoPlan::Limit { axis, short: least.saturating_sub(left[axis]) }
-            }
-            NotFound::Unknown { steps } => NoPlan::Unknown { steps },
-        })?;
+        let found = self.solver.solve(self.planner, &problem)?;
         let picked: Vec<Candidate<2>> = lists
             .iter()
             .zip(&self.solver.plan)

@@ -4,7 +4,6 @@ use super::{MAX_REPLANS, World};
 use crate::record::Recorder;
 use crate::run::{Cause, NoPlan, PlanMade};
 use crate::setup::NM_PER_MM;
-use crate::solver::NotFound;
 use crate::trace::Record;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::worst;
@@ -114,12 +113,7 @@ impl World<'_> {
             // limits.
             return Err(NoPlan::Unknown { steps: 0 });
         };
-        let found = self.solver.solve(simulation.planner, &problem).map_err(|none| match none {
-            NotFound::Infeasible { axis, least } => {
-                NoPlan::Limit { axis, short: least.saturating_sub(limits[axis]) }
-            }
-            NotFound::Unknown { steps } => NoPlan::Unknown { steps },
-        })?;
+        let found = self.solver.solve(simulation.planner, &problem)?;
         let picked =
             lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]);
         Ok(Proposal {
