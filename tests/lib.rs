@@ -1,7 +1,13 @@
 //! What the tests and benchmarks across the crates share: seeded problem instances, and the patrol
-//! as one; the token game by the book.
+//! as one; the token game by the book. What core's own tests need too stands there.
 
+#[path = "../core/tests/common/draw.rs"]
+pub mod draw;
+pub mod families;
+#[path = "../core/tests/allocators/instances.rs"]
 pub mod instances;
+#[path = "../core/tests/allocators/solve.rs"]
+pub mod solve;
 pub mod textbook;
 
 use cotama_core::problem::{Candidate, Problem};

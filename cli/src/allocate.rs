@@ -35,9 +35,7 @@ pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Fai
         solve(&problem, method, args.steps).map_err(|error| Failure::new(error.to_string()))?;
     let planned = solution.planned();
     let reason = match solution.verdict {
-        Verdict::Infeasible { axis, least } => {
-            Some(infeasible::over(axis, problem.limits().get(axis).copied().unwrap_or(0), least))
-        }
+        Verdict::Infeasible { shortfall } => Some(infeasible::short(shortfall, args.steps)),
         Verdict::Missed => Some(infeasible::missed("leave out `--allocator panorama`")),
         _ => None,
     };

@@ -1,7 +1,8 @@
 //! Why there is no plan, as an answer.
 
 use crate::answers::{Change, Heavy, Kept, Reason, Relaxation, ZoneConstraint};
-use cotama_core::hardware::Units;
+use cotama_core::allocation::Shortfall;
+use cotama_core::hardware::Equipment;
 use cotama_models::infeasible::{self, Cause};
 use cotama_models::mission::{AXES, Mission};
 use cotama_models::scenario::Constraint;
@@ -11,7 +12,7 @@ pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];
 
 /// Why a mission has no plan within these limits with this hardware; none if it has one, or if the
 /// search for the explanation was cut short.
-pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Reason> {
+pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Reason> {
     let found = infeasible::explain(mission, limits, available)?;
     let mut reason = match &found.cause {
         Cause::Limit { axis, limit, least } => over(*axis, *limit, *least),
@@ -23,6 +24,7 @@ pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> 
             let id = mission.scenario().activities.get(*activity).map(|it| it.id.clone());
             Reason { activity: id, ..Reason::default() }
         }
+        Cause::SomeLimit { .. } => Reason::default(),
         Cause::Undecided { .. } => return None,
     };
     reason.text = found.cause.wording(mission);
@@ -31,14 +33,27 @@ pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> 
     Some(reason)
 }
 
+/// What an allocator says that proved within so many steps that there is no plan.
+pub(crate) fn short(shortfall: Option<Shortfall>, steps: u64) -> Reason {
+    let undecided = || Reason {
+        text: format!(
+            "no plan is within the limits; which of them cannot be met is not known after {steps} \
+             steps: use more `--steps`"
+        ),
+        ..Reason::default()
+    };
+    shortfall.map_or_else(undecided, |it| over(it.axis(), it.limit(), it.least()))
+}
+
 /// A limit that is below the least that is needed.
-pub(crate) fn over(axis: usize, limit: u64, least: u64) -> Reason {
+fn over(axis: usize, limit: u64, least: u64) -> Reason {
     let axis = axis.min(1);
     let gap = least.saturating_sub(limit);
     let (name, unit) = (AXES[axis], UNITS[axis]);
     Reason {
         text: format!(
-            "the {name} limit of {limit} {unit} cannot be met: at least {least} {unit} are needed (+{gap} {unit})"
+            "the {name} limit of {limit} {unit} cannot be met: at least {least} {unit} are needed \
+             (+{gap} {unit})"
         ),
         axis: Some(name.into()),
         limit: Some(limit),

@@ -3,7 +3,7 @@
 use crate::args::{Lost, Objective, Planning};
 use crate::exit::Failure;
 use crate::input;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_models::embedded;
 use cotama_models::mission::{Definition, Mission};
 use serde::Deserialize;
@@ -154,7 +154,7 @@ fn find_lost(mission: &Definition, lost: &Lost) -> Result<(usize, u8), Failure> 
 }
 
 /// The hardware of a mission that is left.
-pub(crate) fn available(mission: &Definition, lost: &[(usize, u8)]) -> Units {
+pub(crate) fn available(mission: &Definition, lost: &[(usize, u8)]) -> Equipment {
     lost.iter().fold(mission.available(), |units, &(kind, count)| units.without(kind, count))
 }
 

@@ -161,8 +161,8 @@ fn fill(
                 })
                 .collect();
         }
-        Verdict::Infeasible { axis, least } => {
-            answer.reason = Some(infeasible::over(axis, problem.limits()[axis.min(1)], least));
+        Verdict::Infeasible { shortfall } => {
+            answer.reason = Some(infeasible::short(shortfall, steps));
         }
         Verdict::Missed => answer.reason = Some(infeasible::missed("use `--allocator exact`")),
         Verdict::Unknown { .. } => {

@@ -1,7 +1,7 @@
 //! The allocators behind one call, with their memory.
 
 use crate::answers::Status;
-use cotama_core::allocation::{Allocator, Answer, MemoryError, Planned};
+use cotama_core::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
@@ -31,9 +31,8 @@ pub(crate) enum Verdict {
     },
     /// It is proven that there is none.
     Infeasible {
-        axis: usize,
-        /// The least total on this axis within the limits treated before it.
-        least: u64,
+        /// Which limit cannot be met, if the steps sufficed to know.
+        shortfall: Option<Shortfall>,
     },
     /// The rule says that there is none, but a complete search finds one.
     Missed,
@@ -97,8 +96,8 @@ pub(crate) fn solve(
                 plan,
                 steps: planned.steps,
             },
-            Answer::Infeasible { axis, least, steps } => {
-                without(Verdict::Infeasible { axis, least }, steps)
+            Answer::Infeasible { shortfall, steps } => {
+                without(Verdict::Infeasible { shortfall }, steps)
             }
             Answer::Unknown { bound, steps } => {
                 without(Verdict::Unknown { bound: Some(bound) }, steps)
@@ -125,8 +124,8 @@ pub(crate) fn solve(
             let verdict = Verdict::Planned { planned, allocator: "exact" };
             Solution { verdict, plan, steps: rule_steps + planned.steps }
         }
-        Answer::Infeasible { axis, least, steps } => {
-            without(Verdict::Infeasible { axis, least }, rule_steps + steps)
+        Answer::Infeasible { shortfall, steps } => {
+            without(Verdict::Infeasible { shortfall }, rule_steps + steps)
         }
         Answer::Unknown { steps, .. } => {
             without(Verdict::Unknown { bound: None }, rule_steps + steps)

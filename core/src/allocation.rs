@@ -25,12 +25,8 @@ pub enum Answer<const A: usize> {
     /// No plan: proven by [`Exact`](crate::exact::Exact), and all that the paper's rule can say in
     /// [`Panorama`](crate::panorama::Panorama), which can miss a plan.
     Infeasible {
-        /// The axis whose limit is not met: the first, in the order of treatment, at which the
-        /// search failed.
-        axis: usize,
-        /// The least total that was found reachable on that axis with the limits treated before it
-        /// kept.
-        least: u64,
+        /// The limit that is not met; `None` when the step budget ended before it was known which.
+        shortfall: Option<Shortfall>,
         /// The work done, in the allocator's steps.
         steps: u64,
     },
@@ -41,6 +37,57 @@ pub enum Answer<const A: usize> {
         /// The work done, in the allocator's steps.
         steps: u64,
     },
+}
+
+/// A limit that is not met: the first in the order of treatment at which the search failed.
+///
+/// *Invariant:* the least total is above the limit.
+///
+/// ```
+/// use cotama_core::allocation::Shortfall;
+/// let energy = Shortfall::new(1, 3_000, 3_200).unwrap();
+/// assert_eq!((energy.axis(), energy.limit(), energy.least(), energy.gap()), (1, 3_000, 3_200, 200));
+/// assert_eq!(Shortfall::new(1, 3_000, 3_000), None); // a limit is inclusive: this one is met
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Shortfall {
+    axis: usize,
+    limit: u64,
+    least: u64,
+}
+
+impl Shortfall {
+    /// What is missing on an axis; `None` when the least total is within the limit.
+    #[must_use]
+    pub const fn new(axis: usize, limit: u64, least: u64) -> Option<Self> {
+        if least > limit { Some(Self { axis, limit, least }) } else { None }
+    }
+
+    /// The axis.
+    #[must_use]
+    pub const fn axis(&self) -> usize {
+        self.axis
+    }
+
+    /// Its inclusive limit.
+    #[must_use]
+    pub const fn limit(&self) -> u64 {
+        self.limit
+    }
+
+    /// The least total on the axis with the limits treated before it kept: of all plans for
+    /// [`Exact`](crate::exact::Exact), as far as its rule goes for
+    /// [`Panorama`](crate::panorama::Panorama).
+    #[must_use]
+    pub const fn least(&self) -> u64 {
+        self.least
+    }
+
+    /// The least total less the limit; never zero.
+    #[must_use]
+    pub const fn gap(&self) -> u64 {
+        self.least.saturating_sub(self.limit)
+    }
 }
 
 /// A plan within every limit, and how good it is known to be.

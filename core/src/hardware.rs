@@ -14,17 +14,17 @@ const GUARDS: u64 = 0x8888_8888_8888_8888;
 /// kinds.
 ///
 /// ```
-/// use cotama_core::hardware::Units;
-/// let sonar_and_two_lasers = Units::NONE.with(0, 1).unwrap().with(1, 2).unwrap();
-/// let one_laser = Units::NONE.with(1, 1).unwrap();
+/// use cotama_core::hardware::Equipment;
+/// let sonar_and_two_lasers = Equipment::NONE.with(0, 1).unwrap().with(1, 2).unwrap();
+/// let one_laser = Equipment::NONE.with(1, 1).unwrap();
 /// assert!(sonar_and_two_lasers.covers(one_laser));
 /// assert!(!one_laser.covers(sonar_and_two_lasers));
 /// assert_eq!(sonar_and_two_lasers.of(1), 2);
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
-pub struct Units(u64);
+pub struct Equipment(u64);
 
-impl Units {
+impl Equipment {
     /// No hardware at all.
     pub const NONE: Self = Self(0);
 
@@ -91,26 +91,28 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn units() -> impl Strategy<Value = Units> {
-        any::<u64>().prop_map(|bits| Units(bits & !GUARDS))
+    fn equipment() -> impl Strategy<Value = Equipment> {
+        any::<u64>().prop_map(|bits| Equipment(bits & !GUARDS))
     }
 
     proptest! {
         #[test]
-        fn covering_is_comparing_every_kind(have in units(), need in units()) {
+        fn covering_is_comparing_every_kind(have in equipment(), need in equipment()) {
             let each = (0..MAX_KINDS).all(|kind| have.of(kind) >= need.of(kind));
             prop_assert_eq!(have.covers(need), each);
         }
 
         #[test]
-        fn a_union_is_the_least_that_covers_both(a in units(), b in units()) {
+        fn a_union_is_the_least_that_covers_both(a in equipment(), b in equipment()) {
             let both = a.union(b);
             prop_assert!(both.covers(a) && both.covers(b));
             prop_assert!((0..MAX_KINDS).all(|k| both.of(k) == a.of(k) || both.of(k) == b.of(k)));
         }
 
         #[test]
-        fn losing_units_never_touches_another_kind(a in units(), kind in 0..MAX_KINDS, count in 0..=MAX_UNITS) {
+        fn losing_units_never_touches_another_kind(
+            a in equipment(), kind in 0..MAX_KINDS, count in 0..=MAX_UNITS
+        ) {
             let rest = a.without(kind, count);
             prop_assert_eq!(rest.of(kind), a.of(kind).saturating_sub(count));
             prop_assert!((0..MAX_KINDS).all(|k| k == kind || rest.of(k) == a.of(k)));
@@ -119,9 +121,9 @@ mod tests {
 
     #[test]
     fn fields_beyond_the_packing_are_refused() {
-        assert_eq!(Units::NONE.with(MAX_KINDS, 1), None);
-        assert_eq!(Units::NONE.with(0, MAX_UNITS + 1), None);
-        assert_eq!(Units::from_bits(8), None);
-        assert_eq!(Units::NONE.of(MAX_KINDS), 0);
+        assert_eq!(Equipment::NONE.with(MAX_KINDS, 1), None);
+        assert_eq!(Equipment::NONE.with(0, MAX_UNITS + 1), None);
+        assert_eq!(Equipment::from_bits(8), None);
+        assert_eq!(Equipment::NONE.of(MAX_KINDS), 0);
     }
 }

@@ -11,19 +11,19 @@
 //! hardware has come back.
 //!
 //! ```
-//! use cotama_core::hardware::Units;
-//! use cotama_core::monitor::{Cause, Monitor, Request};
+//! use cotama_core::hardware::Equipment;
+//! use cotama_core::monitor::{Trigger, Monitor, Request};
 //!
 //! let mut monitor = Monitor::new([600_000, 8_640_000], [0, 1]).unwrap();
 //! monitor.planned(&[527_924, 8_563_613]).unwrap();
 //! monitor.spend(&[75_610, 1_377_917]).unwrap();
 //! assert_eq!(monitor.margins(&[452_314, 7_185_696]), Ok([72_076, 76_387]));
-//! let request = monitor.assess(&[452_314, 7_285_696], Units::NONE, Units::NONE);
-//! assert_eq!(request, Ok(Request::Down(Cause::Margin { axis: 1 })));
+//! let request = monitor.assess(&[452_314, 7_285_696], Equipment::NONE, Equipment::NONE);
+//! assert_eq!(request, Ok(Request::Down(Trigger::Margin { axis: 1 })));
 //! ```
 
-use crate::hardware::Units;
-use crate::problem::Candidate;
+use crate::hardware::Equipment;
+use crate::problem::{Candidate, ProblemError, names_every_axis_once};
 
 /// The largest amount on an axis: sums of four still fit 64 signed bits.
 pub const MAX_AMOUNT: u64 = 1 << 61;
@@ -43,6 +43,26 @@ impl core::fmt::Display for AmountOverflow {
 
 impl core::error::Error for AmountOverflow {}
 
+/// Why limits and an order do not make a monitor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MonitorError {
+    /// A limit is beyond [`MAX_AMOUNT`].
+    Limit(AmountOverflow),
+    /// The order of treatment does not name every axis once.
+    BadOrder,
+}
+
+impl core::fmt::Display for MonitorError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Limit(overflow) => overflow.fmt(f),
+            Self::BadOrder => ProblemError::BadOrder.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for MonitorError {}
+
 /// When to ask for a better plan.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upward<const A: usize> {
@@ -59,14 +79,14 @@ pub enum Request {
     /// Nothing; go on.
     Keep,
     /// A plan that needs less.
-    Down(Cause),
+    Down(Trigger),
     /// A better plan, within [`Monitor::room`].
     Up,
 }
 
 /// Why a plan no longer holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Cause {
+pub enum Trigger {
     /// The margin of this axis is below zero.
     Margin {
         /// The axis, the first in the order of treatment.
@@ -89,13 +109,18 @@ pub struct Monitor<const A: usize> {
 }
 
 impl<const A: usize> Monitor<A> {
-    /// A monitor with nothing used, that never asks upwards.
+    /// A monitor of these limits with nothing used, that never asks upwards. Of several margins
+    /// below zero it names the axis that comes first in the order.
     ///
     /// # Errors
-    /// [`AmountOverflow`] for a limit beyond [`MAX_AMOUNT`].
-    pub fn new(limits: [u64; A], order: [usize; A]) -> Result<Self, AmountOverflow> {
+    /// A [`MonitorError`] for a limit beyond [`MAX_AMOUNT`], or for an order that does not name
+    /// every axis once.
+    pub fn new(limits: [u64; A], order: [usize; A]) -> Result<Self, MonitorError> {
         for (axis, &limit) in limits.iter().enumerate() {
-            checked(axis, limit)?;
+            checked(axis, limit).map_err(MonitorError::Limit)?;
+        }
+        if !names_every_axis_once(&order) {
+            return Err(MonitorError::BadOrder);
         }
         Ok(Self {
             limits,
@@ -187,17 +212,17 @@ impl<const A: usize> Monitor<A> {
     pub fn assess(
         &self,
         rest: &[u64; A],
-        needs: Units,
-        available: Units,
+        needs: Equipment,
+        available: Equipment,
     ) -> Result<Request, AmountOverflow> {
         if !available.covers(needs) {
-            return Ok(Request::Down(Cause::Hardware));
+            return Ok(Request::Down(Trigger::Hardware));
         }
         let margins = self.margins(rest)?;
         if let Some(axis) =
             self.order.into_iter().find(|&axis| margins.get(axis).is_some_and(|&it| it < 0))
         {
-            return Ok(Request::Down(Cause::Margin { axis }));
+            return Ok(Request::Down(Trigger::Margin { axis }));
         }
         let Some(upward) = self.upward else { return Ok(Request::Keep) };
         let reserve_kept =
@@ -243,17 +268,35 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    const ALL: Units = Units::NONE;
+    const ALL: Equipment = Equipment::NONE;
+
+    /// With such an order axis 1 was never looked at, and a margin of -990 there was kept.
+    #[test]
+    fn an_order_that_does_not_name_every_axis_once_is_refused() {
+        for order in [[0, 0], [1, 1], [0, 2], [usize::MAX, 0]] {
+            assert_eq!(Monitor::new([10, 10], order), Err(MonitorError::BadOrder));
+        }
+        for order in [[0, 1], [1, 0]] {
+            let mut monitor = Monitor::new([10, 10], order).unwrap();
+            monitor.spend(&[0, 1_000]).unwrap();
+            assert_eq!(monitor.margins(&[0, 0]), Ok([10, -990]));
+            let down = Request::Down(Trigger::Margin { axis: 1 });
+            assert_eq!(monitor.assess(&[0, 0], ALL, ALL), Ok(down));
+        }
+    }
 
     #[test]
     fn a_lost_unit_is_named_before_a_margin() {
         let mut monitor = Monitor::new([10, 10], [0, 1]).unwrap();
         monitor.spend(&[20, 20]).unwrap();
-        let laser = Units::NONE.with(0, 1).unwrap();
-        assert_eq!(monitor.assess(&[0, 0], laser, Units::NONE), Ok(Request::Down(Cause::Hardware)));
+        let laser = Equipment::NONE.with(0, 1).unwrap();
+        assert_eq!(
+            monitor.assess(&[0, 0], laser, Equipment::NONE),
+            Ok(Request::Down(Trigger::Hardware))
+        );
         assert_eq!(
             monitor.assess(&[0, 0], laser, laser),
-            Ok(Request::Down(Cause::Margin { axis: 0 }))
+            Ok(Request::Down(Trigger::Margin { axis: 0 }))
         );
     }
 
@@ -262,7 +305,7 @@ mod tests {
         let mut monitor = Monitor::new([10], [0]).unwrap();
         monitor.spend(&[4]).unwrap();
         assert_eq!(monitor.assess(&[6], ALL, ALL), Ok(Request::Keep));
-        assert_eq!(monitor.assess(&[7], ALL, ALL), Ok(Request::Down(Cause::Margin { axis: 0 })));
+        assert_eq!(monitor.assess(&[7], ALL, ALL), Ok(Request::Down(Trigger::Margin { axis: 0 })));
     }
 
     #[test]
@@ -272,7 +315,8 @@ mod tests {
         assert_eq!(monitor.spend(&[1]), Err(AmountOverflow { axis: 0 }));
         assert_eq!(monitor.used(), [MAX_AMOUNT]);
         assert_eq!(monitor.margins(&[u64::MAX]), Err(AmountOverflow { axis: 0 }));
-        assert!(Monitor::new([u64::MAX], [0]).is_err());
+        let too_large = MonitorError::Limit(AmountOverflow { axis: 0 });
+        assert_eq!(Monitor::new([u64::MAX], [0]), Err(too_large));
     }
 
     #[test]
@@ -291,7 +335,9 @@ mod tests {
     proptest! {
         /// However the rest of the plan moves, upward requests are paid for by savings.
         #[test]
-        fn upward_requests_cannot_flap(steps in prop::collection::vec((0u64..20, 0u64..200), 1..200)) {
+        fn upward_requests_cannot_flap(
+            steps in prop::collection::vec((0u64..20, 0u64..200), 1..200)
+        ) {
             let growth = 25;
             let upward = Upward { growth: [growth], reserve: [10] };
             let mut monitor = Monitor::new([2_000], [0]).unwrap().with_upward(upward);

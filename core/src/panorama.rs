@@ -14,7 +14,7 @@
 //! The rule is fast and keeps spare resources in use, but it can miss a plan that exists:
 //!
 //! ```
-//! use cotama_core::allocation::{Allocator, Answer};
+//! use cotama_core::allocation::{Allocator, Answer, Shortfall};
 //! use cotama_core::panorama::Panorama;
 //! use cotama_core::problem::{Candidate, Problem};
 //!
@@ -26,13 +26,14 @@
 //! let mut rule = Panorama::new(&mut caps);
 //!
 //! let duration_first = Problem::new(&activities, [6, 3], [0, 1]).unwrap();
-//! assert!(matches!(rule.allocate(&duration_first, &mut plan), Ok(Answer::Infeasible { axis: 1, least: 11, .. })));
+//! let Ok(Answer::Infeasible { shortfall, .. }) = rule.allocate(&duration_first, &mut plan) else { panic!("a plan") };
+//! assert_eq!(shortfall, Shortfall::new(1, 3, 11)); // 11 mJ where 3 mJ is the limit
 //! let energy_first = Problem::new(&activities, [6, 3], [1, 0]).unwrap();
 //! assert!(matches!(rule.allocate(&energy_first, &mut plan), Ok(Answer::Planned(_))));
 //! assert_eq!(plan, [1, 0]);
 //! ```
 
-use crate::allocation::{Allocator, Answer, MemoryError, Planned, enough};
+use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enough};
 use crate::problem::{Candidate, Problem};
 
 /// The paper's allocator, in memory from its caller. A step is one candidate looked at.
@@ -106,8 +107,8 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
                 cap[axis] = fitting.unwrap_or(lowest);
                 sum = others + u64::from(cap[axis]);
             }
-            if sum > limit {
-                return Ok(Answer::Infeasible { axis, least: sum, steps });
+            if let Some(shortfall) = Shortfall::new(axis, limit, sum) {
+                return Ok(Answer::Infeasible { shortfall: Some(shortfall), steps });
             }
         }
 

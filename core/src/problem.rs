@@ -107,18 +107,8 @@ impl<'a, const A: usize> Problem<'a, A> {
             }
             activity += 1;
         }
-        let mut axis = 0;
-        while axis < A {
-            let mut named = 0;
-            let mut place = 0;
-            while place < A {
-                named += (order[place] == axis) as usize;
-                place += 1;
-            }
-            if named != 1 {
-                return Err(ProblemError::BadOrder);
-            }
-            axis += 1;
+        if !names_every_axis_once(&order) {
+            return Err(ProblemError::BadOrder);
         }
         Ok(Self { activities, limits, order })
     }
@@ -188,4 +178,22 @@ impl<'a, const A: usize> Problem<'a, A> {
             .map(|candidates| candidates.iter().map(|c| u64::from(c.cost[axis])).min().unwrap_or(0))
             .sum()
     }
+}
+
+/// Whether an order of treatment is one.
+pub(crate) const fn names_every_axis_once<const A: usize>(order: &[usize; A]) -> bool {
+    let mut axis = 0;
+    while axis < A {
+        let mut named = 0;
+        let mut place = 0;
+        while place < A {
+            named += (order[place] == axis) as usize;
+            place += 1;
+        }
+        if named != 1 {
+            return false;
+        }
+        axis += 1;
+    }
+    true
 }

@@ -1,10 +1,10 @@
 //! The activities of the mission `delivery`, printed from its file.
 
-use cotama_core::{hardware::Units, units::Millimetres};
+use cotama_core::{hardware::Equipment, units::Millimetres};
 use cotama_models::tables::{Activity, Alternative};
 
-const fn units(bits: u64) -> Units {
-    match Units::from_bits(bits) {
+const fn units(bits: u64) -> Equipment {
+    match Equipment::from_bits(bits) {
         Some(units) => units,
         None => panic!("a count of units passes its field"), // of constants: an error when compiled
     }
@@ -27,7 +27,7 @@ pub const LIMITS: [u64; 2] = [900_000, 7_200_000];
 /// The axes in their order of treatment.
 pub const ORDER: [usize; 2] = [0, 1];
 /// All the hardware of the robot.
-pub const AVAILABLE: Units = units(0x0111_1111_1111);
+pub const AVAILABLE: Equipment = units(0x0111_1111_1111);
 
 /// The activities.
 #[rustfmt::skip]

@@ -31,15 +31,14 @@
 //! assert_eq!(relaxation, "raise the energy limit from 4320000 mJ to 4675896 mJ (+355896 mJ, 8.2 %)");
 //! ```
 
+mod limits;
 mod trials;
 mod wording;
 
 use crate::mission::Mission;
 use crate::scenario::Constraint;
-use cotama_core::exact::Objective;
-use cotama_core::hardware::Units;
-use std::cmp::Ordering;
-use trials::{Found, Plan, Trial, Trials};
+use cotama_core::hardware::Equipment;
+use trials::{Found, Trial, Trials};
 
 /// The most steps of one search in [`explain`].
 pub const STEPS: u64 = 5_000_000;
@@ -91,12 +90,17 @@ pub enum Cause {
         activity: usize,
         /// What its alternatives need of the kinds of which too few work: each alternative needs at
         /// least one of these. Never empty, and none covers another.
-        lacks: Vec<Units>,
+        lacks: Vec<Equipment>,
         /// The constraints, with the index of their zone, that exclude some combination of its
         /// options.
         constraints: Vec<(usize, Constraint)>,
         /// The indices of further activities without alternatives.
         others: Vec<usize>,
+    },
+    /// One of the limits or both: the search ended before it was known which, and by how much.
+    SomeLimit {
+        /// The steps it was given.
+        steps: u64,
     },
     /// Nothing: the search ended before it found a plan or the proof that there is none.
     Undecided {
@@ -172,7 +176,7 @@ pub enum Relaxation {
 
 /// Explains why a mission has no plan within `limits` (ms and mJ, inclusive) with the `available`
 /// hardware; `None` when it has one.
-pub fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<Explanation> {
+pub fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Explanation> {
     explain_within(mission, limits, available, STEPS)
 }
 
@@ -180,7 +184,7 @@ pub fn explain(mission: &Mission, limits: [u64; 2], available: Units) -> Option<
 pub fn explain_within(
     mission: &Mission,
     limits: [u64; 2],
-    available: Units,
+    available: Equipment,
     steps: u64,
 ) -> Option<Explanation> {
     let mut trials = Trials::new(mission, steps);
@@ -200,7 +204,7 @@ pub fn explain_within(
     }
     let (cause, heaviest, mut relaxations) = match no_alternative(mission, available) {
         Some(cause) => (cause, vec![], vec![]),
-        None => limit(&mut trials, mission, &as_is),
+        None => limits::raised(&mut trials, mission, &as_is, steps),
     };
     let constraints = trials.lift_all(mission);
     relaxations.extend(lifts(&mut trials, &as_is, &constraints));
@@ -209,20 +213,20 @@ pub fn explain_within(
     Some(Explanation { cause, heaviest, relaxations, complete: trials.complete() })
 }
 
-fn no_alternative(mission: &Mission, available: Units) -> Option<Cause> {
+fn no_alternative(mission: &Mission, available: Equipment) -> Option<Cause> {
     let activities = &mission.scenario().activities;
     let mut empty = activities.iter().enumerate().filter_map(|(index, activity)| {
         activity.alternatives.iter().all(|it| !available.covers(it.needs)).then_some(index)
     });
     let activity = empty.next()?;
     let others = empty.collect();
-    let short = |needs: Units| {
+    let short = |needs: Equipment| {
         let kinds = 0..mission.hardware.len();
         let short = kinds.filter(|&kind| needs.of(kind) > available.of(kind));
-        short.fold(Units::NONE, |all, kind| all.with(kind, needs.of(kind)).unwrap_or(all))
+        short.fold(Equipment::NONE, |all, kind| all.with(kind, needs.of(kind)).unwrap_or(all))
     };
     let all: Vec<_> = activities[activity].alternatives.iter().map(|it| short(it.needs)).collect();
-    let least = |one: &Units| all.iter().all(|other| other == one || !one.covers(*other));
+    let least = |one: &Equipment| all.iter().all(|other| other == one || !one.covers(*other));
     let mut lacks: Vec<_> = all.iter().copied().filter(least).collect();
     lacks.sort_unstable_by_key(|units| units.to_bits());
     lacks.dedup();
@@ -234,91 +238,6 @@ fn no_alternative(mission: &Mission, available: Units) -> Option<Cause> {
     constraints.sort_unstable();
     constraints.dedup();
     Some(Cause::NoAlternative { activity, lacks, constraints, others })
-}
-
-/// The cause when every activity has alternatives, its heaviest activities, and the limits raised.
-fn limit(
-    trials: &mut Trials<'_>,
-    mission: &Mission,
-    as_is: &Trial<'_>,
-) -> (Cause, Vec<Heavy>, Vec<Relaxation>) {
-    let mut raised = Vec::new();
-    for axis in mission.order {
-        let mut limits = as_is.limits;
-        limits[axis] = u64::MAX;
-        if let Found::Plan(plan) =
-            trials.run(&Trial { limits, ..as_is.clone() }, Some(Objective::Least(axis)))
-        {
-            raised.push((raise(as_is.limits, plan.cost), plan));
-        }
-    }
-    // The cheapest plan on one axis is at hand without a search. It is what is left when neither
-    // limit can be met, and a plan to name when a search was stopped.
-    if raised.is_empty() {
-        for axis in mission.order {
-            let plan = trials.cheapest(as_is, axis);
-            raised.push((raise(as_is.limits, plan.cost), plan));
-        }
-    }
-    raised.sort_by(|(a, _), (b, _)| by_size(a, b));
-    raised.dedup_by(|(a, _), (b, _)| a == b);
-
-    let (cause, heaviest) =
-        if let Some((Relaxation::RaiseLimit { axis, from, to }, plan)) = raised.first() {
-            (Cause::Limit { axis: *axis, limit: *from, least: *to }, heaviest(plan, *axis))
-        } else {
-            let cheapest = [0, 1].map(|axis| trials.cheapest(as_is, axis));
-            let [first, _] = mission.order;
-            let least = [0, 1].map(|axis| cheapest[axis].cost[axis]);
-            (Cause::Limits { limits: as_is.limits, least }, heaviest(&cheapest[first], first))
-        };
-    (cause, heaviest, raised.into_iter().map(|(relaxation, _)| relaxation).collect())
-}
-
-/// Raises the limits to what a plan costs where that is above them.
-fn raise(from: [u64; 2], cost: [u64; 2]) -> Relaxation {
-    match [0, 1].map(|axis| cost[axis] > from[axis]) {
-        [true, true] => Relaxation::RaiseLimits { from, to: cost },
-        [duration, _] => {
-            let axis = usize::from(!duration);
-            Relaxation::RaiseLimit { axis, from: from[axis], to: cost[axis] }
-        }
-    }
-}
-
-/// Orders raised limits by the larger part of a limit that they add, and then by axis and amount.
-fn by_size(a: &Relaxation, b: &Relaxation) -> Ordering {
-    // The part is a fraction of two whole numbers; fractions are compared by multiplying across. Of
-    // a limit of nothing every part is larger than any.
-    type Part = (u128, u128);
-    let compare = |a: Part, b: Part| match (a.1, b.1) {
-        (0, 0) => a.0.cmp(&b.0),
-        _ => (a.0 * b.1).cmp(&(b.0 * a.1)),
-    };
-    let part = |from: u64, to: u64| (u128::from(to - from), u128::from(from));
-    let key = |relaxation: &Relaxation| match *relaxation {
-        Relaxation::RaiseLimit { axis, from, to } => (part(from, to), axis, [to, to]),
-        Relaxation::RaiseLimits { from, to } => {
-            let [duration, energy] = [0, 1].map(|axis| part(from[axis], to[axis].max(from[axis])));
-            (if compare(duration, energy).is_lt() { energy } else { duration }, 2, to)
-        }
-        _ => ((0, 0), 3, [0, 0]),
-    };
-    let ((a, a_axis, a_to), (b, b_axis, b_to)) = (key(a), key(b));
-    compare(a, b).then(a_axis.cmp(&b_axis)).then(a_to.cmp(&b_to))
-}
-
-fn heaviest(plan: &Plan, axis: usize) -> Vec<Heavy> {
-    let total = plan.cost[axis].max(1);
-    let mut all: Vec<_> =
-        plan.activities.iter().map(|&(activity, cost)| (activity, cost[axis])).collect();
-    all.sort_by_key(|&(activity, cost)| (std::cmp::Reverse(cost), activity));
-    all.truncate(HEAVIEST);
-    let heavy = |(activity, cost): (usize, u32)| {
-        let permille = (u64::from(cost) * 1000 + total / 2) / total;
-        Heavy { activity, axis, cost, permille: permille as u16 }
-    };
-    all.into_iter().map(heavy).collect()
 }
 
 /// Each constraint that suffices, or a set without one to spare.
@@ -355,8 +274,8 @@ fn kept_hardware(trials: &mut Trials<'_>, mission: &Mission, as_is: &Trial<'_>) 
     let now = as_is.available;
     let kinds = mission.hardware.iter().enumerate();
     let lost: Vec<_> = kinds.filter(|(kind, it)| now.of(*kind) < it.units).collect();
-    let mut with = |available: Units| trials.feasible(&Trial { available, ..as_is.clone() });
-    let keep = |units: Units, kind: usize, count: u8| units.with(kind, count).unwrap_or(units);
+    let mut with = |available: Equipment| trials.feasible(&Trial { available, ..as_is.clone() });
+    let keep = |units: Equipment, kind: usize, count: u8| units.with(kind, count).unwrap_or(units);
 
     let mut found = Vec::new();
     for &(hardware, it) in &lost {
@@ -414,8 +333,8 @@ impl Relaxation {
         &self,
         mission: &Mission,
         mut limits: [u64; 2],
-        mut available: Units,
-    ) -> Option<(Mission, [u64; 2], Units)> {
+        mut available: Equipment,
+    ) -> Option<(Mission, [u64; 2], Equipment)> {
         let mut changed = None;
         match self {
             Self::RaiseLimit { axis, to, .. } => *limits.get_mut(*axis)? = *to,

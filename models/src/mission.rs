@@ -35,7 +35,7 @@ use crate::diagnostic::{Diagnostic, MissionErrors, Spanned};
 use crate::faults::Run;
 use crate::reader::{self, Sink};
 use crate::scenario::{Constraint, Scenario};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::{Deref, Range};
@@ -184,7 +184,7 @@ pub struct Tio {
     /// The task that it implements.
     pub task: Task,
     /// The hardware it needs.
-    pub needs: Units,
+    pub needs: Equipment,
     /// The fastest it allows.
     pub speed_max: Option<MillimetresPerSecond>,
     /// Its quality for each 100 mm of travel.
@@ -263,7 +263,7 @@ pub struct Definition {
     pub order: [usize; 2],
     /// The robot's body.
     pub robot: Robot,
-    /// The hardware; its index is its kind in [`Units`].
+    /// The hardware; its index is its kind in [`Equipment`].
     pub hardware: Vec<Hardware>,
     /// The power of motion.
     pub motion_power: MotionPower,
@@ -283,14 +283,18 @@ pub struct Definition {
 
 impl Definition {
     /// All the hardware of the robot.
-    pub fn available(&self) -> Units {
-        let with =
-            |units: Units, (kind, hardware): (usize, &Hardware)| units.with(kind, hardware.units);
-        self.hardware.iter().enumerate().fold(Units::NONE, |all, one| with(all, one).unwrap_or(all))
+    pub fn available(&self) -> Equipment {
+        let with = |units: Equipment, (kind, hardware): (usize, &Hardware)| {
+            units.with(kind, hardware.units)
+        };
+        self.hardware
+            .iter()
+            .enumerate()
+            .fold(Equipment::NONE, |all, one| with(all, one).unwrap_or(all))
     }
 
     /// The power of these units.
-    pub fn power_of(&self, units: Units) -> Milliwatts {
+    pub fn power_of(&self, units: Equipment) -> Milliwatts {
         let power =
             |(kind, hardware): (usize, &Hardware)| u64::from(units.of(kind)) * hardware.power.0;
         Milliwatts(self.hardware.iter().enumerate().map(power).sum())

@@ -42,7 +42,7 @@ impl fmt::Display for Source<'_> {
         writeln!(f, "/// The axes in their order of treatment.")?;
         writeln!(f, "pub const ORDER: [usize; 2] = [{first}, {second}];")?;
         writeln!(f, "/// All the hardware of the robot.")?;
-        writeln!(f, "pub const AVAILABLE: Units = units({});\n", hex(available))?;
+        writeln!(f, "pub const AVAILABLE: Equipment = units({});\n", hex(available))?;
         writeln!(f, "/// The activities.\n#[rustfmt::skip]")?;
         writeln!(f, "pub static ACTIVITIES: [Activity<'static>; {count}] = [")?;
         for activity in activities {
@@ -78,11 +78,11 @@ impl fmt::Display for Source<'_> {
 }
 
 const HEAD: &str = r#"
-use cotama_core::{hardware::Units, units::Millimetres};
+use cotama_core::{hardware::Equipment, units::Millimetres};
 use cotama_models::tables::{Activity, Alternative};
 
-const fn units(bits: u64) -> Units {
-    match Units::from_bits(bits) {
+const fn units(bits: u64) -> Equipment {
+    match Equipment::from_bits(bits) {
         Some(units) => units,
         None => panic!("a count of units passes its field"), // of constants: an error when compiled
     }

@@ -7,7 +7,7 @@
 use crate::diagnostic::Diagnostic;
 use crate::mission::{Definition, Objective, Task, Zone};
 use crate::tables::{Activity, Alternative};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
 
 /// The most activities of a mission.
@@ -80,7 +80,7 @@ pub struct Scenario {
     /// The axes in their order of treatment.
     pub order: [usize; 2],
     /// All the hardware of the robot.
-    pub available: Units,
+    pub available: Equipment,
 }
 
 impl Scenario {
@@ -90,7 +90,7 @@ impl Scenario {
     }
 
     /// All the hardware of the robot.
-    pub fn available(&self) -> Units {
+    pub fn available(&self) -> Equipment {
         self.available
     }
 
@@ -178,7 +178,7 @@ fn cut(definition: &Definition) -> Result<Vec<Part<'_>>, Vec<Diagnostic>> {
 struct Combination {
     tios: Vec<usize>,
     label: String,
-    needs: Units,
+    needs: Equipment,
     speed_max: Option<MillimetresPerSecond>,
     /// The option of the task that leads.
     lead: usize,
@@ -192,7 +192,7 @@ fn combine(
     let empty = Combination {
         tios: Vec::new(),
         label: String::new(),
-        needs: Units::NONE,
+        needs: Equipment::NONE,
         speed_max: None,
         lead: usize::MAX,
     };
@@ -325,7 +325,7 @@ fn excluding(
     combination: &Combination,
 ) -> Vec<(usize, Constraint)> {
     let moving = definition.tios.get(combination.lead).filter(|tio| tio.task == Task::Move);
-    let uses = moving.map_or(Units::NONE, |tio| tio.needs);
+    let uses = moving.map_or(Equipment::NONE, |tio| tio.needs);
     let mut by = Vec::new();
     for &(index, zone) in zones {
         let hardware = zone.require_hardware.as_ref().map(|required| required.value);

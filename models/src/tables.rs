@@ -1,7 +1,7 @@
 //! The tables of a mission as an allocator needs them: numbers only, no heap, ready for flash.
 //!
 //! ```
-//! use cotama_core::{hardware::Units, problem::Problem, units::Millimetres};
+//! use cotama_core::{hardware::Equipment, problem::Problem, units::Millimetres};
 //! use cotama_models::patrol_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 //! use cotama_models::tables::{EMPTY, Rest, remaining};
 //!
@@ -14,7 +14,7 @@
 //! assert_eq!(problem.combinations(), Some(21));
 //! ```
 
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::problem::Candidate;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 
@@ -39,7 +39,7 @@ pub struct Alternative {
     /// The power of everything that is on.
     pub power: Milliwatts,
     /// The hardware it needs.
-    pub needs: Units,
+    pub needs: Equipment,
     /// The quality per 100 mm of travel, or of the whole activity when it does not travel.
     pub quality: u32,
 }
@@ -67,14 +67,19 @@ pub struct Activity<'a> {
 impl Alternative {
     /// An alternative of an activity that travels.
     #[must_use]
-    pub const fn travelling(speed_mm_s: u64, power_mw: u64, needs: Units, quality: u32) -> Self {
+    pub const fn travelling(
+        speed_mm_s: u64,
+        power_mw: u64,
+        needs: Equipment,
+        quality: u32,
+    ) -> Self {
         let speed = MillimetresPerSecond(speed_mm_s);
         Self { speed, duration: Millis(0), power: Milliwatts(power_mw), needs, quality }
     }
 
     /// An alternative of an activity that does not travel.
     #[must_use]
-    pub const fn standing(duration_ms: u64, power_mw: u64, needs: Units, quality: u32) -> Self {
+    pub const fn standing(duration_ms: u64, power_mw: u64, needs: Equipment, quality: u32) -> Self {
         let duration = Millis(duration_ms);
         Self {
             speed: MillimetresPerSecond(0),
@@ -214,7 +219,7 @@ pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
 pub fn remaining<'c, 'l>(
     activities: &[Activity<'_>],
     first: Rest,
-    available: Units,
+    available: Equipment,
     mut candidates: &'c mut [Candidate<2>],
     lists: &'l mut [&'c [Candidate<2>]],
 ) -> Result<&'l [&'c [Candidate<2>]], RemainingError> {

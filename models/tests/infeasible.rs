@@ -4,7 +4,7 @@
 #![cfg(feature = "std")]
 #![allow(clippy::cast_precision_loss)] // shares are compared roughly
 
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_models::embedded;
 use cotama_models::infeasible::{Cause, Explanation, Relaxation, explain, explain_within};
 use cotama_models::mission::Mission;
@@ -34,7 +34,7 @@ fn patrol() -> Mission {
 /// Every pair of total duration and energy that no other beats, with this hardware: none where an
 /// activity has no alternative. No search, and no allocator: sums over the activities, one after
 /// the other.
-fn front(mission: &Mission, available: Units) -> Vec<[u64; 2]> {
+fn front(mission: &Mission, available: Equipment) -> Vec<[u64; 2]> {
     let mut front = vec![[0, 0]];
     for activity in mission.scenario().activities() {
         let mut next = Vec::new();
@@ -53,7 +53,7 @@ fn front(mission: &Mission, available: Units) -> Vec<[u64; 2]> {
     front
 }
 
-fn feasible(mission: &Mission, limits: [u64; 2], available: Units) -> bool {
+fn feasible(mission: &Mission, limits: [u64; 2], available: Equipment) -> bool {
     front(mission, available).iter().any(|cost| cost[0] <= limits[0] && cost[1] <= limits[1])
 }
 
@@ -62,7 +62,7 @@ fn suffices(
     relaxation: &Relaxation,
     mission: &Mission,
     limits: [u64; 2],
-    available: Units,
+    available: Equipment,
 ) -> bool {
     let (mission, limits, available) = relaxation.apply(mission, limits, available).unwrap();
     feasible(&mission, limits, available)
@@ -104,7 +104,7 @@ fn less(relaxation: &Relaxation) -> Vec<Relaxation> {
 }
 
 /// What every complete explanation promises.
-fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Units) {
+fn check(why: &Explanation, mission: &Mission, limits: [u64; 2], available: Equipment) {
     assert!(why.complete);
     for relaxation in &why.relaxations {
         assert!(
@@ -204,11 +204,29 @@ fn check_order(why: &Explanation, mission: &Mission) {
     assert!(why.relaxations.windows(2).all(|pair| key(&pair[0]) <= key(&pair[1])), "{why:?}");
 }
 
+/// What a cause says of a limit is proven, however early the search ended.
+fn check_cause(cause: &Cause, front: &[[u64; 2]], limits: [u64; 2]) {
+    let least = |axis: usize, other: u64| {
+        front.iter().filter(|cost| cost[1 - axis] <= other).map(|cost| cost[axis]).min()
+    };
+    match *cause {
+        Cause::Limit { axis, limit, least: said } => {
+            assert_eq!((limit, least(axis, limits[1 - axis])), (limits[axis], Some(said)));
+            assert!(said > limit);
+        }
+        Cause::Limits { limits: of, least: said } => {
+            assert_eq!((of, [0, 1].map(|axis| least(axis, u64::MAX))), (limits, said.map(Some)));
+            assert!([0, 1].iter().all(|&axis| said[axis] > limits[axis]));
+        }
+        _ => {}
+    }
+}
+
 fn check_heaviest(why: &Explanation, mission: &Mission) {
     let total = match why.cause {
         Cause::Limit { axis, least, .. } => Some((axis, least)),
         Cause::Limits { least, .. } => Some((mission.order[0], least[mission.order[0]])),
-        Cause::NoAlternative { .. } | Cause::Undecided { .. } => None,
+        Cause::NoAlternative { .. } | Cause::SomeLimit { .. } | Cause::Undecided { .. } => None,
     };
     assert_eq!(total.is_some(), !why.heaviest.is_empty());
     for heavy in &why.heaviest {
@@ -305,7 +323,7 @@ fn without_the_sonar_the_glazed_zones_have_no_alternative() {
     let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
     let cause = Cause::NoAlternative {
         activity: 1,
-        lacks: vec![Units::NONE.with(SONAR, 1).unwrap()],
+        lacks: vec![Equipment::NONE.with(SONAR, 1).unwrap()],
         constraints: vec![(zone("glass-out"), Constraint::Hardware)],
         others: vec![2, 6, 9, 15],
     };
@@ -358,6 +376,7 @@ fn a_search_cut_short_says_so() {
                 within.relaxations.iter().all(|it| suffices(it, &mission, limits, all)),
                 "{within:?}"
             );
+            check_cause(&within.cause, &front, limits);
             let undecided = within.cause == Cause::Undecided { steps };
             assert!(!undecided || within.relaxations.is_empty());
             cut_short += usize::from(undecided == (what == "cause"));

@@ -1,7 +1,7 @@
 //! Laws of cutting, generating and costing, on random missions.
 #![cfg(feature = "std")]
 
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::units::Millimetres;
 use cotama_models::mission::Mission;
 use cotama_models::tables::{Alternative, EMPTY, RemainingError, Rest, buffer_sizes, remaining};
@@ -62,7 +62,7 @@ proptest! {
         let all = mission.scenario().available();
         let less = lost.iter().fold(all, |units, &(kind, count)| units.without(kind, count));
         let first = activities[0].whole(&activities[0].alternatives[0]);
-        let ids = |available: Units| {
+        let ids = |available: Equipment| {
             let mut candidates = vec![EMPTY; buffer_sizes(&activities).0];
             let mut lists = vec![&[][..]; activities.len()];
             let lists = remaining(&activities, first, available, &mut candidates, &mut lists)?;
@@ -88,7 +88,7 @@ proptest! {
     fn two_halves_cost_the_whole_but_for_rounding(
         length in 0..1_000_000u64, cut in 0..1_000_000u64, speed in 1..2_000u64, power in 0..50_000u64,
     ) {
-        let alternative = Alternative::travelling(speed, power, Units::NONE, 3);
+        let alternative = Alternative::travelling(speed, power, Equipment::NONE, 3);
         let cost = |mm| alternative.cost(Rest::Travel(Millimetres(mm)));
         let cut = cut.min(length);
         if let (Some(a), Some(b), Some(whole)) = (cost(cut), cost(length - cut), cost(length)) {

@@ -1,7 +1,7 @@
 //! The modules of the delivery in time: response times, particles, and the second point of the
 //! experiment.
 
-use cotama_core::executive::{Executive, Happening, Overruns, Stage, Task, TaskSet, What};
+use cotama_core::executive::{Executive, Happening, Overruns, Task, TaskSet, Watchdog, What};
 use cotama_core::units::Micros;
 use cotama_models::cotama::Configuration::{
     self, FollowingDegraded, FollowingOdometric, FollowingOptimal, Planning, TeleoperationFull,
@@ -123,7 +123,7 @@ fn the_localisation_alone_is_found_too_slow_and_fewer_particles_cure_it() {
         troubles(&mut full, Micros(300_000)),
         [&late(1)[..], &late(2), &late(3), &[refused]].concat()
     );
-    assert_eq!(full.stage(13), Some(Stage::Fault));
+    assert_eq!(full.watchdog(13), Some(Watchdog::Fault));
 
     let mut reduced = Executive::<14>::new(under_load(PARTICLES[1])).unwrap();
     assert_eq!(troubles(&mut reduced, Micros(10_000_000)), []);

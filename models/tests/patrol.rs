@@ -146,7 +146,7 @@ fn a_remaining_mission_becomes_a_problem_without_heap() {
     let last = problem.activities()[3].last().unwrap();
     assert_eq!(scenario.activities[16].labels[usize::from(last.id)], "M3 L2");
 
-    let nothing = cotama_core::hardware::Units::NONE;
+    let nothing = cotama_core::hardware::Equipment::NONE;
     let mut candidates = [EMPTY; 5];
     let mut lists = [&[][..]; 17];
     let refused = remaining(&activities[13..], rest, nothing, &mut candidates, &mut lists);

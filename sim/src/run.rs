@@ -169,6 +169,9 @@ pub enum NoPlan {
         /// What is missing on it, in ms or mJ.
         short: u64,
     },
+    /// No plan is within the limits, and the search was cut short before it was known which of them
+    /// cannot be met.
+    Infeasible,
     /// The hardware that works covers no alternative of an activity.
     Emptied {
         /// The index of the activity.
@@ -194,6 +197,7 @@ impl NoPlan {
                     mission.scenario().activities.get(activity).map_or("?", |it| it.id.as_str());
                 format!("no alternative left for {id}")
             }
+            Self::Infeasible => "no plan within the limits".into(),
             Self::Unknown { steps } => format!("no plan found in {steps} steps"),
         }
     }

@@ -5,8 +5,8 @@ use crate::record::{Recorder, Silent};
 use crate::run::{NoPlan, Run};
 use crate::streams::Streams;
 use crate::world::World;
-use cotama_core::hardware::Units;
-use cotama_core::monitor::{AmountOverflow, Monitor};
+use cotama_core::hardware::Equipment;
+use cotama_core::monitor::{Monitor, MonitorError};
 use cotama_core::problem::Candidate;
 use cotama_core::units::Millis;
 use cotama_models::faults::{EventKind, Faults};
@@ -67,8 +67,8 @@ pub enum SetupError {
         /// So many.
         draws: u64,
     },
-    /// A limit is beyond [`MAX_AMOUNT`](cotama_core::monitor::MAX_AMOUNT).
-    LimitTooLarge(AmountOverflow),
+    /// The limits cannot be watched.
+    Unwatchable(MonitorError),
     /// The faults name a zone or a hardware that the mission does not have: they were read for
     /// another one.
     ForeignFaults,
@@ -82,7 +82,7 @@ impl std::fmt::Display for SetupError {
                 f,
                 "the random events need {draws} draws, at most {MAX_DRAWS} are made; name fewer of them"
             ),
-            Self::LimitTooLarge(overflow) => write!(f, "a limit cannot be watched: {overflow}"),
+            Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
             Self::ForeignFaults => {
                 f.write_str("the faults name a zone or hardware that the mission does not have")
             }
@@ -116,7 +116,7 @@ impl<'m> Simulation<'m> {
         }
         let scenario = mission.scenario();
         let mut monitor =
-            Monitor::new(scenario.limits, scenario.order).map_err(SetupError::LimitTooLarge)?;
+            Monitor::new(scenario.limits, scenario.order).map_err(SetupError::Unwatchable)?;
         if let Some(upward) = options.upward {
             monitor = monitor.with_upward(upward);
         }
@@ -172,7 +172,7 @@ impl<'m> Simulation<'m> {
     }
 
     /// All hardware of the robot.
-    pub(crate) fn all_hardware(&self) -> Units {
+    pub(crate) fn all_hardware(&self) -> Equipment {
         self.mission.scenario().available
     }
 

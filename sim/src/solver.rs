@@ -1,6 +1,7 @@
 //! The allocators behind one door, with their memory.
 
 use crate::options::{Aim, Planner};
+use crate::run::NoPlan;
 use cotama_core::allocation::{Allocator, Answer, Planned};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
@@ -27,21 +28,13 @@ pub(crate) struct Found {
     pub(crate) allocator: &'static str,
 }
 
-/// Why there is none.
-pub(crate) enum NotFound {
-    /// The least total found reachable on an axis.
-    Infeasible { axis: usize, least: u64 },
-    /// The search was cut short.
-    Unknown { steps: u64 },
-}
-
 impl Solver {
     /// Looks for a plan.
     pub(crate) fn solve(
         &mut self,
         planner: Planner,
         problem: &Problem<'_, 2>,
-    ) -> Result<Found, NotFound> {
+    ) -> Result<Found, NoPlan> {
         match planner {
             Planner::Panorama => self.panorama(problem),
             Planner::PanoramaThenExact { steps } => match self.panorama(problem) {
@@ -57,7 +50,7 @@ impl Solver {
         }
     }
 
-    fn panorama(&mut self, problem: &Problem<'_, 2>) -> Result<Found, NotFound> {
+    fn panorama(&mut self, problem: &Problem<'_, 2>) -> Result<Found, NoPlan> {
         let activities = problem.activities();
         at_least(&mut self.caps, activities.len(), [0; 2]);
         at_least(&mut self.plan, activities.len(), 0);
@@ -70,7 +63,7 @@ impl Solver {
         problem: &Problem<'_, 2>,
         objectives: &[Objective],
         steps: u64,
-    ) -> Result<Found, NotFound> {
+    ) -> Result<Found, NoPlan> {
         let activities = problem.activities();
         let candidates = activities.iter().map(|candidates| candidates.len()).sum();
         at_least(&mut self.items, candidates, Item::EMPTY);
@@ -94,12 +87,15 @@ fn found<A: Allocator<2>>(
     allocator: &'static str,
     problem: &Problem<'_, 2>,
     plan: &mut [u16],
-) -> Result<Found, NotFound> {
+) -> Result<Found, NoPlan> {
     match rule.allocate(problem, plan) {
         Ok(Answer::Planned(planned)) => Ok(Found { planned, allocator }),
-        Ok(Answer::Infeasible { axis, least, .. }) => Err(NotFound::Infeasible { axis, least }),
-        Ok(Answer::Unknown { steps, .. }) => Err(NotFound::Unknown { steps }),
+        Ok(Answer::Infeasible { shortfall: None, .. }) => Err(NoPlan::Infeasible),
+        Ok(Answer::Infeasible { shortfall: Some(short), .. }) => {
+            Err(NoPlan::Limit { axis: short.axis(), short: short.gap() })
+        }
+        Ok(Answer::Unknown { steps, .. }) => Err(NoPlan::Unknown { steps }),
         // Its memory was sized for this problem above.
-        Err(_) => Err(NotFound::Unknown { steps: 0 }),
+        Err(_) => Err(NoPlan::Unknown { steps: 0 }),
     }
 }

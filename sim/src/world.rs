@@ -17,7 +17,7 @@ use crate::run::{Cause, EventCounts, NoPlan, PlanMade, Reason, Run};
 use crate::setup::{NM_PER_MM, Pending, Simulation};
 use crate::solver::Solver;
 use crate::trace::Outcome;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Monitor;
 use cotama_models::tables::Alternative;
 use std::borrow::Cow;
@@ -72,11 +72,11 @@ pub struct World<'s> {
     leg: Leg,
     segment: usize,
     monitor: Monitor<2>,
-    available: Units,
+    available: Equipment,
     /// The alternative of each activity.
     choice: Vec<u16>,
     /// For each activity, the planned cost and the needs from it on; one more element for the end.
-    rest: Vec<([u64; 2], Units)>,
+    rest: Vec<([u64; 2], Equipment)>,
     solver: Solver,
     /// The hardware that failed last, and how many units of it: what a request for it is about.
     lost: (usize, u8),
@@ -99,7 +99,7 @@ impl<'s> World<'s> {
     ) -> Result<Self, NoPlan> {
         let count = simulation.activities.len();
         let x_start = simulation.activities.first().map_or(0, |activity| activity.x_start.0);
-        let nothing = Alternative::standing(0, 0, Units::NONE, 0);
+        let nothing = Alternative::standing(0, 0, Equipment::NONE, 0);
         let mut world = Self {
             simulation,
             queue: Queue::new(),
@@ -118,7 +118,7 @@ impl<'s> World<'s> {
             monitor: simulation.monitor,
             available: simulation.all_hardware(),
             choice: vec![0; count],
-            rest: vec![([0; 2], Units::NONE); count + 1],
+            rest: vec![([0; 2], Equipment::NONE); count + 1],
             solver: Solver::default(),
             lost: (0, 0),
             checked_us: None,
@@ -183,7 +183,7 @@ impl<'s> World<'s> {
     }
 
     /// The hardware that works.
-    pub fn available(&self) -> Units {
+    pub fn available(&self) -> Equipment {
         self.available
     }
 

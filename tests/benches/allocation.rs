@@ -8,7 +8,8 @@
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
-use cotama_tests::instances::{Correlation, Instance, Zones, correlated, paper_like, robot_like};
+use cotama_tests::families::{Correlation, correlated, robot_like};
+use cotama_tests::instances::{Instance, Zones, paper_like};
 use serde_json::json;
 use std::time::Instant;
 

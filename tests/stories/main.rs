@@ -1,6 +1,5 @@
 //! Stories across the crates.
 
-mod allocators;
 mod conformance;
 mod nets;
 mod patrol;

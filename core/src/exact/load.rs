@@ -5,8 +5,8 @@ use super::rows::Rows;
 use super::{Item, Objective, Stage};
 use crate::problem::{Candidate, Problem};
 
-/// A stage of a lexicographic order: one objective (none: any plan will do), and what the stages
-/// before have fixed.
+/// One objective of a lexicographic order (none: any plan will do), and what those before it have
+/// fixed.
 pub(super) struct Aim<const A: usize> {
     pub(super) objective: Option<Objective>,
     pub(super) limits: [u64; A],

@@ -49,8 +49,8 @@ mod primal;
 mod rows;
 mod search;
 
-use crate::allocation::{Allocator, Answer, MemoryError, Planned, enough};
-use crate::problem::Problem;
+use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enough};
+use crate::problem::{Candidate, Problem};
 use congruence::Remainders;
 use load::Aim;
 use rows::Rows;
@@ -82,7 +82,7 @@ impl Objective {
 pub struct Item<const A: usize> {
     /// Cost above the cheapest of the activity.
     cost: [u32; A],
-    /// Quality below the best of the activity, where a stage before fixed the quality.
+    /// Quality below the best of the activity, where an objective before fixed the quality.
     deficit: u32,
     /// Value above the least of the activity.
     value: u32,
@@ -293,31 +293,30 @@ impl<'m, const A: usize> Exact<'m, A> {
         }
     }
 
-    /// Which limit cannot be met, and the least total on its axis within the limits treated before
-    /// it.
-    fn blame(&mut self, problem: &Problem<'_, A>, budget: &mut Budget) -> (usize, u64) {
+    /// The first limit in the order of treatment that no plan meets which keeps those before it;
+    /// `None` when the budget ends before that is known. Needs a problem without a plan.
+    fn shortfall(&mut self, problem: &Problem<'_, A>, budget: &mut Budget) -> Option<Shortfall> {
+        let activities = problem.activities();
         let mut limits = [u64::MAX; A];
         for axis in problem.order() {
             let aim = Aim { objective: Some(Objective::Least(axis)), limits, quality_floor: 0 };
-            let least = match self.pursue(problem, &aim, budget) {
-                Ended::Optimal | Ended::Stopped(_) => self.stages[..problem.activities().len()]
-                    .iter()
-                    .zip(problem.activities())
-                    .map(|(stage, candidates)| {
-                        let choice = stage.item(self.items, stage.best).choice;
-                        u64::from(candidates[usize::from(choice)].cost[axis])
-                    })
-                    .sum(),
-                Ended::Unknown(bound) => u64::try_from(-bound).unwrap_or(0),
-                Ended::Infeasible => problem.least(axis),
-            };
-            if least > problem.limits()[axis] {
-                return (axis, least);
+            let ended = self.pursue(problem, &aim, budget);
+            if matches!(ended, Ended::Infeasible | Ended::Unknown(_)) {
+                return None;
             }
-            limits[axis] = problem.limits()[axis];
+            let own = |(stage, candidates): (&Stage<A>, &&[Candidate<A>])| {
+                let choice = stage.item(self.items, stage.best).choice;
+                u64::from(candidates[usize::from(choice)].cost[axis])
+            };
+            let total = self.stages[..activities.len()].iter().zip(activities).map(own).sum();
+            let limit = problem.limits()[axis];
+            if let Some(shortfall) = Shortfall::new(axis, limit, total) {
+                // Without the proof that no plan has less, this limit may well be met.
+                return matches!(ended, Ended::Optimal).then_some(shortfall);
+            }
+            limits[axis] = limit;
         }
-        // Only a budget spent on the way leads here: the last limit is as good a culprit as any.
-        problem.order().last().map_or((0, 0), |&axis| (axis, problem.least(axis)))
+        None
     }
 }
 
@@ -338,14 +337,14 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
         let mut found = None;
         // Without an objective any plan will do: one pursuit of nothing.
         let count = self.objectives.len().max(1);
-        for stage in 0..count {
-            aim.objective = self.objectives.get(stage).copied();
+        for place in 0..count {
+            aim.objective = self.objectives.get(place).copied();
             let bound = match self.pursue(problem, &aim, &mut budget) {
                 Ended::Optimal => None,
                 Ended::Stopped(bound) => Some(bound),
                 Ended::Infeasible if found.is_none() => {
-                    let (axis, least) = self.blame(problem, &mut budget);
-                    return Ok(Answer::Infeasible { axis, least, steps: self.steps - budget.left });
+                    let shortfall = self.shortfall(problem, &mut budget);
+                    return Ok(Answer::Infeasible { shortfall, steps: self.steps - budget.left });
                 }
                 Ended::Unknown(bound) if found.is_none() => {
                     let bound = u64::try_from(bound.abs()).unwrap_or(u64::MAX);

@@ -24,7 +24,7 @@
 //! | [`TaskSet::response_times`] | exact worst-case response times, with no overrun, any one, or all |
 //! | [`TaskSet::most_cost`] | how much one of them may cost at most |
 //! | [`Executive`] | the scheduler and its watchdogs, driven by time as an argument |
-//! | [`Mailbox`] | data between modules, with its age |
+//! | [`Latest`] | data between modules, with its age |
 //!
 //! **Instants.** A job at work from *a* to *b* has the processor in the half-open interval *[a,
 //! b)*, so one that ends when its deadline comes is in time. At one instant jobs end first, then
@@ -44,14 +44,14 @@
 //! assert_eq!(set.most_cost(1, Overruns::None), Ok(Some(Micros(10)))); // the last one has no slack
 //! ```
 
-mod mailbox;
+mod latest;
 mod response;
 mod scheduler;
 mod task;
 #[cfg(test)]
 mod tests;
 
-pub use mailbox::{Mailbox, Publication};
-pub use response::{ITERATIONS, Overruns, Unschedulable};
-pub use scheduler::{Executive, Happening, NotRunning, Stage, What};
-pub use task::{Senseless, Task, TaskError, TaskSet};
+pub use latest::{Latest, Publication};
+pub use response::{Overruns, Unschedulable};
+pub use scheduler::{Executive, Happening, NotRunning, Watchdog, What};
+pub use task::{ITERATIONS, Senseless, Task, TaskError, TaskSet};

@@ -3,10 +3,6 @@
 use super::task::{Task, TaskSet};
 use crate::units::Micros;
 
-/// The most iterations for one response time, where nothing else is said. Each lengthens it by at
-/// least one microsecond, most by a whole job; a set of twenty tasks rarely needs fifty.
-pub const ITERATIONS: u32 = 10_000;
-
 /// Which modules run into their extra time, in each of their periods.
 ///
 /// One that does is not asked to be in time itself, the others are.

@@ -1,12 +1,12 @@
 //! The scheduler and its watchdogs, as a state machine that is told the time.
 
-use super::mailbox::Publication;
+use super::latest::Publication;
 use super::task::{Task, TaskError, TaskSet};
 use crate::units::Micros;
 
 /// Where the watchdog of a module is: the places of its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
+pub enum Watchdog {
     /// No job is under way.
     Idle,
     /// A job is, and its deadline is ahead.
@@ -99,7 +99,7 @@ impl core::error::Error for NotRunning {}
 /// The watchdog and the job of one module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Module {
-    stage: Stage,
+    watchdog: Watchdog,
     /// Deadlines missed in a row; at most the patience of the task.
     misses: u8,
     /// Of the job under way.
@@ -149,7 +149,7 @@ impl<const N: usize> Executive<N> {
     pub fn new(tasks: [Task; N]) -> Result<Self, TaskError> {
         TaskSet::new(&tasks)?;
         let modules = tasks.map(|task| Module {
-            stage: Stage::Idle,
+            watchdog: Watchdog::Idle,
             misses: 0,
             released: Micros::ZERO,
             used: Micros::ZERO,
@@ -169,8 +169,8 @@ impl<const N: usize> Executive<N> {
     }
 
     /// Where the watchdog of a module is; `None` of a task that is not there.
-    pub fn stage(&self, task: usize) -> Option<Stage> {
-        self.modules.get(task).map(|module| module.stage)
+    pub fn watchdog(&self, task: usize) -> Option<Watchdog> {
+        self.modules.get(task).map(|module| module.watchdog)
     }
 
     /// How many deadlines in a row a module has missed; `None` of a task that is not there.
@@ -231,8 +231,8 @@ impl<const N: usize> Executive<N> {
         let (Some(of), Some(module)) = (self.tasks.get(task), self.modules.get_mut(task)) else {
             return Err(NotRunning::Running(running));
         };
-        let what = if module.stage == Stage::Run {
-            *module = Module { stage: Stage::Idle, misses: 0, ..*module };
+        let what = if module.watchdog == Watchdog::Run {
+            *module = Module { watchdog: Watchdog::Idle, misses: 0, ..*module };
             What::Done
         } else {
             What::DoneLate { rt_fault: module.end(of) }
@@ -261,8 +261,9 @@ impl<const N: usize> Executive<N> {
             return None;
         }
         self.pass(now);
-        let module = self.modules.get_mut(task).filter(|module| module.stage == Stage::Fault)?;
-        *module = Module { stage: Stage::Idle, misses: 0, ..*module };
+        let module =
+            self.modules.get_mut(task).filter(|module| module.watchdog == Watchdog::Fault)?;
+        *module = Module { watchdog: Watchdog::Idle, misses: 0, ..*module };
         Some(Happening { at: self.now, task, what: What::Acknowledged })
     }
 
@@ -282,12 +283,13 @@ impl<const N: usize> Executive<N> {
                     self.now.checked_add(Micros(task.budget().0.saturating_sub(module.used.0)))
                 })
                 .flatten();
-            let deadline = (module.stage == Stage::Run)
+            let deadline = (module.watchdog == Watchdog::Run)
                 .then(|| module.released.checked_add(task.deadline))
                 .flatten();
             let end = Micros(task.deadline.0.saturating_add(task.extra.0)); // fits, in a task that makes sense
-            let extra =
-                (module.stage == Stage::Extra).then(|| module.released.checked_add(end)).flatten();
+            let extra = (module.watchdog == Watchdog::Extra)
+                .then(|| module.released.checked_add(end))
+                .flatten();
             let dues = [
                 (Due::Exhausted, exhausted),
                 (Due::Deadline, deadline),
@@ -314,16 +316,16 @@ impl<const N: usize> Executive<N> {
             what = match due {
                 Due::Exhausted => What::Exhausted,
                 Due::Deadline => {
-                    module.stage = Stage::Extra;
+                    module.watchdog = Watchdog::Extra;
                     module.misses = module.misses.saturating_add(1).min(of.patience); // is below it outside `Fault`
                     What::DeadlineMissed
                 }
                 Due::ExtraOver => What::Skipped { rt_fault: module.end(of) },
                 Due::Release => {
                     module.release = module.release.and_then(|at| at.checked_add(of.period));
-                    if module.stage == Stage::Idle {
+                    if module.watchdog == Watchdog::Idle {
                         *module = Module {
-                            stage: Stage::Run,
+                            watchdog: Watchdog::Run,
                             released: now,
                             used: Micros::ZERO,
                             ..*module
@@ -351,7 +353,7 @@ impl<const N: usize> Executive<N> {
 
 impl Module {
     const fn is_at_work(&self) -> bool {
-        matches!(self.stage, Stage::Run | Stage::Extra)
+        matches!(self.watchdog, Watchdog::Run | Watchdog::Extra)
     }
 
     const fn wants_processor(&self, task: &Task) -> bool {
@@ -361,7 +363,7 @@ impl Module {
     /// Ends a late job; whether that is a fault.
     const fn end(&mut self, task: &Task) -> bool {
         let rt_fault = self.misses >= task.patience;
-        self.stage = if rt_fault { Stage::Fault } else { Stage::Idle };
+        self.watchdog = if rt_fault { Watchdog::Fault } else { Watchdog::Idle };
         rt_fault
     }
 }

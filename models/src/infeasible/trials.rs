@@ -7,7 +7,7 @@ use crate::scenario::{Constraint, PlannedActivity, Scenario};
 use crate::tables::Alternative;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
 use std::ops::Range;
 
@@ -18,7 +18,7 @@ const COMBINATIONS_A_STEP: u64 = 8;
 #[derive(Clone)]
 pub(super) struct Trial<'t> {
     pub(super) limits: [u64; 2],
-    pub(super) available: Units,
+    pub(super) available: Equipment,
     /// The constraints that do not count, sorted.
     pub(super) lifted: &'t [(usize, Constraint)],
     /// The objectives left out.
@@ -28,6 +28,8 @@ pub(super) struct Trial<'t> {
 /// A plan, as far as it matters here.
 #[derive(Clone)]
 pub(super) struct Plan {
+    /// Whether none is better for the objective of its search.
+    pub(super) best: bool,
     pub(super) cost: [u64; 2],
     /// Activities by index and their costs.
     pub(super) activities: Vec<(usize, [u32; 2])>,
@@ -44,7 +46,7 @@ pub(super) enum Found {
 /// A combination of options, and what keeps it from being an alternative.
 struct Way<'m> {
     candidate: Candidate<2>,
-    needs: Units,
+    needs: Equipment,
     by: &'m [(usize, Constraint)],
 }
 
@@ -137,7 +139,7 @@ impl<'m> Trials<'m> {
             let least = candidates.iter().min_by_key(|it| (it.cost[axis], it.cost[1 - axis]));
             (index, least.map_or([0; 2], |least| least.cost))
         };
-        Plan::of(self.candidates(trial).into_iter().map(cheapest).collect())
+        Plan::of(self.candidates(trial).into_iter().map(cheapest).collect(), true)
     }
 
     /// Whether there is surely a plan.
@@ -178,7 +180,7 @@ impl<'m> Trials<'m> {
                     (*index, list[usize::from(choice)].cost)
                 };
                 let activities = candidates.iter().zip(&choices).map(cost).collect();
-                (Found::Plan(Plan::of(activities)), planned.steps)
+                (Found::Plan(Plan::of(activities, planned.optimal)), planned.steps)
             }
             Ok(Answer::Infeasible { steps, .. }) => (Found::Nothing, steps),
             Ok(Answer::Unknown { steps, .. }) => (Found::Unknown, steps),
@@ -190,8 +192,8 @@ impl<'m> Trials<'m> {
 }
 
 impl Plan {
-    fn of(activities: Vec<(usize, [u32; 2])>) -> Self {
+    fn of(activities: Vec<(usize, [u32; 2])>, best: bool) -> Self {
         let total = |axis: usize| activities.iter().map(|(_, cost)| u64::from(cost[axis])).sum();
-        Self { cost: [total(0), total(1)], activities }
+        Self { best, cost: [total(0), total(1)], activities }
     }
 }

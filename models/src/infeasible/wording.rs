@@ -4,7 +4,7 @@ use super::{Cause, Heavy, Relaxation};
 use crate::mission::{AXES, Mission};
 use crate::scenario::Constraint;
 use crate::tables::{DURATION, ENERGY};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 
 /// The name and the unit of an axis.
 fn axis(axis: usize) -> (&'static str, &'static str) {
@@ -53,6 +53,12 @@ impl Cause {
                     said = format!("{said}; nor have {}", listed(&others));
                 }
                 said
+            }
+            Self::SomeLimit { steps } => {
+                format!(
+                    "no plan is within the limits; which of them cannot be met, and by how much, \
+                     was not found in {steps} steps"
+                )
             }
             Self::Undecided { steps } => {
                 format!(
@@ -151,7 +157,7 @@ fn kept(mission: &Mission, kind: usize, units: u8) -> String {
     format!("{units} {}", mission.hardware.get(kind).map_or("", |it| &it.name))
 }
 
-fn units(mission: &Mission, units: Units) -> String {
+fn units(mission: &Mission, units: Equipment) -> String {
     let kinds = (0..mission.hardware.len()).filter(|&kind| units.of(kind) > 0);
     let kinds: Vec<_> = kinds.map(|kind| kept(mission, kind, units.of(kind))).collect();
     listed(&kinds)

@@ -6,7 +6,7 @@ use super::{AXES, Definition, Hardware, MotionPower, Robot, Standing, Task, Tio,
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::faults::{self, MAX_QUANTITY};
 use crate::reader::{Entry, Fields, Reported, ids, quoted};
-use cotama_core::hardware::{MAX_KINDS, MAX_UNITS, Units};
+use cotama_core::hardware::{Equipment, MAX_KINDS, MAX_UNITS};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use std::ops::{Range, RangeInclusive};
 
@@ -280,9 +280,9 @@ fn own_standing(fields: &mut Fields<'_>, task: Option<Task>) -> Result<Option<St
     Ok(Some(Standing { duration, power }))
 }
 
-fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Units> {
+fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Equipment> {
     let entries = fields.table("needs")?.named_integers::<u8>(&(0..=i64::from(MAX_UNITS)))?;
-    let mut needs = Some(Units::NONE);
+    let mut needs = Some(Equipment::NONE);
     for (name, count) in entries {
         let index = fields.index_of(&name, "hardware", ids(hardware));
         let kind = index.and_then(|index| hardware.get(index)?.item.as_ref());

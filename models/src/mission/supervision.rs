@@ -5,7 +5,7 @@ use super::{Hardware, Task};
 use crate::cotama::{Configuration, Module, SubObjective};
 use crate::diagnostic::{Diagnostic, Spanned};
 use crate::reader::{Entry, Fields, Reported};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 
 /// Who decides while the mission runs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -120,7 +120,7 @@ pub(super) fn configuration(
     supervised: &Supervised,
     task: Option<Task>,
     hardware: &[Entry<Hardware>],
-    needs: Option<Units>,
+    needs: Option<Equipment>,
 ) -> Result<Option<Configuration>, Reported> {
     if !matches!(task, None | Some(Task::Move)) {
         // Only moving options have one: elsewhere it is an unknown key.

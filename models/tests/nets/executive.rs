@@ -1,6 +1,6 @@
 //! The executive of the core and the nets of its watchdogs do the same, event by event.
 
-use cotama_core::executive::{Executive, Happening, Stage, Task, What};
+use cotama_core::executive::{Executive, Happening, Task, Watchdog, What};
 use cotama_core::player::{Outcome, Why};
 use cotama_core::units::{Micros, Millis};
 use cotama_models::watchdog;
@@ -82,13 +82,13 @@ macro_rules! follow {
                 What::Refused | What::Exhausted => None,
             };
             assert_eq!(fired, Vec::from_iter(expected), "{it:?}");
-            let stage = match player.state() {
-                State::Idle => Stage::Idle,
-                State::Run => Stage::Run,
-                State::Extra => Stage::Extra,
-                State::Fault => Stage::Fault,
+            let watchdog = match player.state() {
+                State::Idle => Watchdog::Idle,
+                State::Run => Watchdog::Run,
+                State::Extra => Watchdog::Extra,
+                State::Fault => Watchdog::Fault,
             };
-            assert_eq!(executive.stage(it.task), Some(stage), "{it:?}");
+            assert_eq!(executive.watchdog(it.task), Some(watchdog), "{it:?}");
             assert_eq!(
                 executive.misses(it.task).map(u32::from),
                 Some(player.tokens(Place::misses)),

@@ -7,8 +7,8 @@
 
 use crate::options::Planner;
 use crate::run::{Cause, NoPlan, PlanMade};
-use crate::solver::{NotFound, Solver};
-use cotama_core::hardware::Units;
+use crate::solver::Solver;
+use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::cotama::{Configuration, Modules};
@@ -96,12 +96,7 @@ impl<'m> Planning<'m> {
         let Ok(problem) = Problem::new(&lists, left, scenario.order) else {
             return Err(NoPlan::Unknown { steps: 0 });
         };
-        let found = self.solver.solve(self.planner, &problem).map_err(|none| match none {
-            NotFound::Infeasible { axis, least } => {
-                NoPlan::Limit { axis, short: least.saturating_sub(left[axis]) }
-            }
-            NotFound::Unknown { steps } => NoPlan::Unknown { steps },
-        })?;
+        let found = self.solver.solve(self.planner, &problem)?;
         let picked: Vec<Candidate<2>> = lists
             .iter()
             .zip(&self.solver.plan)
@@ -196,10 +191,10 @@ impl<'m> Planning<'m> {
     }
 
     /// Modules as hardware of the mission.
-    fn units(&self, available: Modules) -> Units {
+    fn units(&self, available: Modules) -> Equipment {
         let works = |name: &str| available.iter().any(|it| it.name() == name);
         let kinds = self.mission.hardware.iter().enumerate();
-        kinds.fold(Units::NONE, |all, (kind, it)| {
+        kinds.fold(Equipment::NONE, |all, (kind, it)| {
             let module =
                 cotama_models::cotama::Module::ALL.iter().any(|module| module.name() == it.name);
             let count = if module && !works(&it.name) { 0 } else { it.units };

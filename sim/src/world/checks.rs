@@ -4,7 +4,7 @@ use super::{MAX_CHECKS, MAX_REPLANS, World};
 use crate::record::Recorder;
 use crate::run::{Cause, Reason};
 use crate::trace::Outcome;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{self, MAX_AMOUNT, Request};
 use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
 use cotama_models::tables::{DURATION, ENERGY};
@@ -30,10 +30,10 @@ impl World<'_> {
             Ok(Request::Keep) | Err(_) => {}
             Ok(_) if self.first_remaining() == self.choice.len() => {}
             Ok(Request::Up) => self.plan_upwards(&rest, margins, recorder),
-            Ok(Request::Down(cause)) => {
-                let cause = match cause {
-                    monitor::Cause::Margin { axis } => Cause::Margin { axis },
-                    monitor::Cause::Hardware => {
+            Ok(Request::Down(trigger)) => {
+                let cause = match trigger {
+                    monitor::Trigger::Margin { axis } => Cause::Margin { axis },
+                    monitor::Trigger::Hardware => {
                         Cause::Hardware { hardware: self.lost.0, units: self.lost.1 }
                     }
                 };
@@ -78,7 +78,7 @@ impl World<'_> {
     }
 
     /// The planned cost and the needs of what is left.
-    fn remaining(&self) -> ([u64; 2], Units) {
+    fn remaining(&self) -> ([u64; 2], Equipment) {
         let first = self.first_remaining();
         let (later, needs) = self.rest[(self.activity + 1).min(self.choice.len())];
         if first > self.activity {

@@ -4,9 +4,8 @@ use super::{MAX_REPLANS, World};
 use crate::record::Recorder;
 use crate::run::{Cause, NoPlan, PlanMade};
 use crate::setup::NM_PER_MM;
-use crate::solver::NotFound;
 use crate::trace::Record;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::worst;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{Millimetres, mul_div_half_up};
@@ -114,12 +113,7 @@ impl World<'_> {
             // limits.
             return Err(NoPlan::Unknown { steps: 0 });
         };
-        let found = self.solver.solve(simulation.planner, &problem).map_err(|none| match none {
-            NotFound::Infeasible { axis, least } => {
-                NoPlan::Limit { axis, short: least.saturating_sub(limits[axis]) }
-            }
-            NotFound::Unknown { steps } => NoPlan::Unknown { steps },
-        })?;
+        let found = self.solver.solve(simulation.planner, &problem)?;
         let picked =
             lists.iter().zip(&self.solver.plan).map(|(list, &index)| list[usize::from(index)]);
         Ok(Proposal {
@@ -213,7 +207,7 @@ impl World<'_> {
 }
 
 /// The candidates of a rest with this hardware; one whose cost does not fit is none.
-fn candidates(activity: &Activity<'_>, rest: Rest, available: Units) -> Vec<Candidate<2>> {
+fn candidates(activity: &Activity<'_>, rest: Rest, available: Equipment) -> Vec<Candidate<2>> {
     let working =
         activity.alternatives.iter().zip(0u16..).filter(|(it, _)| available.covers(it.needs));
     working.filter_map(|(it, id)| it.candidate(rest, id)).collect()

@@ -8,7 +8,7 @@
 use cotama_core::allocation::{Allocator, Answer, MemoryError};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
 use cotama_core::front::{Front, Node};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{AmountOverflow, Monitor, Request, Upward, worst};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem, ProblemError};
@@ -94,8 +94,8 @@ fn root_monitor_spend(monitor: &mut Monitor<A>, cost: &[u64; A]) -> Result<(), A
 fn open_monitor_assess(
     monitor: &Monitor<A>,
     rest: &[u64; A],
-    needs: Units,
-    available: Units,
+    needs: Equipment,
+    available: Equipment,
 ) -> Result<Request, AmountOverflow> {
     monitor.assess(rest, needs, available)
 }
@@ -116,12 +116,12 @@ fn root_monitor_worst(activities: &[&[Candidate<A>]]) -> [u64; A] {
 }
 
 #[unsafe(no_mangle)]
-fn root_hardware_units(bits: u64, kind: usize, count: u8) -> Option<Units> {
-    let units = Units::from_bits(bits)?.with(kind, count)?;
+fn root_hardware_units(bits: u64, kind: usize, count: u8) -> Option<Equipment> {
+    let units = Equipment::from_bits(bits)?.with(kind, count)?;
     Some(units.without(kind, count).union(units))
 }
 
 #[unsafe(no_mangle)]
-fn open_hardware_covers(available: Units, needs: Units) -> bool {
+fn open_hardware_covers(available: Equipment, needs: Equipment) -> bool {
     available.covers(needs)
 }

@@ -1,10 +1,10 @@
-//! The roots of the executive level: scheduler, watchdogs, response times and mailboxes, for any
-//! tasks.
+//! The roots of the executive level: scheduler, watchdogs, response times and published values, for
+//! any tasks.
 //!
 //! An executive comes as its caller can leave it at worst: at any time, with any jobs under way.
 
 use cotama_core::executive::{
-    Executive, Happening, Mailbox, NotRunning, Overruns, Task, TaskError, TaskSet, Unschedulable,
+    Executive, Happening, Latest, NotRunning, Overruns, Task, TaskError, TaskSet, Unschedulable,
 };
 use cotama_core::units::Micros;
 use cotama_models::cotama::Configuration;
@@ -56,13 +56,13 @@ fn root_executive_wake_at(executive: &Executive<N>) -> (Option<Micros>, Option<u
 }
 
 #[unsafe(no_mangle)]
-fn root_executive_mailbox(
-    mailbox: &mut Mailbox<u32>,
+fn root_executive_latest(
+    latest: &mut Latest<u32>,
     done: &Happening,
     now: Micros,
 ) -> Option<Micros> {
-    mailbox.publish(done.publication()?, 1);
-    mailbox.read(now).map(|(_, age)| age)
+    latest.publish(done.publication()?, 1);
+    latest.read(now).map(|(_, age)| age)
 }
 
 #[unsafe(no_mangle)]

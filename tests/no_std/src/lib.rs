@@ -15,7 +15,7 @@ use core::panic::PanicInfo;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
 use cotama_core::front::{Front, Node};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, Request};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
@@ -104,7 +104,7 @@ pub extern "C" fn cotama_monitor(
         let mut monitor = Monitor::new(LIMITS, ORDER).ok()?;
         monitor.planned(&LIMITS).ok()?;
         monitor.spend(used).ok()?;
-        monitor.assess(rest, Units::from_bits(needs)?, Units::from_bits(available)?).ok()
+        monitor.assess(rest, Equipment::from_bits(needs)?, Equipment::from_bits(available)?).ok()
     };
     match assess() {
         Some(Request::Keep) => 0,

@@ -2,7 +2,7 @@
 //! its age.
 
 use super::{run, task};
-use crate::executive::{Executive, Happening, Mailbox, Overruns, Stage, Task, TaskSet, What};
+use crate::executive::{Executive, Happening, Latest, Overruns, Task, TaskSet, Watchdog, What};
 use crate::units::Micros;
 use proptest::prelude::*;
 use std::vec::Vec;
@@ -58,7 +58,7 @@ proptest! {
                 What::Done | What::Acknowledged => *misses = 0,
                 What::DoneLate { rt_fault } | What::Skipped { rt_fault } => {
                     assert_eq!(rt_fault, *misses == Task::PATIENCE, "{it:?}");
-                    assert_eq!(it.rt_fault(), executive.stage(it.task) == Some(Stage::Fault));
+                    assert_eq!(it.rt_fault(), executive.watchdog(it.task) == Some(Watchdog::Fault));
                 }
                 _ => {}
             }
@@ -102,7 +102,7 @@ proptest! {
     /// WD5.
     #[test]
     fn a_skipped_job_publishes_nothing_and_its_consumers_see_the_age(needs in needs()) {
-        let mut mail = [Mailbox::empty(); 3];
+        let mut mail = [Latest::empty(); 3];
         let mut last = [None; 3];
         let mut number = 0;
         play(three(), &needs, |_, it| {

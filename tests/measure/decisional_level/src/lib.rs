@@ -8,7 +8,7 @@ pub mod reach;
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
 use cotama_core::executive::{Executive, Happening, Overruns, TaskSet};
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, Request};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
@@ -148,13 +148,13 @@ impl Robot {
 
     /// Plans the mission from one of its activities on, of which `rest` is left, by the rule of the
     /// paper; whether there is a plan.
-    pub fn plan_by_rule(&mut self, first: usize, rest: Rest, units: Units) -> bool {
+    pub fn plan_by_rule(&mut self, first: usize, rest: Rest, units: Equipment) -> bool {
         let mut caps = [[0; 2]; STAGES];
         self.plan(first, rest, units, &mut Panorama::new(&mut caps)).is_some()
     }
 
     /// The same, exactly.
-    pub fn plan_exactly(&mut self, first: usize, rest: Rest, units: Units) -> bool {
+    pub fn plan_exactly(&mut self, first: usize, rest: Rest, units: Equipment) -> bool {
         let (mut items, mut stages) = ([Item::EMPTY; CANDIDATES], [Stage::EMPTY; STAGES]);
         let objectives = [Objective::MostQuality, Objective::Least(1)];
         self.plan(first, rest, units, &mut Exact::new(&objectives, STEPS, &mut items, &mut stages))
@@ -165,7 +165,7 @@ impl Robot {
         &mut self,
         first: usize,
         rest: Rest,
-        units: Units,
+        units: Equipment,
         allocator: &mut impl Allocator<2>,
     ) -> Option<()> {
         let mut candidates: [Candidate<2>; CANDIDATES] = [EMPTY; CANDIDATES];

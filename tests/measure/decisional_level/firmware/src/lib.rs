@@ -3,7 +3,7 @@
 
 use core::panic::PanicInfo;
 use cotama_core::executive::Happening;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Request;
 use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::load::Load;
@@ -42,10 +42,10 @@ entries! {
     /// Consumption.
     robot_watch(robot: &mut Robot, spent: &[u64; 2], rest: &[u64; 2]) -> Option<Request> = robot.watch(spent, rest);
     /// A plan by the rule of the paper.
-    robot_plan_by_rule(robot: &mut Robot, first: usize, rest: Rest, units: Units) -> bool =
+    robot_plan_by_rule(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
         robot.plan_by_rule(first, rest, units);
     /// A plan by the exact allocator.
-    robot_plan_exactly(robot: &mut Robot, first: usize, rest: Rest, units: Units) -> bool =
+    robot_plan_exactly(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
         robot.plan_exactly(first, rest, units);
 }
 

@@ -7,7 +7,7 @@
 use core::hint::black_box;
 use cortex_m_rt::entry;
 use cotama_core::executive::Executive;
-use cotama_core::hardware::Units;
+use cotama_core::hardware::Equipment;
 use cotama_core::units::{Micros, Millimetres, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{DecisionalLevel, FailureMode, Losses, Modules, Situation};
@@ -124,7 +124,7 @@ fn schedule(robot: &Robot) {
 /// From each activity on, with each set of modules.
 fn plan(robot: &Robot) {
     let regions = ACTIVITIES.len() << 11;
-    let each = |name: &str, plans: fn(&mut Robot, usize, Rest, Units) -> bool| {
+    let each = |name: &str, plans: fn(&mut Robot, usize, Rest, Equipment) -> bool| {
         for (first, activity) in ACTIVITIES.iter().enumerate() {
             let rest = match activity.length() {
                 Millimetres(0) => Rest::Time(Millis(30_000)),
@@ -132,7 +132,8 @@ fn plan(robot: &Robot) {
             };
             for kinds in 0..1_u32 << 11 {
                 let have = (0..11).filter(|kind| kinds >> kind & 1 == 1);
-                let units = have.fold(Units::NONE, |units, kind| units.with(kind, 1).unwrap_or(units));
+                let units =
+                    have.fold(Equipment::NONE, |units, kind| units.with(kind, 1).unwrap_or(units));
                 let mut robot = robot.at(DecisionalLevel::default(), Losses::NONE.health());
                 counted!(plans(&mut robot, first, black_box(rest), black_box(units)));
             }

@@ -13,13 +13,13 @@ pub struct Publication {
 /// The last value that a module published, and when.
 ///
 /// ```
-/// use cotama_core::executive::{Executive, Mailbox, Task};
+/// use cotama_core::executive::{Executive, Latest, Task};
 /// use cotama_core::units::Micros;
 ///
 /// let ms = |ms: u64| Micros(ms * 1_000);
 /// let localisation = Task { deadline: ms(80), extra: ms(20), ..Task::new(ms(100), ms(50)) };
 /// let mut executive = Executive::new([localisation]).unwrap();
-/// let mut pose = Mailbox::empty();
+/// let mut pose = Latest::empty();
 /// assert!(executive.step(ms(0)).is_some()); // the release
 /// let done = executive.complete(0, ms(50)).unwrap();
 /// pose.publish(done.publication().unwrap(), "in the corridor");
@@ -34,11 +34,11 @@ pub struct Publication {
 /// assert_eq!(pose.read(ms(200)), Some((&"in the corridor", ms(150))));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Mailbox<T> {
+pub struct Latest<T> {
     last: Option<(T, Micros)>,
 }
 
-impl<T> Mailbox<T> {
+impl<T> Latest<T> {
     /// Nothing was published yet.
     #[must_use]
     pub const fn empty() -> Self {
@@ -64,7 +64,7 @@ impl<T> Mailbox<T> {
     }
 }
 
-impl<T> Default for Mailbox<T> {
+impl<T> Default for Latest<T> {
     fn default() -> Self {
         Self::empty()
     }

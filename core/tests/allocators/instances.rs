@@ -1,34 +1,8 @@
-//! Seeded instances of the allocation problem, of the kinds that the benchmark reports.
-//!
-//! Integers only, so that a seed gives the same instance on every machine.
+//! Seeded instances of the allocation problem: small ones for brute force, and missions like the
+//! paper's. Integers only, so that a seed gives the same instance on every machine.
 
+pub use crate::draw::Draw;
 use cotama_core::problem::{Candidate, Problem};
-
-/// A small deterministic generator (`SplitMix64`: Steele, Lea, Flood, OOPSLA 2014).
-#[derive(Clone, Debug)]
-pub struct Draw(u64);
-
-impl Draw {
-    /// A generator for this seed.
-    #[must_use]
-    pub const fn new(seed: u64) -> Self {
-        Self(seed)
-    }
-
-    /// The next 64 bits.
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
-    /// A number from `low` to `high`, both included.
-    pub fn between(&mut self, low: u64, high: u64) -> u64 {
-        low + ((u128::from(self.bits()) * u128::from(high - low + 1)) >> 64) as u64
-    }
-}
 
 /// An instance that owns its tables.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -58,7 +32,8 @@ impl<const A: usize> Instance<A> {
 
     /// Sets each limit at a share, in permille, of the way from the least to the largest total of
     /// its axis.
-    fn limited(activities: Vec<Vec<Candidate<A>>>, permille: [u64; A]) -> Self {
+    #[must_use]
+    pub fn limited(activities: Vec<Vec<Candidate<A>>>, permille: [u64; A]) -> Self {
         let limits = core::array::from_fn(|axis| {
             let sum = |pick: fn(u64, u64) -> u64| -> u64 {
                 activities
@@ -75,7 +50,8 @@ impl<const A: usize> Instance<A> {
 
 /// Robot-like travel: 7 moving options times 3 localisations on a stretch of corridor, with the
 /// patrol's speeds and powers.
-fn travel(
+#[must_use]
+pub fn travel(
     draw: &mut Draw,
     zone_speed: u64,
     allowed: impl Fn(u64, usize) -> bool,
@@ -117,23 +93,14 @@ pub enum Zones {
 }
 
 impl Zones {
-    fn speed(self, draw: &mut Draw) -> u64 {
+    /// The speed limit of one zone, in mm/s.
+    #[must_use]
+    pub fn speed(self, draw: &mut Draw) -> u64 {
         match self {
             Self::Varied => draw.between(300, 600),
             Self::Three => [330, 410, 560][draw.between(0, 2) as usize],
         }
     }
-}
-
-/// `activities` stretches with all 21 candidates each.
-#[must_use]
-pub fn robot_like(activities: usize, zones: Zones, permille: [u64; 2], seed: u64) -> Instance<2> {
-    let mut draw = Draw::new(seed);
-    let mut one = || {
-        let speed = zones.speed(&mut draw);
-        travel(&mut draw, speed, |_, _| true)
-    };
-    Instance::limited((0..activities).map(|_| one()).collect(), permille)
 }
 
 /// Missions like the paper's: stretches with 21, 12 or 4 candidates, and at every fourth place a
@@ -175,38 +142,6 @@ pub fn random_mission(seed: u64) -> Instance<2> {
     let mut draw = Draw::new(seed);
     let zones = [Zones::Varied, Zones::Three][draw.between(0, 1) as usize];
     paper_like(17, zones, [draw.between(0, 1000), draw.between(0, 1000)], seed)
-}
-
-/// How quality follows the costs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Correlation {
-    /// Within 100 of the mean cost.
-    Weak,
-    /// The mean cost plus 100.
-    Strong,
-}
-
-/// Costs from 1 to 1000 on both axes; the limits half way from least to largest (Pisinger's
-/// classes, two limits).
-#[must_use]
-pub fn correlated(
-    activities: usize,
-    candidates: usize,
-    correlation: Correlation,
-    seed: u64,
-) -> Instance<2> {
-    let mut draw = Draw::new(seed);
-    let mut one = |id: usize| {
-        let cost = [draw.between(1, 1000), draw.between(1, 1000)];
-        let mean = u64::midpoint(cost[0], cost[1]);
-        let quality = match correlation {
-            Correlation::Weak => (mean + draw.between(0, 200)).saturating_sub(100).max(1),
-            Correlation::Strong => mean + 100,
-        };
-        Candidate { cost: cost.map(|c| c as u32), quality: quality as u32, id: id as u16 }
-    };
-    let made = (0..activities).map(|_| (0..candidates).map(&mut one).collect()).collect();
-    Instance::limited(made, [500, 500])
 }
 
 /// A small problem for comparison with brute force: costs and qualities from a small range, so that
