@@ -11,8 +11,8 @@ use cotama_core::hardware::Units;
 use cotama_core::units::{Micros, Millimetres, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{DecisionalLevel, FailureMode, Losses, Modules, Situation};
-use cotama_models::delivery_tables::ACTIVITIES;
-use cotama_models::tables::Rest;
+use cotama_models::missions::tables::Rest;
+use cotama_models::missions::tables::delivery::ACTIVITIES;
 use decisional_level::reach::{Reached, TOLD};
 use decisional_level::{PLANNING_BYTES, Robot, TASKS};
 use entries::{
@@ -132,7 +132,8 @@ fn plan(robot: &Robot) {
             };
             for kinds in 0..1_u32 << 11 {
                 let have = (0..11).filter(|kind| kinds >> kind & 1 == 1);
-                let units = have.fold(Units::NONE, |units, kind| units.with(kind, 1).unwrap_or(units));
+                let units =
+                    have.fold(Units::NONE, |units, kind| units.with(kind, 1).unwrap_or(units));
                 let mut robot = robot.at(DecisionalLevel::default(), Losses::NONE.health());
                 counted!(plans(&mut robot, first, black_box(rest), black_box(units)));
             }
