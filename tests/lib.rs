@@ -11,8 +11,8 @@ pub mod solve;
 pub mod textbook;
 
 use cotama_core::problem::{Candidate, Problem};
-use cotama_models::patrol_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
-use cotama_models::tables::{EMPTY, buffer_sizes, remaining};
+use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
+use cotama_models::missions::tables::{EMPTY, buffer_sizes, remaining};
 
 /// Runs `story` on the allocation problem of the patrol, from its compiled tables.
 ///

@@ -12,7 +12,7 @@ use crate::render;
 use crate::solve::{Method, Verdict, solve};
 use cotama_core::exact::Objective;
 use cotama_core::problem::Problem;
-use cotama_models::tables::ENERGY;
+use cotama_models::missions::tables::ENERGY;
 use instance::Instance;
 
 /// Solves one allocation problem.

@@ -1,7 +1,7 @@
 //! How a command ends, and what is said when it cannot do its work.
 
 use crate::file_errors::FileErrors;
-use cotama_models::diagnostic::MissionErrors;
+use cotama_models::missions::MissionErrors;
 use cotama_verification::pnml::PnmlErrors;
 use std::process::ExitCode;
 

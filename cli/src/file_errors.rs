@@ -1,6 +1,6 @@
 //! Errors at places of a file, whoever found them.
 
-use cotama_models::diagnostic::{MissionErrors, Position};
+use cotama_models::missions::{MissionErrors, Position};
 use cotama_verification::pnml::{Location, PnmlErrors};
 use std::ops::Range;
 
@@ -80,7 +80,7 @@ impl FileErrors {
 
 impl From<MissionErrors> for FileErrors {
     fn from(errors: MissionErrors) -> Self {
-        let one = |it: &cotama_models::diagnostic::Diagnostic| {
+        let one = |it: &cotama_models::missions::Diagnostic| {
             let Position { line, column } = errors.position(it);
             FileError {
                 message: it.message.clone(),

@@ -3,9 +3,8 @@
 use crate::answers::{Change, Heavy, Kept, Reason, Relaxation, ZoneConstraint};
 use cotama_core::allocation::Shortfall;
 use cotama_core::hardware::Equipment;
-use cotama_models::infeasible::{self, Cause};
-use cotama_models::mission::{AXES, Mission};
-use cotama_models::scenario::Constraint;
+use cotama_models::missions::infeasible::{self, Cause};
+use cotama_models::missions::{AXES, Constraint, Mission};
 
 /// The units of the axes.
 pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];

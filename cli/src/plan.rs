@@ -12,9 +12,8 @@ use crate::solve::{Method, Solution, Verdict, solve};
 use cotama_core::exact::Objective;
 use cotama_core::front::{Front, Node};
 use cotama_core::problem::{Candidate, Problem};
-use cotama_models::mission::Mission;
-use cotama_models::scenario::PlannedActivity;
-use cotama_models::tables::{DURATION, ENERGY};
+use cotama_models::missions::tables::{DURATION, ENERGY};
+use cotama_models::missions::{Mission, PlannedActivity};
 
 /// Splits a mission into activities and plans it.
 pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -93,8 +92,8 @@ fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
 }
 
 fn whole_candidate(
-    activity: &cotama_models::tables::Activity<'_>,
-    alternative: &cotama_models::tables::Alternative,
+    activity: &cotama_models::missions::tables::Activity<'_>,
+    alternative: &cotama_models::missions::tables::Alternative,
     id: u16,
 ) -> Option<Candidate<2>> {
     alternative.candidate(activity.whole(alternative), id)

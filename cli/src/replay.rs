@@ -8,7 +8,7 @@ use crate::mission::{self, Loaded};
 use crate::output::Screen;
 use crate::render;
 use crate::run::{body, ended, refused, write_files};
-use cotama_models::faults::Faults;
+use cotama_models::missions::faults::Faults;
 use cotama_sim::options::{FaultChoice, Options, Planner};
 use cotama_sim::run::Run;
 use cotama_sim::supervised::PLANNER;

@@ -115,7 +115,7 @@ pub(crate) fn compare(path: &Path, said: &str) {
 
 /// The text of the patrol, with each `(old, new)` replaced where it stands first.
 pub(crate) fn patrol(edits: &[(&str, &str)]) -> String {
-    let text = cotama_models::embedded::mission("patrol").unwrap().text.to_owned();
+    let text = cotama_models::missions::embedded::mission("patrol").unwrap().text.to_owned();
     edits.iter().fold(text, |text, (old, new)| {
         assert!(text.contains(old), "{old:?} is not in the patrol");
         text.replacen(old, new, 1)

@@ -150,6 +150,6 @@ fn a_mission_is_read_from_a_file_and_from_standard_input() {
 #[test]
 fn the_tables_of_the_patrol_are_those_of_the_library() {
     let printed = Folder::new("table").cotama(&["table", "patrol"]);
-    let stored = include_str!("../../models/src/patrol_tables.rs");
+    let stored = include_str!("../../models/src/missions/tables/patrol.rs");
     assert_eq!((printed.code, printed.stdout.as_str()), (Some(0), stored));
 }

@@ -4,9 +4,8 @@
 //! `cargo bench -p cotama-models --bench load`; with any argument of its own it runs briefly.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
-use cotama_models::cotama::mission_net::check;
-use cotama_models::embedded;
-use cotama_models::mission::Mission;
+use cotama_models::missions::mission_net::check;
+use cotama_models::missions::{Mission, embedded};
 use std::fmt::Write;
 use std::hint::black_box;
 use std::time::Instant;

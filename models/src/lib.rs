@@ -4,7 +4,7 @@
 //! is a sequence of *objectives* along a path. Cut at the borders of the *zones* that constrain it,
 //! it becomes a sequence of *activities*; each can be done by several *implementation
 //! alternatives*, products of the *task implementation options* (TIOs) of its tasks.
-//! [`Mission::parse`](mission::Mission::parse) reads all of this from a `panorama-mission/1` file
+//! [`Mission::parse`](missions::Mission::parse) reads all of this from a `panorama-mission/1` file
 //! and reports every error at once; what it returns is complete, so that nothing after it can fail
 //! on the mission's account.
 //!
@@ -16,7 +16,7 @@
 //!
 //! ```
 //! # #[cfg(feature = "std")] {
-//! use cotama_models::{embedded, mission::Mission};
+//! use cotama_models::missions::{Mission, embedded};
 //! let patrol = embedded::mission("patrol").unwrap();
 //! let mission = Mission::parse(patrol.name, patrol.text).unwrap();
 //! let scenario = mission.scenario();
@@ -31,24 +31,8 @@
 extern crate self as cotama_models;
 
 pub mod cotama;
-pub mod delivery_tables;
+pub mod missions;
 pub mod nets;
-pub mod patrol_tables;
-pub mod tables;
 
 #[cfg(feature = "std")]
-pub mod diagnostic;
-#[cfg(feature = "std")]
-pub mod embedded;
-#[cfg(feature = "std")]
-pub mod faults;
-#[cfg(feature = "std")]
-pub mod infeasible;
-#[cfg(feature = "std")]
-pub mod mission;
-#[cfg(feature = "std")]
-mod reader;
-#[cfg(feature = "std")]
-mod rust_source;
-#[cfg(feature = "std")]
-pub mod scenario;
+mod names;

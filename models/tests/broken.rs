@@ -3,9 +3,8 @@
 #![cfg(feature = "std")]
 #![allow(clippy::format_collect)] // a broken file may be slow to make
 
-use cotama_models::embedded;
-use cotama_models::faults::Faults;
-use cotama_models::mission::Mission;
+use cotama_models::missions::faults::Faults;
+use cotama_models::missions::{Mission, embedded};
 use std::path::PathBuf;
 
 fn patrol() -> &'static str {

@@ -5,10 +5,10 @@
 #![allow(clippy::cast_precision_loss)] // shares are compared roughly
 
 use cotama_core::hardware::Equipment;
-use cotama_models::embedded;
-use cotama_models::infeasible::{Cause, Explanation, Relaxation, explain, explain_within};
-use cotama_models::mission::Mission;
-use cotama_models::scenario::Constraint;
+use cotama_models::missions::infeasible::{
+    Cause, Explanation, Relaxation, explain, explain_within,
+};
+use cotama_models::missions::{Constraint, Mission, embedded};
 use proptest::prelude::*;
 use std::path::PathBuf;
 

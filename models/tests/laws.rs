@@ -3,9 +3,10 @@
 
 use cotama_core::hardware::Equipment;
 use cotama_core::units::Millimetres;
-use cotama_models::mission::Mission;
-use cotama_models::tables::{Alternative, EMPTY, RemainingError, Rest, buffer_sizes, remaining};
-use cotama_models::{embedded, mission::harmless_speed};
+use cotama_models::missions::tables::{
+    Alternative, EMPTY, RemainingError, Rest, buffer_sizes, remaining,
+};
+use cotama_models::missions::{Mission, embedded, harmless_speed};
 use proptest::prelude::*;
 use std::fmt::Write;
 

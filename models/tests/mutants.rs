@@ -3,10 +3,8 @@
 //! makes it again.
 #![cfg(feature = "std")]
 
-use cotama_models::embedded;
-use cotama_models::mission::Mission;
-use cotama_models::scenario::Constraint;
-use cotama_models::tables::{EMPTY, Rest, buffer_sizes, remaining};
+use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
+use cotama_models::missions::{Constraint, Mission, embedded};
 
 const MUTANTS: u64 = 100_000;
 

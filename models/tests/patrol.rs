@@ -4,10 +4,9 @@
 
 use cotama_core::problem::Problem;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis, Milliwatts};
-use cotama_models::mission::Mission;
-use cotama_models::scenario::Constraint;
-use cotama_models::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
-use cotama_models::{delivery_tables, embedded, patrol_tables};
+use cotama_models::missions::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
+use cotama_models::missions::tables::{delivery, patrol};
+use cotama_models::missions::{Constraint, Mission, embedded};
 
 fn patrol() -> Mission {
     let patrol = embedded::mission("patrol").unwrap();
@@ -171,11 +170,16 @@ macro_rules! assert_printed {
         let scenario = mission.scenario();
         let printed = scenario.to_rust(&mission.name);
         if std::env::var_os("UPDATE_GOLDEN").is_some() {
-            let file = concat!(env!("CARGO_MANIFEST_DIR"), "/src/", stringify!($tables), ".rs");
+            let file = concat!(
+                env!("CARGO_MANIFEST_DIR"),
+                "/src/missions/tables/",
+                stringify!($tables),
+                ".rs"
+            );
             std::fs::write(file, &printed).unwrap();
             return;
         }
-        let stored = include_str!(concat!("../src/", stringify!($tables), ".rs"));
+        let stored = include_str!(concat!("../src/missions/tables/", stringify!($tables), ".rs"));
         assert!(printed == stored, "rewrite it with UPDATE_GOLDEN=1 cargo test");
         // And compiled, they are the same values.
         assert_eq!($tables::ACTIVITIES[..], scenario.activities()[..]);
@@ -189,10 +193,10 @@ macro_rules! assert_printed {
 
 #[test]
 fn the_printed_tables_are_those_of_the_mission_file() {
-    assert_printed!("patrol", patrol_tables);
+    assert_printed!("patrol", patrol);
 }
 
 #[test]
 fn the_printed_tables_of_the_delivery_are_those_of_its_file() {
-    assert_printed!("delivery", delivery_tables);
+    assert_printed!("delivery", delivery);
 }

@@ -3,7 +3,7 @@
 //! `cargo bench -p cotama-sim --bench missions`; with any argument of its own it runs briefly.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
-use cotama_models::{embedded, mission::Mission};
+use cotama_models::missions::{Mission, embedded};
 use cotama_sim::options::Options;
 use cotama_sim::setup::Simulation;
 use cotama_sim::trace::Record;

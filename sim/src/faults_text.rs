@@ -1,7 +1,7 @@
 //! Faults as the text of a `panorama-faults/1` file, which reads back to the same faults.
 
-use cotama_models::faults::{EventKind, FORMAT, Faults, IncidentKind};
-use cotama_models::mission::Definition;
+use cotama_models::missions::Definition;
+use cotama_models::missions::faults::{EventKind, FORMAT, Faults, IncidentKind};
 use std::fmt::Write;
 
 /// The text of a `panorama-faults/1` file with these faults.
@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// reader accepts.
 ///
 /// ```
-/// use cotama_models::{embedded, faults::Faults, mission::Mission};
+/// use cotama_models::missions::{Mission, embedded, faults::Faults};
 /// use cotama_sim::faults_text::faults_text;
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();

@@ -1,6 +1,6 @@
 //! Discrete-event simulation of robot missions: the run, its trace, its replay.
 //!
-//! A [`Mission`](cotama_models::mission::Mission) and [`Options`](options::Options) make a
+//! A [`Mission`](cotama_models::missions::Mission) and [`Options`](options::Options) make a
 //! [`Simulation`](setup::Simulation), which runs any number of times; every run is a
 //! [`World`](world::World) that steps from event to event to its [`Run`](run::Run). With a
 //! [`Recorder`](record::Recorder) it also leaves a [`Trace`](trace::Trace), from which it can be

@@ -2,7 +2,7 @@
 
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
-use cotama_models::faults::Faults;
+use cotama_models::missions::faults::Faults;
 use serde::{Deserialize, Serialize};
 
 /// How a mission is run.

@@ -2,7 +2,7 @@
 
 use crate::trace::Outcome;
 use cotama_models::cotama::FailureMode;
-use cotama_models::mission::{AXES, Mission};
+use cotama_models::missions::{AXES, Mission};
 
 /// The units of the performance axes.
 const UNITS: [&str; 2] = ["ms", "mJ"];

@@ -9,9 +9,9 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, MonitorError};
 use cotama_core::problem::Candidate;
 use cotama_core::units::Millis;
-use cotama_models::faults::{EventKind, Faults};
-use cotama_models::mission::Mission;
-use cotama_models::tables::Activity;
+use cotama_models::missions::Mission;
+use cotama_models::missions::faults::{EventKind, Faults};
+use cotama_models::missions::tables::Activity;
 use std::borrow::Cow;
 
 /// Millimetres in units of position, which are nm: a speed in mm/s times a time in µs.
@@ -22,7 +22,7 @@ pub const MAX_DRAWS: u64 = 10_000_000;
 /// A mission made ready to be run.
 ///
 /// ```
-/// use cotama_models::{embedded, mission::Mission};
+/// use cotama_models::missions::{Mission, embedded};
 /// use cotama_sim::{options::Options, setup::Simulation, trace::Outcome};
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();

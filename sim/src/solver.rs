@@ -6,7 +6,7 @@ use cotama_core::allocation::{Allocator, Answer, Planned};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
-use cotama_models::tables::ENERGY;
+use cotama_models::missions::tables::ENERGY;
 
 /// How many nodes a complete search may remember: 160 KiB.
 const SEEN: usize = 1 << 12;

@@ -19,7 +19,7 @@ use crate::solver::Solver;
 use crate::trace::Outcome;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Monitor;
-use cotama_models::tables::Alternative;
+use cotama_models::missions::tables::Alternative;
 use std::borrow::Cow;
 
 mod checks;

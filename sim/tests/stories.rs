@@ -6,7 +6,7 @@ mod common;
 use common::{SHUTTLE, causes, labels, patrol, run, shuttle, under};
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
 use cotama_sim::run::{NoPlan, Reason};
 use cotama_sim::setup::{SetupError, Simulation};

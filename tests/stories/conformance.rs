@@ -12,7 +12,7 @@ use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
     Configuration, FailureMode, Module, Told, delivery, faults, local, recovering,
 };
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
 use cotama_sim::trace::Outcome;
@@ -197,7 +197,7 @@ fn name(told: Told) -> String {
 }
 
 fn mission() -> Mission {
-    let embedded = cotama_models::embedded::mission("delivery").unwrap();
+    let embedded = cotama_models::missions::embedded::mission("delivery").unwrap();
     Mission::parse(embedded.name, embedded.text).unwrap()
 }
 
@@ -335,7 +335,7 @@ fn two_hundred_triples_of_failures_are_runs_of_the_checked_system() {
 /// Where modules return: one failure after another, each for a while.
 #[test]
 fn two_hundred_missions_with_returns_are_runs_of_the_checked_system() {
-    let embedded = cotama_models::embedded::mission("delivery").unwrap();
+    let embedded = cotama_models::missions::embedded::mission("delivery").unwrap();
     let decides = "decides = \"cotama\"";
     let text = embedded.text.replacen(decides, &format!("{decides}\nrecovery = true"), 1);
     let mission = Mission::parse(embedded.name, &text).unwrap();

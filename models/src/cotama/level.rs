@@ -1,10 +1,11 @@
 //! The decisional level with names in place of numbers: what the robot tells it, and what it
 //! decided.
 
-use super::situation::{Loss, Losses, Situation};
-use super::{
-    Configuration, Module, Modules, delivery, faults, global, local, operator, path_following,
-    permit, recovering, recovering_faults,
+use super::decisions::{Loss, Losses, Situation};
+use super::modules::{Configuration, Module, Modules};
+use super::supervisors::{
+    delivery, faults, global, local, operator, path_following, permit, recovering,
+    recovering_faults,
 };
 use core::marker::PhantomData;
 use cotama_core::net::{EventId, PlaceId, TransitionId};
@@ -32,7 +33,7 @@ impl Stored for Cause {
 
 /// The event of a global supervisor made from a mission in which the robot waits, behind those of
 /// [`global`].
-pub(super) const WAIT_OVER: EventId = EventId(global::NET.events.len() as u32);
+pub(crate) const WAIT_OVER: EventId = EventId(global::NET.events.len() as u32);
 
 /// What returns, as far as the supervisors tell it apart.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -10,72 +10,25 @@
 //! the diagnosis of flags ([`diagnose`]). Every fact says whether it is stated, inferred or
 //! assumed, by its [`Label`] or in its documentation.
 
-mod causes;
-mod configurations;
-mod decision_table;
-mod delivery_system;
-mod diagnosis;
-mod flags;
-mod fmeca;
-mod fmeca_table;
-mod guarded;
-mod health;
+mod decisions;
+mod dependability;
 mod label;
 mod level;
-pub mod load;
 mod members;
-#[cfg(feature = "std")]
-pub mod mission_net;
-mod module_table;
 mod modules;
-mod ports;
-mod properties;
-pub mod recovery;
-mod recovery_properties;
-mod report;
-mod resources;
-mod robot;
-mod severity;
-mod situation;
-mod status_vector;
+mod requirements;
 mod supervisors;
-mod surroundings;
 mod world;
 
-pub use causes::{Rib, functions, ribs};
-pub use configurations::{
-    CONFIGURATIONS, Configuration, ConfigurationFacts, Configurations, DEGRADED_SPEED, FULL_SPEED,
-    Mode, SubObjective,
-};
-pub use decision_table::{contextual, recovering_contextual};
-pub use delivery_system::{delivery, recovering};
-pub use diagnosis::{
-    Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose,
-    is_detectable, shared_flags, undetectable,
-};
-pub use flags::{Flag, Flags};
-pub use fmeca::{Description, FMECA_COLUMNS, FmecaCsv, Persistence, Rule, Signature};
-pub use fmeca_table::{FailureMode, FailureModes, RULES, TEXTS};
-pub use guarded::Guarded;
-pub use health::{Health, Status, StatusVector};
+pub use decisions::*;
+pub use dependability::*;
 pub use label::Label;
+#[cfg(feature = "std")]
+pub(crate) use level::WAIT_OVER;
 pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told, named};
-pub use module_table::MODULES;
-pub use modules::{Kind, Module, ModuleFacts, Modules, available};
-pub use ports::{Data, Datum, ModuleEvent, ModuleEvents, Parameter, Request};
-pub use properties::{Asked, REQUIREMENTS, Requirement, Said, Watch};
-pub use recovery_properties::{RECOVERY_REQUIREMENTS, REPLACED};
-pub use report::{Class, Decision, Report, Reports, decide, lost_after};
-pub use resources::{Resource, Resources};
-pub use robot::permit;
-pub use severity::{Severity, by_availability, by_rules, by_severity, is_settled, judge, severity};
-pub use situation::{Loss, Losses, Situation};
-pub use status_vector::{observation, recovering_observation};
-pub use supervisors::{
-    global, local, path_following, recovering_path_following, recovering_teleoperation,
-    teleoperation,
-};
-pub use surroundings::{faults, operator, recovering_faults};
+pub use modules::*;
+pub use requirements::*;
+pub use supervisors::*;
 pub use world::environment;
 
 use cotama_core::system;

@@ -2,7 +2,7 @@
 
 use super::families::{self, Family, OutOfRange};
 use super::{ace, charger, crossing, door, watchdog};
-use crate::reader::quoted;
+use crate::names::{nearest, quoted};
 use core::fmt;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Known, Net};
@@ -142,7 +142,8 @@ pub fn find(name: &str) -> Result<OwnedNet, FindError> {
     let (name, number) =
         name.split_once(':').map_or((name, None), |(name, number)| (name, Some(number)));
     let Some(entry) = all().iter().find(|entry| entry.name == name) else {
-        return Err(FindError::Unknown { name: name.to_owned(), nearest: nearest(name) });
+        let nearest = nearest(name, all().iter().map(|entry| entry.name));
+        return Err(FindError::Unknown { name: name.to_owned(), nearest });
     };
     match (entry.model, number) {
         (Model::Defined { net, .. }, None) => Ok(OwnedNet::from(net)),
@@ -154,12 +155,4 @@ pub fn find(name: &str) -> Result<OwnedNet, FindError> {
             family.net(text.parse().map_err(not_a_number)?).map_err(FindError::OutOfRange)
         }
     }
-}
-
-/// The name that is nearest to a misspelt one, if one is near enough to be meant.
-fn nearest(name: &str) -> Option<&'static str> {
-    // The distance takes time that grows with the length.
-    let short = || all().iter().map(|entry| entry.name).filter(|_| name.len() <= 64);
-    let distance = |known: &&str| strsim::damerau_levenshtein(name, known);
-    short().filter(|known| distance(known) <= known.len() / 3).min_by_key(distance)
 }

@@ -2,7 +2,7 @@
 //! for which it is.
 
 use crate::file::{File, Objective, failure, operator};
-use cotama_models::mission::{MAX_SUPERVISED_OBJECTIVES, Mission};
+use cotama_models::missions::{MAX_SUPERVISED_OBJECTIVES, Mission};
 use std::fmt::Write;
 use std::path::PathBuf;
 

@@ -1,10 +1,10 @@
 //! The embedded delivery: a mission like any other, and its supervisor is the one written by hand.
 
 use cotama_core::net::{Net, Transition};
-use cotama_models::cotama::{global, mission_net};
-use cotama_models::embedded;
-use cotama_models::faults::{Answer, IncidentKind};
-use cotama_models::mission::{Does, Mission, Supervision};
+use cotama_models::cotama::global;
+use cotama_models::missions::faults::{Answer, IncidentKind};
+use cotama_models::missions::mission_net;
+use cotama_models::missions::{Does, Mission, Supervision, embedded};
 
 fn delivery() -> Mission {
     let delivery = embedded::mission("delivery").unwrap();

@@ -3,11 +3,10 @@
 use crate::file::File;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{EventId, OutputId, PlaceId};
-use cotama_models::cotama::mission_net::{
+use cotama_models::missions::mission_net::{
     MAX_OBJECTIVES, MissionNetError, check, global_supervisor,
 };
-use cotama_models::embedded;
-use cotama_models::mission::Mission;
+use cotama_models::missions::{Mission, embedded};
 
 /// Every net that differs from this one in one arc, event, output or token.
 fn mutants(net: &OwnedNet) -> Vec<(String, OwnedNet)> {

@@ -4,8 +4,7 @@ use super::format::{joules, metres, milli, seconds, speed};
 use super::svg::escape;
 use super::view::{Step, View};
 use super::{MAX_CANDIDATES, MAX_ROWS};
-use cotama_models::mission::Mission;
-use cotama_models::scenario::PlannedActivity;
+use cotama_models::missions::{Mission, PlannedActivity};
 use std::collections::HashMap;
 use std::fmt::Write;
 

@@ -54,7 +54,7 @@ const MAX_CANDIDATES: usize = 2_000;
 /// the page says so. A mission that cannot be read leaves out what only it tells.
 ///
 /// ```
-/// use cotama_models::embedded;
+/// use cotama_models::missions::embedded;
 /// use cotama_sim::{options::Options, report, trace::Trace};
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let (trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();

@@ -7,7 +7,7 @@ use super::svg::escape;
 use super::view::{View, families, family, tint};
 use super::{MAX_CELLS, MAX_COLUMNS, MAX_PLANS};
 use crate::trace::PlanRow;
-use cotama_models::mission::{Mission, Task, Tio};
+use cotama_models::missions::{Mission, Task, Tio};
 use std::collections::HashMap;
 use std::fmt::Write;
 

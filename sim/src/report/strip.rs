@@ -6,7 +6,7 @@ use super::format::{metres, moment, speed};
 use super::svg::{Svg, text_width};
 use super::view::{Step, View, families, tint};
 use super::{MAX_MARKS, MAX_PINS};
-use cotama_models::mission::{Mission, Zone};
+use cotama_models::missions::{Mission, Zone};
 use std::cmp::Reverse;
 use std::fmt::Write;
 

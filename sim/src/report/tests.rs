@@ -2,9 +2,8 @@ use super::html;
 use crate::options::{FaultChoice, Options};
 use crate::trace::{Outcome, Record, Trace};
 use cotama_core::units::Millis;
-use cotama_models::embedded;
-use cotama_models::faults::Faults;
-use cotama_models::mission::Mission;
+use cotama_models::missions::faults::Faults;
+use cotama_models::missions::{Mission, embedded};
 
 fn recorded(text: &str, options: &Options) -> Trace {
     Trace::record("patrol", text, options).unwrap().0

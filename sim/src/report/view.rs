@@ -3,7 +3,7 @@
 
 use crate::supervised::story::{Point, points};
 use crate::trace::{End, Event, Plan, Record, Request, Sample, Trace};
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use std::collections::HashMap;
 
 /// What a trace shows, in the order of the path.

@@ -2,7 +2,7 @@
 //! energy, failures, observers with their latencies, an operator; no rays.
 //!
 //! ```
-//! use cotama_models::{embedded, mission::Mission};
+//! use cotama_models::missions::{Mission, embedded};
 //! use cotama_sim::supervised::{Script, Supervised};
 //! use cotama_sim::trace::Outcome;
 //! let delivery = embedded::mission("delivery").unwrap();
@@ -36,8 +36,8 @@ use cotama_models::cotama::{
     Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told,
     delivery, global, local, recovering,
 };
-use cotama_models::faults::{Faults, IncidentKind};
-use cotama_models::mission::{Does, Mission};
+use cotama_models::missions::faults::{Faults, IncidentKind};
+use cotama_models::missions::{Does, Mission};
 use world::{CLOCKS, World};
 
 /// What goes wrong, and what the operator answers.

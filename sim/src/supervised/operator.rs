@@ -2,7 +2,7 @@
 
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{local, operator};
-use cotama_models::faults::Answer;
+use cotama_models::missions::faults::Answer;
 use std::collections::VecDeque;
 
 /// How long he takes to answer a request, to look around, and to edit: assumed.

@@ -12,8 +12,8 @@ use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::cotama::{Configuration, Modules};
-use cotama_models::mission::Mission;
-use cotama_models::tables::{Activity, Rest};
+use cotama_models::missions::Mission;
+use cotama_models::missions::tables::{Activity, Rest};
 
 /// How far a mission has come.
 #[derive(Clone, Copy, Debug)]

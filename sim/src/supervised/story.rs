@@ -97,7 +97,7 @@ impl Rung {
 /// The points of a trace, in the order of time; none if it is not of a supervised run.
 ///
 /// ```
-/// use cotama_models::embedded;
+/// use cotama_models::missions::embedded;
 /// use cotama_sim::options::Options;
 /// use cotama_sim::supervised::{PLANNER, story::points};
 /// use cotama_sim::trace::Trace;

@@ -3,7 +3,7 @@
 use super::{LONGEST, Run};
 use crate::run::{EventCounts, Reason};
 use crate::trace::Outcome;
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 
 /// A power of ten: pJ of a mJ.
 const PJ_PER_MJ: u128 = 1_000_000_000;

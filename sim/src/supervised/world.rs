@@ -21,7 +21,7 @@ use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
     Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, local, recovering,
 };
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use recovery::Recovery;
 use std::collections::VecDeque;
 use telling::Objective;

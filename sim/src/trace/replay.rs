@@ -8,9 +8,8 @@ use crate::setup::{SetupError, Simulation};
 use crate::supervised::{Script, Supervised, Unsupervised};
 use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
-use cotama_models::diagnostic::MissionErrors;
-use cotama_models::faults::Faults;
-use cotama_models::mission::Mission;
+use cotama_models::missions::faults::Faults;
+use cotama_models::missions::{Mission, MissionErrors};
 use std::fmt;
 
 /// Why a recorded run cannot be made.
@@ -65,7 +64,7 @@ impl Trace {
     /// start.
     ///
     /// ```
-    /// use cotama_models::embedded;
+    /// use cotama_models::missions::embedded;
     /// use cotama_sim::{options::Options, trace::{Trace, replay}};
     /// let patrol = embedded::mission("patrol").unwrap();
     /// let (trace, run) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();

@@ -7,7 +7,7 @@ use crate::trace::Outcome;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{self, MAX_AMOUNT, Request};
 use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
-use cotama_models::tables::{DURATION, ENERGY};
+use cotama_models::missions::tables::{DURATION, ENERGY};
 
 impl World<'_> {
     /// Compares consumption with the plan, and replans when it no longer holds.

@@ -3,7 +3,7 @@
 use super::World;
 use crate::record::Recorder;
 use crate::setup::NM_PER_MM;
-use cotama_models::faults::EventKind;
+use cotama_models::missions::faults::EventKind;
 
 impl World<'_> {
     /// Everything that waits at this place happens, with a check after each event.

@@ -9,7 +9,7 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::worst;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{Millimetres, mul_div_half_up};
-use cotama_models::tables::{Activity, ENERGY, Rest};
+use cotama_models::missions::tables::{Activity, ENERGY, Rest};
 
 /// A plan for what is left, not yet in force.
 struct Proposal {

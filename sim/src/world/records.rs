@@ -7,8 +7,8 @@ use crate::trace::{
     Activity, End, Event, Happening, Margins, Plan, PlanRow, Record, Request, ReturnMargin, Sample,
 };
 use cotama_core::units::mul_div_half_up;
-use cotama_models::faults::EventKind;
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
+use cotama_models::missions::faults::EventKind;
 
 impl PlanMade {
     /// The plan in words and numbers: one row an activity. `mission` must be the mission that was

@@ -2,9 +2,8 @@
 #![allow(dead_code, unreachable_pub, clippy::unwrap_used)]
 
 use cotama_core::units::Millis;
-use cotama_models::embedded;
-use cotama_models::faults::Faults;
-use cotama_models::mission::Mission;
+use cotama_models::missions::faults::Faults;
+use cotama_models::missions::{Mission, embedded};
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::run::Run;
 use cotama_sim::setup::Simulation;

@@ -10,10 +10,10 @@ mod seven_points;
 mod trace;
 mod triples;
 
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 
 fn delivery() -> Mission {
-    let delivery = cotama_models::embedded::mission("delivery").unwrap();
+    let delivery = cotama_models::missions::embedded::mission("delivery").unwrap();
     Mission::parse(delivery.name, delivery.text).unwrap()
 }
 

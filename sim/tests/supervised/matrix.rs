@@ -3,7 +3,7 @@
 use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
 use cotama_sim::trace::Outcome;
 use std::fmt::Write;

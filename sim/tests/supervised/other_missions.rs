@@ -1,7 +1,7 @@
 //! Missions of the same objectives in another order: their global supervisor is made from the file.
 
 use cotama_models::cotama::FailureMode;
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
 use cotama_sim::trace::Outcome;
 
@@ -52,7 +52,7 @@ power_mw = 4600
 
 /// Three drives and a rest, with the robot of the delivery.
 fn rounds_of_the_office() -> Mission {
-    let delivery = cotama_models::embedded::mission("delivery").unwrap().text;
+    let delivery = cotama_models::missions::embedded::mission("delivery").unwrap().text;
     let robot = delivery.split("[[objective]]").next().unwrap();
     let text = robot.replace("path_length_mm = 80000", "path_length_mm = 12000") + OBJECTIVES;
     Mission::parse("office", &text).unwrap_or_else(|errors| panic!("{errors}"))

@@ -6,8 +6,8 @@ use cotama_models::cotama::Configuration::{
     TeleoperationFull, Teleprogramming,
 };
 use cotama_models::cotama::{FailureMode, Module};
-use cotama_models::faults::Faults;
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
+use cotama_models::missions::faults::Faults;
 use cotama_sim::faults_text::faults_text;
 use cotama_sim::options::Options;
 use cotama_sim::supervised::{Injection, PLANNER, Run, Script, Supervised, When};
@@ -16,7 +16,7 @@ use cotama_sim::trace::{Outcome, Record, Trace, replay};
 /// The delivery with these events in place of its own, and with supervisors that use again what
 /// returns or do not.
 fn text(recovery: bool, events: &str) -> String {
-    let delivery = cotama_models::embedded::mission("delivery").unwrap().text;
+    let delivery = cotama_models::missions::embedded::mission("delivery").unwrap().text;
     let (mission, _) = delivery.split_once("[run]").unwrap();
     let decides = "decides = \"cotama\"";
     mission.replacen(decides, &format!("{decides}\nrecovery = {recovery}"), 1) + events

@@ -3,8 +3,8 @@
 use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode};
-use cotama_models::embedded;
-use cotama_models::faults::{Answer, Faults, Incident, IncidentKind};
+use cotama_models::missions::embedded;
+use cotama_models::missions::faults::{Answer, Faults, Incident, IncidentKind};
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::supervised::{PLANNER, Script, Supervised, story};
 use cotama_sim::trace::{Outcome, Record, Trace, replay};

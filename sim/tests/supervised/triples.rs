@@ -3,7 +3,7 @@
 use super::delivery;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
-use cotama_models::mission::Mission;
+use cotama_models::missions::Mission;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{
     Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect,

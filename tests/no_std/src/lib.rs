@@ -20,8 +20,8 @@ use cotama_core::monitor::{Monitor, Request};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::Millimetres;
-use cotama_models::patrol_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
-use cotama_models::tables::{EMPTY, Rest, buffer_sizes, remaining};
+use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
+use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
 
 const STAGES: usize = ACTIVITIES.len();
 const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;

@@ -18,8 +18,8 @@ use cotama_models::cotama::{
     Modules, Report, Severity, Told, by_availability, decide, diagnose, faults, global,
     is_detectable, judge, local, operator,
 };
-use cotama_models::mission::Does;
-use cotama_models::tables::Rest;
+use cotama_models::missions::Does;
+use cotama_models::missions::tables::Rest;
 
 /// What the global supervisor is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -19,8 +19,8 @@ use cotama_models::cotama::{
     Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report,
     Severity, Told, decide, diagnose, judge,
 };
-use cotama_models::delivery_tables::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
-use cotama_models::tables::{EMPTY, Rest, buffer_sizes, remaining};
+use cotama_models::missions::tables::delivery::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
+use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
 
 /// The tasks of the optimal path following: its modules, and the load of the computer.
 pub const TASKS: usize = FollowingOptimal.scheduled().len() + 1;

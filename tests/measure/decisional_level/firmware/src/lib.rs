@@ -8,7 +8,7 @@ use cotama_core::monitor::Request;
 use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{Cause, DecisionalLevel, Flags, Modules, Told};
-use cotama_models::tables::Rest;
+use cotama_models::missions::tables::Rest;
 use decisional_level::{Concluded, Robot};
 
 // `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with

@@ -11,8 +11,8 @@ use cotama_core::hardware::Equipment;
 use cotama_core::units::{Micros, Millimetres, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{DecisionalLevel, FailureMode, Losses, Modules, Situation};
-use cotama_models::delivery_tables::ACTIVITIES;
-use cotama_models::tables::Rest;
+use cotama_models::missions::tables::Rest;
+use cotama_models::missions::tables::delivery::ACTIVITIES;
 use decisional_level::reach::{Reached, TOLD};
 use decisional_level::{PLANNING_BYTES, Robot, TASKS};
 use entries::{

@@ -1,0 +1,157 @@
+//! Failure modes, effects and criticality analysis (FMECA) of the delivery robot: what can fail,
+//! how it shows, how severe it is, and what is done.
+//!
+//! The method is that of Durand, Godary-Dejean, Lapierre, Crestani, IROS 2010, and Durand et al.,
+//! TAROS 2010, Section IV. The rows are the project's own: those marked as seed rules follow TAROS
+//! 2010, the others fill the same form; rates are assumed but where [`Description::rate_label`]
+//! says otherwise. Firmware links [`RULES`] alone, the texts stand apart in [`TEXTS`].
+
+use super::rule::{Description, Rule};
+use super::table::{FailureMode, RULES, TEXTS};
+use crate::cotama::decisions::{Class, Situation, by_availability};
+use crate::cotama::modules::Mode::{Autonomous, Rest};
+use crate::cotama::modules::{Health, Module, Modules};
+use core::fmt::{self, Write};
+
+impl FailureMode {
+    /// What reacts to it needs to know.
+    pub const fn rule(self) -> &'static Rule {
+        &RULES[self as usize]
+    }
+
+    /// Its words.
+    pub const fn description(self) -> &'static Description {
+        &TEXTS[self as usize]
+    }
+
+    /// What is broken with it; `part` is the module of a fault of one module, and does not matter
+    /// else.
+    pub const fn health(self, part: Modules) -> Health {
+        let rule = self.rule();
+        let faulty = if rule.one_module { part } else { rule.faulty };
+        Health { faulty, lost: rule.lost, suspected: Modules::NONE }
+    }
+
+    /// Its class by the two rules of [`by_rules`](crate::cotama::by_rules): the worse of severity and what
+    /// is left available, and global where the operator is needed and cannot be reached.
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Class, FailureMode, Modules, Situation, local, path_following};
+    /// let driving = Situation {
+    ///     local: local::State::Following,
+    ///     following: path_following::State::Optimal,
+    ///     ..Situation::AT_REST
+    /// };
+    /// // An encoder is "hard" in the table, but every configuration needs NAV.
+    /// assert_eq!(FailureMode::Odo1.rule().class, Class::Local);
+    /// assert_eq!(FailureMode::Odo1.effective(Modules::NONE, driving), Class::Global);
+    /// ```
+    pub const fn effective(self, part: Modules, situation: Situation) -> Class {
+        let rule = self.rule();
+        let severity = if matches!(situation.mode(), Autonomous | Rest) {
+            rule.autonomous
+        } else {
+            rule.operator
+        };
+        let left = situation.lost.health().union(self.health(part)).available();
+        let operator = left.has(Module::Lan);
+        match severity.class().worse(by_availability(situation, left, operator)) {
+            Class::Local if !operator => Class::Global,
+            class => class,
+        }
+    }
+}
+
+// Every row is detected and answered, or declared invisible with a reason.
+const _: () = {
+    let mut at = 0;
+    while at < RULES.len() {
+        let (rule, text) = (&RULES[at], &TEXTS[at]);
+        assert!(
+            rule.signature.always.is_empty() == text.silent.is_some(),
+            "a failure mode needs a flag that it always raises, or a reason why none is"
+        );
+        assert!(
+            !rule.signature.always.is_empty() || rule.signature.sometimes.is_empty(),
+            "a failure mode raises flags only sometimes: nothing detects it"
+        );
+        assert!(
+            rule.signature.always.common(rule.signature.sometimes).is_empty(),
+            "a failure mode raises a flag both always and sometimes"
+        );
+        assert!(
+            rule.report.is_some()
+                || text.silent.is_some()
+                || rule.class as u8 <= Class::Adapter as u8,
+            "a hard or fatal failure mode is detected, but reported to nobody"
+        );
+        assert!(
+            rule.class as u8 == rule.autonomous.class() as u8,
+            "the class of a failure mode is not that of its severity"
+        );
+        assert!(text.mtbf_mh > 0, "a failure mode without a rate");
+        at += 1;
+    }
+};
+
+/// The FMECA as comma-separated values, a heading and one line a row, fields quoted where they must
+/// be (RFC 4180, with plain line ends).
+#[derive(Clone, Copy, Debug)]
+pub struct FmecaCsv;
+
+/// The columns of [`FmecaCsv`].
+pub const FMECA_COLUMNS: &str = "id,function,component,failure_mode,cause,effect,severity_auto,severity_teleop,\
+modules_lost,observer,detection_rule,detection_latency_s,cs_event_auto,reaction,persistence,mtbf_h,rate_source,injection";
+
+impl fmt::Display for FmecaCsv {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{FMECA_COLUMNS}")?;
+        for mode in FailureMode::ALL {
+            let (rule, text) = (mode.rule(), mode.description());
+            for field in
+                [mode.name(), text.function, text.component, text.failure, text.cause, text.effect]
+            {
+                quoted(f, field)?;
+                f.write_char(',')?;
+            }
+            write!(f, "{},{},", rule.autonomous.name(), rule.operator.name())?;
+            for field in [text.modules, text.observer, text.detection] {
+                quoted(f, field)?;
+                f.write_char(',')?;
+            }
+            thousandths(f, rule.latency_ms)?;
+            write!(f, ",{},", rule.class.name())?;
+            quoted(f, text.reaction)?;
+            write!(f, ",{},", rule.persistence.name())?;
+            thousandths(f, text.mtbf_mh)?;
+            f.write_char(',')?;
+            quoted(f, text.rate)?;
+            f.write_char(',')?;
+            quoted(f, text.injection)?;
+            f.write_char('\n')?;
+        }
+        Ok(())
+    }
+}
+
+fn quoted(f: &mut fmt::Formatter<'_>, field: &str) -> fmt::Result {
+    if !field.contains([',', '"', '\n']) {
+        return f.write_str(field);
+    }
+    f.write_char('"')?;
+    for (at, part) in field.split('"').enumerate() {
+        write!(f, "{}{part}", if at == 0 { "" } else { "\"\"" })?;
+    }
+    f.write_char('"')
+}
+
+/// A number of thousandths as a decimal number without trailing zeros.
+fn thousandths(f: &mut fmt::Formatter<'_>, number: u32) -> fmt::Result {
+    let (whole, rest) = (number / 1000, number % 1000);
+    match rest {
+        0 => write!(f, "{whole}"),
+        _ if rest % 100 == 0 => write!(f, "{whole}.{}", rest / 100),
+        _ if rest % 10 == 0 => write!(f, "{whole}.{:02}", rest / 10),
+        _ => write!(f, "{whole}.{rest:03}"),
+    }
+}

@@ -1,0 +1,103 @@
+//! What a row of the FMECA says: the rule that firmware needs, and the words.
+
+use super::flags::Flags;
+use crate::cotama::decisions::{Class, Report, Severity};
+use crate::cotama::label::Label;
+use crate::cotama::modules::{Modules, Resources};
+
+/// How long a fault stays.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Persistence {
+    /// Until repaired.
+    Permanent,
+    /// It passes.
+    Transient,
+    /// It comes and goes.
+    Intermittent,
+}
+
+impl Persistence {
+    /// Its name in the FMECA.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Permanent => "permanent",
+            Self::Transient => "transient",
+            Self::Intermittent => "intermittent",
+        }
+    }
+}
+
+/// How a failure mode shows (inferred from its detection and its effect): it is possible while the
+/// flags raised are all of `always` and some of `sometimes`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Signature {
+    /// Flags that it always raises; none when nothing of the architecture sees it.
+    pub always: Flags,
+    /// Flags that it may raise too: effects that depend on the place, and detections of which one
+    /// is enough.
+    pub sometimes: Flags,
+    /// It can only happen, or only matters, while these modules are available.
+    pub present: Modules,
+    /// It can only happen while these modules are not.
+    pub absent: Modules,
+}
+
+/// What reacts to a failure mode needs to know of it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rule {
+    /// Modules that are faulty with it.
+    pub faulty: Modules,
+    /// Whether it is a fault of one module, whichever it is.
+    pub one_module: bool,
+    /// Resources that are lost with it.
+    pub lost: Resources,
+    /// Severity while the robot drives itself.
+    pub autonomous: Severity,
+    /// Severity while the operator drives.
+    pub operator: Severity,
+    /// The class of its event while the robot drives itself.
+    pub class: Class,
+    /// How long it stays.
+    pub persistence: Persistence,
+    /// How long its detection takes, in milliseconds.
+    pub latency_ms: u32,
+    /// How it shows.
+    pub signature: Signature,
+    /// The report to the contextual supervisor; none for what is recorded only. A report means in
+    /// each mode what [`decide`](crate::cotama::decide) says. Hard faults without a report of their own ask
+    /// for judgement: [`Report::Ambiguous`] (inferred).
+    pub report: Option<Report>,
+}
+
+/// The words of a row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Description {
+    /// The function that suffers.
+    pub function: &'static str,
+    /// The component that fails.
+    pub component: &'static str,
+    /// How it fails.
+    pub failure: &'static str,
+    /// Why.
+    pub cause: &'static str,
+    /// With what effect.
+    pub effect: &'static str,
+    /// Modules lost, in words.
+    pub modules: &'static str,
+    /// Who sees it, in words.
+    pub observer: &'static str,
+    /// How it is seen.
+    pub detection: &'static str,
+    /// Why nothing of the architecture sees it, where nothing does.
+    pub silent: Option<&'static str>,
+    /// What is done.
+    pub reaction: &'static str,
+    /// Mean time between failures, in thousandths of an hour.
+    pub mtbf_mh: u32,
+    /// How well the rate is known; stated: by a data sheet.
+    pub rate_label: Label,
+    /// Where the rate comes from.
+    pub rate: &'static str,
+    /// How the fault is injected in simulation.
+    pub injection: &'static str,
+}

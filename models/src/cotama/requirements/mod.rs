@@ -1,0 +1,10 @@
+//! What the decisional level is required to do: questions to the model checker, and what makes each
+//! of them true.
+
+mod guarded;
+mod properties;
+mod recovery_properties;
+
+pub use guarded::Guarded;
+pub use properties::{Asked, REQUIREMENTS, Requirement, Said, Watch};
+pub use recovery_properties::{RECOVERY_REQUIREMENTS, REPLACED};

@@ -1,0 +1,306 @@
+//! What a `panorama-mission/1` file says, as data with units.
+
+use super::diagnostic::Spanned;
+use super::faults::Run;
+use crate::cotama::Configuration;
+use cotama_core::hardware::Equipment;
+use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use std::ops::Range;
+
+/// The names of the performance axes, by index.
+pub const AXES: [&str; 2] = ["duration", "energy"];
+
+/// A task of an objective. All tasks of an objective run at the same time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Task {
+    /// `MOV`: travel along the path.
+    Move,
+    /// `TUR`: turn on the spot.
+    Turn,
+    /// `DET`: detect the state of something, standing.
+    Detect,
+    /// `LOC`: localise, along with another task.
+    Localise,
+    /// `RCV`: receive an object, standing.
+    Receive,
+    /// `DLV`: hand an object over, standing.
+    Deliver,
+    /// `WAI`: wait, standing.
+    Wait,
+}
+
+impl Task {
+    /// The names of the tasks in mission files, in the order of the enum.
+    pub const NAMES: [&str; 7] = ["MOV", "TUR", "DET", "LOC", "RCV", "DLV", "WAI"];
+
+    const ALL: [Self; 7] = [
+        Self::Move,
+        Self::Turn,
+        Self::Detect,
+        Self::Localise,
+        Self::Receive,
+        Self::Deliver,
+        Self::Wait,
+    ];
+
+    /// Its name in mission files.
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+
+    pub(super) fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|task| task.name() == name)
+    }
+
+    /// Whether it decides how long an objective takes. Every objective has exactly one such task.
+    pub const fn leads(self) -> bool {
+        !matches!(self, Self::Localise)
+    }
+}
+
+/// Who decides while the mission runs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Supervision {
+    /// The supervisors of COTAMA (Durand et al., TAROS 2010).
+    Cotama,
+}
+
+impl Supervision {
+    /// The names in mission files, in the order of the enum.
+    pub const NAMES: [&str; 1] = ["cotama"];
+}
+
+/// What an objective is to its supervisor (Durand et al., TAROS 2010, Section VI).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Does {
+    /// It drives along the path.
+    Drive,
+    /// It waits until an object is on board.
+    Receive,
+    /// It hands the object over.
+    Deliver,
+    /// It waits for a time.
+    Wait,
+}
+
+impl Does {
+    /// The names in mission files, in the order of the enum.
+    pub const NAMES: [&str; 4] = ["drive", "receive", "deliver", "wait"];
+
+    pub(super) const ALL: [Self; 4] = [Self::Drive, Self::Receive, Self::Deliver, Self::Wait];
+
+    /// Its name in mission files.
+    pub const fn name(self) -> &'static str {
+        Self::NAMES[self as usize]
+    }
+
+    /// The task that leads such an objective.
+    pub const fn task(self) -> Task {
+        match self {
+            Self::Drive => Task::Move,
+            Self::Receive => Task::Receive,
+            Self::Deliver => Task::Deliver,
+            Self::Wait => Task::Wait,
+        }
+    }
+}
+
+/// The robot's body.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Robot {
+    /// Its mass, in grams.
+    pub mass_g: u64,
+    /// The fastest it can go.
+    pub speed_max: MillimetresPerSecond,
+    /// An impact must stay strictly below this energy.
+    pub impact_energy_max: Millijoules,
+    /// The fastest it may go so that it does: see [`harmless_speed`].
+    pub speed_harmless: MillimetresPerSecond,
+}
+
+/// The largest whole speed at which the kinetic energy m v² / 2 is strictly below `energy`; zero if
+/// there is none.
+///
+/// ```
+/// use cotama_core::units::{Millijoules, MillimetresPerSecond};
+/// # use cotama_models::missions::harmless_speed;
+/// assert_eq!(harmless_speed(25_000, Millijoules(4_000)), MillimetresPerSecond(565)); // 25 kg, 4 J: below 565.7
+/// ```
+pub const fn harmless_speed(mass_g: u64, energy: Millijoules) -> MillimetresPerSecond {
+    // In these units, m v² / 2 < E is m_g * v² < 2,000,000 * E_mJ.
+    let bound = energy.0.saturating_mul(2_000_000);
+    match bound.saturating_sub(1).checked_div(mass_g) {
+        Some(square) => MillimetresPerSecond(square.isqrt()),
+        None => MillimetresPerSecond::ZERO,
+    }
+}
+
+/// A kind of hardware, switched on and off in units.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Hardware {
+    /// Its name.
+    pub name: String,
+    /// How many units the robot has.
+    pub units: u8,
+    /// The power of one unit.
+    pub power: Milliwatts,
+}
+
+/// The power of motion at speed v (mm/s): c0 + c1 v / 1000 + c2 v² / 1,000,000 mW, rounded half up.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MotionPower {
+    /// The constant coefficient, in mW.
+    pub c0: u64,
+    /// The linear coefficient, in mW for each m/s.
+    pub c1: u64,
+    /// The square coefficient, in mW for each (m/s)².
+    pub c2: u64,
+}
+
+impl MotionPower {
+    /// The power at a speed; the largest power when it does not fit.
+    pub const fn at(&self, speed: MillimetresPerSecond) -> Milliwatts {
+        let v = speed.0 as u128;
+        let linear = (self.c1 as u128 * v).saturating_mul(1000);
+        let square = (self.c2 as u128).saturating_mul(v * v);
+        let micro = (self.c0 as u128 * 1_000_000).saturating_add(linear).saturating_add(square);
+        let power = micro.saturating_add(500_000) / 1_000_000;
+        if power > u64::MAX as u128 { Milliwatts(u64::MAX) } else { Milliwatts(power as u64) }
+    }
+}
+
+/// What a task takes that does not travel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Standing {
+    /// Its duration.
+    pub duration: Millis,
+    /// Its power, without that of the hardware it needs.
+    pub power: Milliwatts,
+}
+
+/// A task implementation option (TIO).
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Tio {
+    /// Its id.
+    pub id: String,
+    /// Where the id stands in the file.
+    pub span: Range<usize>,
+    /// The task that it implements.
+    pub task: Task,
+    /// The hardware it needs.
+    pub needs: Equipment,
+    /// The fastest it allows.
+    pub speed_max: Option<MillimetresPerSecond>,
+    /// Its quality for each 100 mm of travel.
+    pub quality_per_dm: u32,
+    /// Its quality in an activity that does not travel.
+    pub quality: u32,
+    /// What it takes standing; none for tasks that travel or run along.
+    pub standing: Option<Standing>,
+    /// The modules that it runs: one for each moving option of a supervised mission, none for other
+    /// options.
+    pub configuration: Option<Configuration>,
+}
+
+/// An objective: tasks that run at the same time on a part of the path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Objective {
+    /// Its id.
+    pub id: String,
+    /// Where the id stands in the file.
+    pub span: Range<usize>,
+    /// Where it starts.
+    pub x_start: Millimetres,
+    /// Where it ends; the same place when it does not travel.
+    pub x_end: Millimetres,
+    /// Its tasks: exactly one that leads, [`Task::Move`] if and only if it travels.
+    pub tasks: Vec<Task>,
+    /// What its supervisor takes it for; there in a supervised mission only.
+    pub does: Option<Spanned<Does>>,
+}
+
+impl Objective {
+    /// Whether it moves along the path.
+    pub fn travels(&self) -> bool {
+        self.x_start < self.x_end
+    }
+}
+
+/// A hardware that the moving option must use.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct HardwareRequirement {
+    /// The index of the hardware.
+    pub hardware: usize,
+    /// At least so many units of it.
+    pub units: u8,
+}
+
+/// A part of the path with constraints on the activities that travel there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Zone {
+    /// Its id.
+    pub id: String,
+    /// Where the id stands in the file.
+    pub span: Range<usize>,
+    /// Where it starts.
+    pub x_start: Millimetres,
+    /// Where it ends, behind its start.
+    pub x_end: Millimetres,
+    /// The fastest it allows.
+    pub speed_max: Option<MillimetresPerSecond>,
+    /// The hardware that the moving option must use.
+    pub require_hardware: Option<Spanned<HardwareRequirement>>,
+    /// The index of the TIO that must be used.
+    pub require_tio: Option<Spanned<usize>>,
+}
+
+/// Everything a mission file says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Definition {
+    /// The name of the mission.
+    pub name: String,
+    /// The length of the path.
+    pub path_length: Millimetres,
+    /// The inclusive limit on each axis, in ms and mJ.
+    pub limits: [u64; 2],
+    /// The axes in their order of treatment.
+    pub order: [usize; 2],
+    /// The robot's body.
+    pub robot: Robot,
+    /// The hardware; its index is its kind in [`Equipment`].
+    pub hardware: Vec<Hardware>,
+    /// The power of motion.
+    pub motion_power: MotionPower,
+    /// The task implementation options.
+    pub tios: Vec<Tio>,
+    /// The objectives, one after the other along the path.
+    pub objectives: Vec<Objective>,
+    /// The zones; they may overlap.
+    pub zones: Vec<Zone>,
+    /// Who decides while it runs; none for a plain mission, which only plans again.
+    pub supervision: Option<Supervision>,
+    /// Whether its supervisors use again what [returns](crate::cotama::recovering).
+    pub recovery: bool,
+    /// How the mission is run by a simulator.
+    pub run: Run,
+}
+
+impl Definition {
+    /// All the hardware of the robot.
+    pub fn available(&self) -> Equipment {
+        let with = |units: Equipment, (kind, hardware): (usize, &Hardware)| {
+            units.with(kind, hardware.units)
+        };
+        self.hardware
+            .iter()
+            .enumerate()
+            .fold(Equipment::NONE, |all, one| with(all, one).unwrap_or(all))
+    }
+
+    /// The power of these units.
+    pub fn power_of(&self, units: Equipment) -> Milliwatts {
+        let power =
+            |(kind, hardware): (usize, &Hardware)| u64::from(units.of(kind)) * hardware.power.0;
+        Milliwatts(self.hardware.iter().enumerate().map(power).sum())
+    }
+}

@@ -1,0 +1,35 @@
+//! The missions that come with the program.
+
+/// A mission file that comes with the program.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Embedded {
+    /// Its name.
+    pub name: &'static str,
+    /// What it is, in one line.
+    pub description: &'static str,
+    /// The text of the file.
+    pub text: &'static str,
+}
+
+const MISSIONS: [Embedded; 2] = [
+    Embedded {
+        name: "patrol",
+        description: "Patrol of Lambert et al. 2024: 187 m through two halls, two valves to inspect, 600 s and 2.4 Wh",
+        text: include_str!("../../missions/patrol.toml"),
+    },
+    Embedded {
+        name: "delivery",
+        description: "Delivery of Durand et al. 2010: to office A, receive an object, to office B, deliver it; supervised by COTAMA",
+        text: include_str!("../../missions/delivery.toml"),
+    },
+];
+
+/// All missions that come with the program.
+pub fn embedded() -> &'static [Embedded] {
+    &MISSIONS
+}
+
+/// The mission of this name.
+pub fn mission(name: &str) -> Option<Embedded> {
+    embedded().iter().copied().find(|mission| mission.name == name)
+}

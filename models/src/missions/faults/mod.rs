@@ -1,0 +1,100 @@
+//! What may go wrong during a run: the script of a mission file's `[run]`, or of a
+//! `panorama-faults/1` file.
+
+use cotama_core::units::{Millimetres, Millis};
+
+mod incidents;
+
+pub use incidents::{Answer, Incident, IncidentKind};
+
+/// The format that a file of faults must name.
+pub const FORMAT: &str = "panorama-faults/1";
+
+/// How a mission is run by a simulator.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Run {
+    /// Margins are checked every such period.
+    pub monitor_period: Millis,
+    /// What goes wrong.
+    pub faults: Faults,
+}
+
+impl Default for Run {
+    fn default() -> Self {
+        Self { monitor_period: Millis(1000), faults: Faults::default() }
+    }
+}
+
+/// What goes wrong during a run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Faults {
+    /// By how much the real power differs from the modelled one, by zone.
+    pub power_errors: Vec<PowerError>,
+    /// What happens at given places, sorted by place.
+    pub events: Vec<Event>,
+    /// What happens anywhere.
+    pub random: Vec<RandomEvent>,
+    /// What the supervisors of a supervised mission have to deal with, sorted by place; in files
+    /// these are events of the kinds `failure`, `repair` and `operator`. A plan, and a run without
+    /// supervisors, knows nothing of them.
+    pub incidents: Vec<Incident>,
+}
+
+/// By how much the real power differs from the modelled one inside a zone, whatever the robot does
+/// there.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PowerError {
+    /// The index of the zone.
+    pub zone: usize,
+    /// The difference, in parts per thousand of the modelled power.
+    pub permille: i32,
+}
+
+/// Something that happens once, at a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Event {
+    /// Where, by the path.
+    pub x: Millimetres,
+    /// What.
+    pub kind: EventKind,
+}
+
+/// What happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// Something stands in the way; time is lost, at the power of the current alternative.
+    Obstacle {
+        /// The time lost.
+        delay: Millis,
+    },
+    /// Hardware fails.
+    Fault {
+        /// The index of the hardware.
+        hardware: usize,
+        /// How many units are lost.
+        units: u8,
+    },
+    /// Hardware works again.
+    Repair {
+        /// The index of the hardware.
+        hardware: usize,
+        /// How many units are back.
+        units: u8,
+    },
+    /// The position was wrong: so much more path to drive before going on at the same place.
+    Odometry {
+        /// The additional path.
+        extra: Millimetres,
+    },
+}
+
+/// Something that happens at random places.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RandomEvent {
+    /// Its name, which also names its stream of random numbers.
+    pub name: String,
+    /// The number expected on 1000 m of path.
+    pub per_km: u16,
+    /// What happens: an obstacle or a wrong odometry.
+    pub kind: EventKind,
+}

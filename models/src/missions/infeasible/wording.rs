@@ -1,0 +1,195 @@
+//! Explanations for people: one sentence each, with ids and units.
+
+use super::{Cause, Heavy, Relaxation};
+use crate::missions::definition::AXES;
+use crate::missions::mission::Mission;
+use crate::missions::scenario::Constraint;
+use crate::missions::tables::{DURATION, ENERGY};
+use cotama_core::hardware::Equipment;
+
+/// The name and the unit of an axis.
+fn axis(axis: usize) -> (&'static str, &'static str) {
+    let unit = if axis == ENERGY { "mJ" } else { "ms" };
+    (AXES.get(axis).copied().unwrap_or("unknown"), unit)
+}
+
+impl Cause {
+    /// The cause in a sentence, without a full stop.
+    pub fn wording(&self, mission: &Mission) -> String {
+        match self {
+            Self::Limit { axis, limit, least } => {
+                let ((name, unit), more) = (self::axis(*axis), more(*axis, *limit, *least));
+                let (other, _) = self::axis(usize::from(*axis == DURATION));
+                format!(
+                    "the {name} limit of {limit} {unit} cannot be met: \
+                     within the {other} limit the least is {least} {unit} ({more})"
+                )
+            }
+            Self::Limits { limits, least } => {
+                let [duration, energy] = [DURATION, ENERGY].map(|axis| {
+                    let ((name, unit), limit, least) =
+                        (self::axis(axis), limits[axis], least[axis]);
+                    let more = more(axis, limit, least);
+                    format!("the least {name} is {least} {unit}, the limit {limit} {unit} ({more})")
+                });
+                format!("neither limit can be met, even without the other: {duration}; {energy}")
+            }
+            Self::NoAlternative { activity, lacks, constraints, others } => {
+                let lacks: Vec<_> = lacks.iter().map(|&lack| units(mission, lack)).collect();
+                let place = place(mission, *activity);
+                let lacks = lacks.join(", or ");
+                let mut said = format!(
+                    "{place} has no alternative with this hardware: every one needs {lacks}"
+                );
+                if !constraints.is_empty() {
+                    let constraints: Vec<_> = constraints
+                        .iter()
+                        .map(|&(zone, which)| constraint(mission, zone, which))
+                        .collect();
+                    said = format!("{said}; others are excluded by {}", listed(&constraints));
+                }
+                if !others.is_empty() {
+                    let others: Vec<_> =
+                        others.iter().map(|&other| id(mission, other).to_owned()).collect();
+                    said = format!("{said}; nor have {}", listed(&others));
+                }
+                said
+            }
+            Self::SomeLimit { steps } => {
+                format!(
+                    "no plan is within the limits; which of them cannot be met, and by how much, \
+                     was not found in {steps} steps"
+                )
+            }
+            Self::Undecided { steps } => {
+                format!(
+                    "neither a plan nor the proof that there is none was found in {steps} steps"
+                )
+            }
+        }
+    }
+}
+
+impl Heavy {
+    /// The activity, its place, its cost and its part of the total.
+    pub fn wording(&self, mission: &Mission) -> String {
+        let (_, unit) = axis(self.axis);
+        format!(
+            "{}: {} {unit}, {}",
+            place(mission, self.activity),
+            self.cost,
+            percent(self.permille.into())
+        )
+    }
+}
+
+impl Relaxation {
+    /// The change as an advice, without a full stop.
+    pub fn wording(&self, mission: &Mission) -> String {
+        match self {
+            Self::RaiseLimit { axis, from, to } => format!("raise {}", raised(*axis, *from, *to)),
+            Self::RaiseLimits { from, to } => {
+                let [duration, energy] = [0, 1].map(|axis| raised(axis, from[axis], to[axis]));
+                format!("raise {duration} and {energy}")
+            }
+            Self::LiftConstraint { zone, constraint: which } => {
+                format!("lift {}", constraint(mission, *zone, *which))
+            }
+            Self::LiftConstraints { constraints } => {
+                let constraints: Vec<_> = constraints
+                    .iter()
+                    .map(|&(zone, which)| constraint(mission, zone, which))
+                    .collect();
+                format!("lift {}", listed(&constraints))
+            }
+            Self::KeepHardware { hardware, units } => {
+                format!("keep {}", kept(mission, *hardware, *units))
+            }
+            Self::KeepHardwares { hardware } => {
+                let kinds: Vec<_> =
+                    hardware.iter().map(|&(kind, units)| kept(mission, kind, units)).collect();
+                format!("keep {}", listed(&kinds))
+            }
+            Self::DropObjective { objective } => match mission.objectives.get(*objective) {
+                Some(it) if it.travels() => {
+                    let follows = mission.objectives.len() > objective + 1;
+                    let follows = if follows { " and all that follow" } else { "" };
+                    format!("drop objective {}{follows}, ending at {}", it.id, it.x_start)
+                }
+                it => format!("drop objective {}", it.map_or("", |it| it.id.as_str())),
+            },
+        }
+    }
+}
+
+fn raised(axis: usize, from: u64, to: u64) -> String {
+    let (name, unit) = self::axis(axis);
+    format!("the {name} limit from {from} {unit} to {to} {unit} ({})", more(axis, from, to))
+}
+
+/// By how much more, absolute and relative.
+fn more(axis: usize, from: u64, to: u64) -> String {
+    let (by, (_, unit)) = (to.saturating_sub(from), self::axis(axis));
+    match (u128::from(by) * 1000 + u128::from(from / 2)).checked_div(from.into()) {
+        Some(permille) => format!("+{by} {unit}, {}", percent(permille)),
+        None => format!("+{by} {unit}"),
+    }
+}
+
+fn percent(permille: u128) -> String {
+    match permille {
+        0 => "below 0.1 %".to_owned(),
+        _ => format!("{}.{} %", permille / 10, permille % 10),
+    }
+}
+
+fn constraint(mission: &Mission, zone: usize, which: Constraint) -> String {
+    let which = match which {
+        Constraint::Hardware => "hardware",
+        Constraint::Tio => "option",
+    };
+    format!(
+        "the {which} constraint of zone \"{}\"",
+        mission.zones.get(zone).map_or("", |zone| &zone.id)
+    )
+}
+
+fn kept(mission: &Mission, kind: usize, units: u8) -> String {
+    format!("{units} {}", mission.hardware.get(kind).map_or("", |it| &it.name))
+}
+
+fn units(mission: &Mission, units: Equipment) -> String {
+    let kinds = (0..mission.hardware.len()).filter(|&kind| units.of(kind) > 0);
+    let kinds: Vec<_> = kinds.map(|kind| kept(mission, kind, units.of(kind))).collect();
+    listed(&kinds)
+}
+
+fn id(mission: &Mission, activity: usize) -> &str {
+    mission.scenario().activities.get(activity).map_or("", |it| &it.id)
+}
+
+fn place(mission: &Mission, activity: usize) -> String {
+    let Some(it) = mission.scenario().activities.get(activity) else { return String::new() };
+    let objective = mission.objectives.get(it.objective).map_or("", |objective| &objective.id);
+    let place = if it.x_start < it.x_end {
+        format!("{} to {}", it.x_start, it.x_end)
+    } else {
+        format!("at {}", it.x_start)
+    };
+    format!("activity {} (objective {objective}, {place})", it.id)
+}
+
+/// The most things listed in a sentence.
+const MAX_LISTED: usize = 10;
+
+/// `a`, `a and b`, `a, b and c`, and of very many the first and the number of the others.
+fn listed(parts: &[String]) -> String {
+    match parts {
+        [] => String::new(),
+        [one] => one.clone(),
+        [first @ .., last] if parts.len() <= MAX_LISTED => {
+            format!("{} and {last}", first.join(", "))
+        }
+        _ => format!("{} and {} more", parts[..MAX_LISTED].join(", "), parts.len() - MAX_LISTED),
+    }
+}

@@ -1,0 +1,147 @@
+//! A mission: what a `panorama-mission/1` file says, with units, checked as a whole.
+//!
+//! # Supervised missions
+//!
+//! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. In a
+//! *supervised* mission the supervisors of COTAMA (Durand et al., TAROS 2010) decide as well. It is
+//! a mission like any other, and says more:
+//!
+//! | key | what it says |
+//! | --- | --- |
+//! | `[supervision]` `decides = "cotama"` | that it is supervised |
+//! | `recovery = true` there | that modules which were lost and [are sound for long enough](crate::cotama::recovery) are used again; without it nothing returns |
+//! | `does` in each `[[objective]]` | [what it is](Does) to its supervisor: `drive`, `receive`, `deliver` or `wait` |
+//! | `configuration` in each `[[tio]]` of the task `MOV` | the [set of modules](crate::cotama::Configuration) that runs: `PF.OPT`, `PF.OPTR`, `PF.ODO`, `PF.DEG` |
+//! | `[[run.event]]` with `kind = "failure"`, `mode` | a [failure mode](crate::cotama::FailureMode) that observers have to find |
+//! | `[[run.event]]` with `kind = "repair"`, `mode` | that such a failure, if it is under way, ends there |
+//! | `[[run.event]]` with `kind = "operator"`, `answers`, `delay_ms` | what the operator [answers](crate::missions::faults::Answer) to the next request, with the time before each answer |
+//!
+//! A drive has the task `MOV`, the others stand and have `RCV`, `DLV` or `WAI`, whose options say
+//! their `duration_ms` and `power_mw` themselves; plain missions may use these three tasks, too.
+//! Modules are `[hardware]` of their names, so that a lost module removes the options that need it,
+//! by the rule of all hardware.
+//!
+//! On load, before the robot moves, its global supervisor is
+//! [made](crate::missions::mission_net::global_supervisor) from the objectives and [every marking of
+//! it looked at](crate::missions::mission_net::check); and the mission must make sense: drives lead
+//! on, an object is received before it is delivered, one at a time, and delivered in the end; the
+//! mission does not end with waiting; no objective passes a limit alone; the robot has the modules
+//! of its configurations and of its operator's answers; and no objective *could block*, that is:
+//! lose with a single module all its options, and teleoperation too. Modules without which nothing
+//! drives are not counted there: without them the robot stops, as it should.
+
+use super::definition::Definition;
+use super::diagnostic::{Diagnostic, MissionErrors};
+use super::reader::{self, Sink};
+use super::scenario::{Constraint, Scenario};
+use super::supervised;
+use cotama_core::net::owned::OwnedNet;
+use std::ops::Deref;
+
+/// The format that a mission file must name.
+pub const FORMAT: &str = "panorama-mission/1";
+
+/// A mission: a [`Definition`] that was checked, and the [`Scenario`] it unfolds to.
+///
+/// *Invariant:* the scenario is that of the definition, and none of its activities is without
+/// alternatives; the supervisor of a supervised mission is made from its objectives, and checked.
+/// The definition is therefore read only; its fields are those of the mission.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mission {
+    definition: Definition,
+    scenario: Scenario,
+    supervisor: Option<OwnedNet>,
+}
+
+impl Deref for Mission {
+    type Target = Definition;
+
+    fn deref(&self) -> &Definition {
+        &self.definition
+    }
+}
+
+impl Mission {
+    /// Reads a mission file. `source_name` is its name in messages.
+    ///
+    /// # Errors
+    /// All errors of the file, with their places.
+    pub fn parse(source_name: &str, text: &str) -> Result<Self, MissionErrors> {
+        let sink = Sink::default();
+        let definition =
+            reader::document(text, &sink, FORMAT, reader::definition).filter(|_| sink.is_empty());
+        let mut errors = sink.into_diagnostics();
+        if let Some(definition) = definition {
+            match Self::checked(definition) {
+                Ok(mission) => return Ok(mission),
+                Err(found) => errors.extend(found),
+            }
+        }
+        Err(MissionErrors::new(source_name, text, errors))
+    }
+
+    /// The whole of a definition, or what is wrong with it as a whole.
+    fn checked(definition: Definition) -> Result<Self, Vec<Diagnostic>> {
+        let scenario = Scenario::generate(&definition)?;
+        let supervisor = supervised::supervisor(&definition, &scenario)?;
+        Ok(Self { definition, scenario, supervisor })
+    }
+
+    /// The global supervisor made from the objectives of a supervised mission.
+    ///
+    /// ```
+    /// use cotama_models::missions::{Mission, embedded};
+    /// let delivery = embedded::mission("delivery").unwrap();
+    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// let places = &mission.supervisor().unwrap().places;
+    /// let names: Vec<_> = places.iter().map(|place| place.name.as_str()).collect();
+    /// assert_eq!(names, ["Wait", "DriveA", "Receive", "DriveB", "Deliver", "Done", "Security", "Safe"]);
+    /// ```
+    pub fn supervisor(&self) -> Option<&OwnedNet> {
+        self.supervisor.as_ref()
+    }
+
+    /// The activities and their alternatives.
+    pub fn scenario(&self) -> &Scenario {
+        &self.scenario
+    }
+
+    /// The mission with one constraint of a zone lifted; `None` when the zone has no such
+    /// constraint.
+    ///
+    /// Speed limits cannot be lifted: they decide what every alternative costs.
+    pub fn without_zone_constraint(&self, zone: usize, constraint: Constraint) -> Option<Self> {
+        let mut definition = self.definition.clone();
+        let zone = definition.zones.get_mut(zone)?;
+        match constraint {
+            Constraint::Hardware => zone.require_hardware.take().map(|_| ())?,
+            Constraint::Tio => zone.require_tio.take().map(|_| ())?,
+        }
+        Self::again(definition)
+    }
+
+    /// The mission without an objective; `None` when there is no such objective, or nothing would
+    /// be left, or what is left breaks a rule of supervised missions (an object delivered that was
+    /// not received).
+    ///
+    /// An objective that does not travel is left out. One that travels cannot be left out alone,
+    /// since the robot would not get to the next: the mission then ends where the objective starts,
+    /// without all that follows.
+    pub fn without_objective(&self, objective: usize) -> Option<Self> {
+        let mut definition = self.definition.clone();
+        let dropped = definition.objectives.get(objective)?;
+        if dropped.travels() {
+            definition.path_length = dropped.x_start;
+            definition.objectives.truncate(objective);
+            definition.run.faults.events.retain(|event| event.x <= definition.path_length);
+            definition.run.faults.incidents.retain(|incident| incident.x <= definition.path_length);
+        } else {
+            definition.objectives.remove(objective);
+        }
+        if definition.objectives.is_empty() { None } else { Self::again(definition) }
+    }
+
+    fn again(definition: Definition) -> Option<Self> {
+        Self::checked(definition).ok()
+    }
+}

@@ -1,0 +1,48 @@
+//! Robot missions as data: from a mission file to the alternatives of each activity.
+//!
+//! A file is read by [`Mission::parse`]; a [`Mission`] is its [`Definition`], the [`Scenario`] that
+//! it unfolds to, and for a supervised one its [global supervisor](mission_net). Beside it stand
+//! what may go wrong in a run ([`faults`]), [why there is no plan](infeasible), and the missions
+//! that come with the program ([`embedded`]). Without the feature `std` only [`tables`] remain.
+
+pub mod tables;
+
+#[cfg(feature = "std")]
+mod definition;
+#[cfg(feature = "std")]
+mod diagnostic;
+#[cfg(feature = "std")]
+pub mod embedded;
+#[cfg(feature = "std")]
+pub mod faults;
+#[cfg(feature = "std")]
+pub mod infeasible;
+#[cfg(feature = "std")]
+mod mission;
+#[cfg(feature = "std")]
+pub mod mission_net;
+#[cfg(feature = "std")]
+mod reader;
+#[cfg(feature = "std")]
+mod rust_source;
+#[cfg(feature = "std")]
+mod scenario;
+#[cfg(feature = "std")]
+mod supervised;
+
+#[cfg(feature = "std")]
+pub use definition::{
+    AXES, Definition, Does, Hardware, HardwareRequirement, MotionPower, Objective, Robot, Standing,
+    Supervision, Task, Tio, Zone, harmless_speed,
+};
+#[cfg(feature = "std")]
+pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned};
+#[cfg(feature = "std")]
+pub use mission::{FORMAT, Mission};
+#[cfg(feature = "std")]
+pub use scenario::{
+    Constraint, Dropped, MAX_ACTIVITIES, MAX_ALTERNATIVES, MAX_ALTERNATIVES_TOTAL, PlannedActivity,
+    Scenario,
+};
+#[cfg(feature = "std")]
+pub use supervised::MAX_SUPERVISED_OBJECTIVES;

@@ -1,0 +1,32 @@
+//! The named entries of a file.
+
+use crate::missions::definition::{Hardware, Zone};
+use cotama_core::units::Millimetres;
+
+/// A named entry of a file, as far as it could be read.
+pub(super) struct Entry<T> {
+    /// Empty when it could not be read.
+    pub(super) id: String,
+    pub(super) item: Option<T>,
+}
+
+impl<T> Entry<T> {
+    /// Stands for entries that could not be read.
+    pub(super) fn unreadable() -> Self {
+        Self { id: String::new(), item: None }
+    }
+}
+
+/// The names of entries.
+pub(super) fn ids<T>(entries: &[Entry<T>]) -> impl Iterator<Item = &str> + Clone {
+    entries.iter().map(|entry| entry.id.as_str())
+}
+
+/// What faults refer to, as far as it could be read.
+pub(super) struct Names<'n> {
+    pub(super) path_length: Option<Millimetres>,
+    pub(super) zones: &'n [Entry<Zone>],
+    pub(super) hardware: &'n [Entry<Hardware>],
+    /// Whether the mission is supervised; `None` when that could not be read.
+    pub(super) supervised: Option<bool>,
+}

@@ -1,0 +1,195 @@
+//! Reading what may go wrong: `[run]` of a mission file, or a `panorama-faults/1` file.
+
+use super::entry::{Entry, Names, ids};
+use super::fields::{self, Fields, Sink};
+use super::incidents;
+use super::quantities::MAX_QUANTITY;
+use crate::missions::definition::{Definition, Hardware, Zone};
+use crate::missions::diagnostic::{Diagnostic, MissionErrors};
+use crate::missions::faults::{
+    Event, EventKind, FORMAT, Faults, Incident, PowerError, RandomEvent, Run,
+};
+use cotama_core::hardware::MAX_UNITS;
+use cotama_core::units::{Millimetres, Millis};
+
+impl Faults {
+    /// Reads a file of faults for a mission. `source_name` is its name in messages.
+    ///
+    /// # Errors
+    /// All errors of the file, with their places.
+    ///
+    /// ```
+    /// # use cotama_models::missions::{Mission, embedded, faults::Faults};
+    /// # let patrol = embedded::mission("patrol").unwrap();
+    /// # let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+    /// let text = "format = \"panorama-faults/1\"\nevent = [{ x_mm = 5, kind = \"obstacl\", delay_ms = 9 }]";
+    /// let errors = Faults::parse("faults.toml", text, &mission).unwrap_err();
+    /// let first = "faults.toml:2:29: unknown event `obstacl`; did you mean `obstacle`?";
+    /// assert_eq!(errors.to_string().lines().next(), Some(first));
+    /// ```
+    pub fn parse(
+        source_name: &str,
+        text: &str,
+        mission: &Definition,
+    ) -> Result<Self, MissionErrors> {
+        let sink = Sink::default();
+        let zone = |it: &Zone| Entry { id: it.id.clone(), item: Some(it.clone()) };
+        let zones: Vec<_> = mission.zones.iter().map(zone).collect();
+        let kind = |it: &Hardware| Entry { id: it.name.clone(), item: Some(it.clone()) };
+        let hardware: Vec<_> = mission.hardware.iter().map(kind).collect();
+        let (path_length, supervised) =
+            (Some(mission.path_length), Some(mission.supervision.is_some()));
+        let names = Names { path_length, zones: &zones, hardware: &hardware, supervised };
+        let faults = fields::document(text, &sink, FORMAT, |mut root| {
+            let faults = read(&mut root, &names);
+            root.finish();
+            faults
+        });
+        match faults {
+            Some(faults) if sink.is_empty() => Ok(faults),
+            _ => Err(MissionErrors::new(source_name, text, sink.into_diagnostics())),
+        }
+    }
+}
+
+/// Reads `[run]`; its absence is a run in which nothing goes wrong.
+pub(super) fn run(run: Option<Fields<'_>>, names: &Names<'_>) -> Option<Run> {
+    let Some(mut run) = run else { return Some(Run::default()) };
+    let period = run.optional_integer("monitor_period_ms", 1..=3_600_000);
+    let faults = read(&mut run, names);
+    run.finish();
+    let monitor_period = period.ok()?.map_or(Run::default().monitor_period, Millis);
+    Some(Run { monitor_period, faults: faults? })
+}
+
+fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
+    let power_errors = power_errors(fields, names);
+    let events_read = fields.tables("event", false).map(|tables| {
+        let events: Vec<_> = tables.into_iter().map(|table| event(table, names)).collect();
+        events.into_iter().collect::<Option<Vec<_>>>()
+    });
+    let random = fields.tables("random", false).map(|tables| {
+        let mut seen = Vec::new();
+        let random: Vec<_> =
+            tables.into_iter().map(|table| random_event(table, &mut seen)).collect();
+        random.into_iter().collect::<Option<Vec<_>>>()
+    });
+    let (mut events, mut incidents) = (Vec::new(), Vec::new());
+    for happening in events_read?? {
+        match happening {
+            Scripted::Event(event) => events.push(event),
+            Scripted::Incident(incident) => incidents.push(incident),
+        }
+    }
+    events.sort_by_key(|event| event.x);
+    incidents.sort_by_key(|incident| incident.x);
+    Some(Faults { power_errors: power_errors?, events, random: random??, incidents })
+}
+
+fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerError>> {
+    let Some(table) = fields.optional_table("power_error_permille").ok()? else {
+        return Some(Vec::new());
+    };
+    let errors = table.named_integers::<i32>(&(-999..=10_000))?;
+    let errors = errors.into_iter().map(|(zone, permille)| {
+        let zone = fields.index_of(&zone, "zone", ids(names.zones))?;
+        Some(PowerError { zone, permille })
+    });
+    let errors: Vec<_> = errors.collect();
+    errors.into_iter().collect()
+}
+
+fn delay(fields: &mut Fields<'_>) -> Option<EventKind> {
+    Some(EventKind::Obstacle { delay: Millis(fields.integer("delay_ms", 1..=MAX_QUANTITY)?) })
+}
+
+fn extra(fields: &mut Fields<'_>) -> Option<EventKind> {
+    Some(EventKind::Odometry { extra: Millimetres(fields.integer("extra_mm", 1..=MAX_QUANTITY)?) })
+}
+
+/// The hardware of a fault or repair, and how many units of it.
+fn units(fields: &mut Fields<'_>, key: &'static str, names: &Names<'_>) -> Option<(usize, u8)> {
+    let hardware = fields.text("hardware");
+    let units = fields.integer(key, 1..=i64::from(MAX_UNITS));
+    let hardware = fields.index_of(&hardware?, "hardware", ids(names.hardware))?;
+    let units: u8 = units?;
+    let kind = names.hardware.get(hardware)?.item.as_ref()?;
+    if units > kind.units {
+        let message =
+            format!("`{key}` is {units}, but the robot has only {} of `{}`", kind.units, kind.name);
+        let help = format!("write {} or less", kind.units);
+        fields.report(
+            Diagnostic::new(fields.span_of(key), message, "more than there are").help(help),
+        );
+        return None;
+    }
+    Some((hardware, units))
+}
+
+/// An entry of a script.
+enum Scripted {
+    Event(Event),
+    Incident(Incident),
+}
+
+fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
+    let x = fields.integer("x_mm", 0..=MAX_QUANTITY).map(Millimetres);
+    let kinds = [&["obstacle", "fault", "repair", "odometry"], &incidents::KINDS[..]].concat();
+    let Some(kind) = fields.choice("kind", "event", &kinds) else {
+        fields.abandon();
+        return None;
+    };
+    if incidents::is_incident(&fields, kind) {
+        let found = incidents::incident(&mut fields, kind, names);
+        on_the_path(&fields, x, names);
+        fields.finish();
+        return Some(Scripted::Incident(Incident { x: x?, kind: found? }));
+    }
+    let kind = match kind {
+        "obstacle" => delay(&mut fields),
+        "odometry" => extra(&mut fields),
+        "fault" => {
+            let lost = units(&mut fields, "units_lost", names);
+            lost.map(|(hardware, units)| EventKind::Fault { hardware, units })
+        }
+        _ => {
+            let back = units(&mut fields, "units_back", names);
+            back.map(|(hardware, units)| EventKind::Repair { hardware, units })
+        }
+    };
+    on_the_path(&fields, x, names);
+    fields.finish();
+    Some(Scripted::Event(Event { x: x?, kind: kind? }))
+}
+
+fn on_the_path(fields: &Fields<'_>, x: Option<Millimetres>, names: &Names<'_>) {
+    if let (Some(x), Some(end)) = (x, names.path_length)
+        && x > end
+    {
+        let message = format!("the event at {x} lies behind the end of the path, {end}");
+        let help = format!("place it between 0 and {}", end.0);
+        fields
+            .report(Diagnostic::new(fields.span_of("x_mm"), message, "not on the path").help(help));
+    }
+}
+
+fn random_event(mut fields: Fields<'_>, seen: &mut Vec<String>) -> Option<RandomEvent> {
+    let name = fields.id("name");
+    let per_km = fields.integer("per_km", 1..=1000);
+    let Some(kind) = fields.choice("kind", "random event", &["obstacle", "odometry"]) else {
+        fields.abandon();
+        return None;
+    };
+    let kind = if kind == "obstacle" { delay(&mut fields) } else { extra(&mut fields) };
+    if let Some(name) = &name {
+        if seen.contains(&name.value) {
+            let message = format!("the random event `{}` is defined twice", name.value);
+            fields.report(
+                Diagnostic::new(name.span.clone(), message, "again").help("rename one of them"),
+            );
+        }
+        seen.push(name.value.clone());
+    }
+    fields.finish();
+    Some(RandomEvent { name: name?.value, per_km: per_km?, kind: kind? })
+}

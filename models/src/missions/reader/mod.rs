@@ -1,0 +1,13 @@
+//! Reads mission files and files of faults.
+
+mod entry;
+mod faults;
+mod fields;
+mod incidents;
+mod mission;
+mod path;
+mod quantities;
+mod supervision;
+
+pub(super) use fields::{Sink, document};
+pub(super) use mission::definition;

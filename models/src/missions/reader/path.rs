@@ -1,0 +1,247 @@
+//! Reading what lies along the path: zones and objectives.
+
+use super::entry::{Entry, ids};
+use super::fields::{Fields, Reported};
+use super::quantities::{AT_LEAST_ZERO, SPEEDS, task};
+use super::supervision::{self, Supervised};
+use crate::missions::definition::{
+    Does, Hardware, HardwareRequirement, Objective, Task, Tio, Zone,
+};
+use crate::missions::diagnostic::{Diagnostic, Spanned};
+use cotama_core::hardware::MAX_UNITS;
+use cotama_core::units::{Millimetres, MillimetresPerSecond};
+
+pub(super) fn zone(
+    mut fields: Fields<'_>,
+    path_length: Option<Millimetres>,
+    hardware: &[Entry<Hardware>],
+    tios: &[Entry<Tio>],
+) -> Entry<Zone> {
+    let id = fields.id("id");
+    let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
+    let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
+    let speed_max = fields.optional_integer("speed_max_mm_s", SPEEDS);
+    let require_hardware = required_hardware(&mut fields, hardware);
+    let require_tio = fields.optional_text("require_tio").and_then(|name| match name {
+        None => Ok(None),
+        Some(name) => {
+            let value = fields.index_of(&name, "option", ids(tios)).ok_or(Reported)?;
+            Ok(Some(Spanned { value, span: name.span }))
+        }
+    });
+    if let (Some(start), Some(end)) = (x_start, x_end)
+        && start >= end
+    {
+        let message = format!("the zone is empty: it starts at {start} and ends at {end}");
+        let help = "let it end behind its start";
+        fields.report(
+            Diagnostic::new(fields.span_of("x_end_mm"), message, "not behind the start").help(help),
+        );
+    }
+    if let (Some(end), Some(length)) = (x_end, path_length)
+        && end > length
+    {
+        let message = format!("the zone ends at {end}, behind the end of the path, {length}");
+        let help = format!("let it end at {} or before", length.0);
+        fields.report(
+            Diagnostic::new(fields.span_of("x_end_mm"), message, "not on the path").help(help),
+        );
+    }
+    fields.finish();
+    let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
+    let complete = || {
+        Some(Zone {
+            id: id.clone(),
+            span,
+            x_start: x_start?,
+            x_end: x_end?,
+            speed_max: speed_max.ok()?.map(MillimetresPerSecond),
+            require_hardware: require_hardware.ok()?,
+            require_tio: require_tio.ok()?,
+        })
+    };
+    Entry { item: complete(), id }
+}
+
+fn required_hardware(
+    fields: &mut Fields<'_>,
+    hardware: &[Entry<Hardware>],
+) -> Result<Option<Spanned<HardwareRequirement>>, Reported> {
+    // Without a hardware, a number of units is an unknown key.
+    let Some(name) = fields.optional_text("require_hardware")? else { return Ok(None) };
+    let units = fields.optional_integer("require_units", 1..=i64::from(MAX_UNITS));
+    let hardware = fields.index_of(&name, "hardware", ids(hardware)).ok_or(Reported)?;
+    let value = HardwareRequirement { hardware, units: units?.unwrap_or(1) };
+    Ok(Some(Spanned { value, span: name.span }))
+}
+
+pub(super) fn objective(
+    mut fields: Fields<'_>,
+    tios: &[Entry<Tio>],
+    supervised: &Supervised,
+) -> Entry<Objective> {
+    let id = fields.id("id");
+    let does = supervision::does(&mut fields, supervised);
+    let x_start = fields.integer("x_start_mm", AT_LEAST_ZERO).map(Millimetres);
+    let x_end = fields.integer("x_end_mm", AT_LEAST_ZERO).map(Millimetres);
+    let doing = does.as_ref().map(|does| does.as_ref().map(|does| does.value));
+    let way = x_start.zip(x_end);
+    let tasks = fields.texts("tasks").and_then(|names| {
+        let found = tasks(&fields, &names, tios)?;
+        let suit = match (way?, doing) {
+            (way, Ok(None)) => suit_the_way(&fields, &found, way),
+            (way, Ok(Some(does))) => suit_what_it_does(&fields, &found, way, does),
+            (_, Err(Reported)) => false,
+        };
+        suit.then_some(found)
+    });
+    fields.finish();
+    let Some(Spanned { value: id, span }) = id else { return Entry::unreadable() };
+    let complete = || {
+        let (x_start, x_end) = way?;
+        Some(Objective { id: id.clone(), span, x_start, x_end, tasks: tasks?, does: does.ok()? })
+    };
+    Entry { item: complete(), id }
+}
+
+fn tasks(fields: &Fields<'_>, names: &[Spanned<String>], tios: &[Entry<Tio>]) -> Option<Vec<Task>> {
+    let found: Vec<_> = names.iter().map(|name| task(fields, name)).collect();
+    let found: Vec<Task> = found.into_iter().collect::<Option<_>>()?;
+    for (place, (task, name)) in found.iter().zip(names).enumerate() {
+        if found.iter().position(|other| other == task) != Some(place) {
+            let message = format!("the task `{}` is named twice", task.name());
+            fields
+                .report(Diagnostic::new(name.span.clone(), message, "again").help("leave it out"));
+        }
+        // Options that could not be read may be of this task.
+        let implements = |tio: &Entry<Tio>| tio.item.as_ref().is_none_or(|tio| tio.task == *task);
+        if !tios.iter().any(implements) {
+            let message = format!("no option implements the task `{}`", task.name());
+            let help = format!("add a [[tio]] with task = \"{}\"", task.name());
+            fields.report(
+                Diagnostic::new(name.span.clone(), message, "without an option").help(help),
+            );
+        }
+    }
+    Some(found)
+}
+
+/// The tasks that decide how long an objective takes.
+fn leads(tasks: &[Task]) -> Vec<Task> {
+    tasks.iter().copied().filter(|task| task.leads()).collect()
+}
+
+/// Whether the tasks of an objective are right for one that travels, or stands; reports it if not.
+fn suit_the_way(
+    fields: &Fields<'_>,
+    tasks: &[Task],
+    (x_start, x_end): (Millimetres, Millimetres),
+) -> bool {
+    let wrong = match (x_start < x_end, &leads(tasks)[..]) {
+        (true, [Task::Move]) => return true,
+        (false, [lead]) if *lead != Task::Move => return true,
+        (true, _) => "an objective that travels needs `MOV`, and no other task but `LOC`",
+        (false, _) => {
+            "an objective that stays at one place needs one of `TUR`, `DET`, `RCV`, `DLV`, `WAI`, and not `MOV`"
+        }
+    };
+    let help = "change its tasks, or its `x_start_mm` and `x_end_mm`";
+    fields.report(Diagnostic::new(fields.span_of("tasks"), wrong, "these tasks").help(help));
+    false
+}
+
+/// Whether the way and the tasks of a supervised objective are right for what it does; reports it
+/// if not.
+fn suit_what_it_does(
+    fields: &Fields<'_>,
+    tasks: &[Task],
+    (x_start, x_end): (Millimetres, Millimetres),
+    does: Does,
+) -> bool {
+    let drives = does == Does::Drive;
+    if drives != (x_start < x_end) {
+        let (message, label) = if !drives {
+            let message = format!(
+                "this objective goes from {x_start} to {x_end}, but only one that drives travels"
+            );
+            (message, "not where it starts")
+        } else if x_start == x_end {
+            (
+                format!("this drive leads nowhere: it starts and ends at {x_start}"),
+                "not behind the start",
+            )
+        } else {
+            (format!("this drive leads back, from {x_start} to {x_end}"), "not behind the start")
+        };
+        let help =
+            if drives { "let it end behind its start" } else { "let it end where it starts" };
+        fields.report(Diagnostic::new(fields.span_of("x_end_mm"), message, label).help(help));
+        return false;
+    }
+    let task = does.task().name();
+    if leads(tasks) != [does.task()] {
+        let message = format!(
+            "an objective that does `{}` needs `{task}`, and no other task but `LOC`",
+            does.name()
+        );
+        let help = format!("write tasks = [\"{task}\"], or change what it does");
+        fields.report(Diagnostic::new(fields.span_of("tasks"), message, "these tasks").help(help));
+        return false;
+    }
+    true
+}
+
+/// Objectives must follow each other from the start of the path to its end.
+pub(super) fn one_after_the_other(
+    root: &Fields<'_>,
+    path_length: Option<Millimetres>,
+    objectives: &[Entry<Objective>],
+) {
+    let mut at = Some(Millimetres::ZERO);
+    for objective in objectives {
+        let Some(it) = &objective.item else {
+            at = None;
+            continue;
+        };
+        let wrong = if it.x_end < it.x_start {
+            Some(format!(
+                "the objective `{}` ends at {}, before its start at {}",
+                it.id, it.x_end, it.x_start
+            ))
+        } else {
+            let at = at.filter(|at| *at != it.x_start);
+            at.map(|at| match it.x_start.checked_sub(at) {
+                Some(gap) => {
+                    format!(
+                        "a gap of {gap} before the objective `{}`: it must start at {at}",
+                        it.id
+                    )
+                }
+                None => {
+                    format!(
+                        "the objective `{}` starts at {}, but the robot is at {at}",
+                        it.id, it.x_start
+                    )
+                }
+            })
+        };
+        if let Some(message) = wrong {
+            let help =
+                "objectives follow each other along the path, each from where the one before ends";
+            root.report(
+                Diagnostic::new(it.span.clone(), message, "not where the robot is").help(help),
+            );
+        }
+        at = Some(it.x_end);
+    }
+    if let (Some(length), Some(at), Some(last)) =
+        (path_length, at, objectives.last().and_then(|last| last.item.as_ref()))
+        && at != length
+    {
+        let message = format!("the last objective ends at {at}, but the path at {length}");
+        let help = "let it end with the path, or change `path_length_mm`";
+        root.report(
+            Diagnostic::new(last.span.clone(), message, "not the end of the path").help(help),
+        );
+    }
+}

@@ -1,0 +1,405 @@
+//! From a mission to its activities and their implementation alternatives.
+//!
+//! Lambert et al., J. Intell. Robot. Syst. 110, 2024: objectives that travel are cut at the borders
+//! of the zones, so that the constraints are the same all along an activity; its alternatives are
+//! the product of the options of its tasks, without those that a constraint excludes.
+
+use super::definition::{Definition, Objective, Task, Zone};
+use super::diagnostic::Diagnostic;
+use super::tables::{Activity, Alternative};
+use cotama_core::hardware::Equipment;
+use cotama_core::units::{Millimetres, MillimetresPerSecond, Milliwatts};
+
+/// The most activities of a mission.
+pub const MAX_ACTIVITIES: usize = 10_000;
+/// The most alternatives of an activity, before constraints.
+pub const MAX_ALTERNATIVES: usize = 1000;
+/// The most alternatives of a mission, before constraints.
+pub const MAX_ALTERNATIVES_TOTAL: usize = 200_000;
+
+/// A constraint of a zone that excludes alternatives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Constraint {
+    /// The moving option must use a hardware.
+    Hardware,
+    /// A given option must be used.
+    Tio,
+}
+
+/// A combination of options that constraints excluded.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Dropped {
+    /// The ids of its options, as in [`PlannedActivity::labels`].
+    pub label: String,
+    /// Every constraint that excludes it, with the index of its zone.
+    pub by: Vec<(usize, Constraint)>,
+    /// The same for people.
+    pub reason: String,
+}
+
+/// An activity and its alternatives.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PlannedActivity {
+    /// Its id: `A1` and so on, in sequence.
+    pub id: String,
+    /// The index of the objective that it is a part of.
+    pub objective: usize,
+    /// Where it starts.
+    pub x_start: Millimetres,
+    /// Where it ends; the same place when it does not travel.
+    pub x_end: Millimetres,
+    /// The lowest limit of robot, harmless impact and zones; zero when it does not travel.
+    pub speed_max: MillimetresPerSecond,
+    /// Its alternatives: at least one.
+    pub alternatives: Vec<Alternative>,
+    /// For each alternative the ids of its options, in the order of the objective's tasks: `M5 L2`.
+    pub labels: Vec<String>,
+    /// What the constraints excluded.
+    pub dropped: Vec<Dropped>,
+}
+
+impl PlannedActivity {
+    /// The activity as a borrowed table.
+    pub fn table(&self) -> Activity<'_> {
+        Activity { x_start: self.x_start, x_end: self.x_end, alternatives: &self.alternatives }
+    }
+
+    /// How many alternatives there were before constraints.
+    pub fn unconstrained(&self) -> usize {
+        self.alternatives.len() + self.dropped.len()
+    }
+}
+
+/// What an allocator works on: activities in sequence, with their alternatives, and limits.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Scenario {
+    /// The activities, in sequence; at least one.
+    pub activities: Vec<PlannedActivity>,
+    /// The inclusive limit on each axis, in ms and mJ.
+    pub limits: [u64; 2],
+    /// The axes in their order of treatment.
+    pub order: [usize; 2],
+    /// All the hardware of the robot.
+    pub available: Equipment,
+}
+
+impl Scenario {
+    /// The activities as borrowed tables, for [`remaining`](crate::missions::tables::remaining).
+    pub fn activities(&self) -> Vec<Activity<'_>> {
+        self.activities.iter().map(PlannedActivity::table).collect()
+    }
+
+    /// All the hardware of the robot.
+    pub fn available(&self) -> Equipment {
+        self.available
+    }
+
+    /// How many plans there are, feasible or not; `None` when the number passes 128 bits.
+    pub fn combinations(&self) -> Option<u128> {
+        let mut counts = self.activities.iter().map(|activity| activity.alternatives.len() as u128);
+        counts.try_fold(1u128, u128::checked_mul)
+    }
+
+    /// The scenario of a definition, or what makes it impossible: nothing, for one that was a
+    /// scenario before a constraint or an objective was taken away.
+    pub(crate) fn generate(definition: &Definition) -> Result<Self, Vec<Diagnostic>> {
+        let parts = cut(definition)?;
+        let mut activities = Vec::with_capacity(parts.len());
+        let mut errors = Vec::new();
+        let mut combinations = Vec::new();
+        let mut total = 0;
+        let mut combined = None;
+        let mut too_expensive = None;
+        for (place, part) in parts.iter().enumerate() {
+            if combined != Some(part.objective) {
+                combinations = combine(definition, part.task_objective)?;
+                combined = Some(part.objective);
+            }
+            total += combinations.len();
+            if total > MAX_ALTERNATIVES_TOTAL {
+                let message =
+                    format!("the mission has more than {MAX_ALTERNATIVES_TOTAL} alternatives");
+                let help = "use fewer options or fewer zones";
+                let span = part.task_objective.span.clone();
+                return Err(vec![Diagnostic::new(span, message, "up to here").help(help)]);
+            }
+            match plan(definition, place, part, &combinations) {
+                Ok(activity) => activities.push(activity),
+                // One combination of an objective says it all.
+                Err(Impossible::TooExpensive(_)) if too_expensive == Some(part.objective) => {}
+                Err(Impossible::TooExpensive(error)) => {
+                    too_expensive = Some(part.objective);
+                    errors.push(error);
+                }
+                Err(Impossible::Empty(error)) => errors.push(error),
+            }
+        }
+        if !errors.is_empty() {
+            return Err(errors);
+        }
+        let Definition { limits, order, .. } = *definition;
+        Ok(Self { activities, limits, order, available: definition.available() })
+    }
+}
+
+/// A part of an objective in which no zone begins or ends.
+struct Part<'d> {
+    objective: usize,
+    task_objective: &'d Objective,
+    x_start: Millimetres,
+    x_end: Millimetres,
+}
+
+/// Cuts objectives that travel at the borders of zones strictly inside them.
+fn cut(definition: &Definition) -> Result<Vec<Part<'_>>, Vec<Diagnostic>> {
+    let mut borders: Vec<Millimetres> =
+        definition.zones.iter().flat_map(|zone| [zone.x_start, zone.x_end]).collect();
+    borders.sort_unstable();
+    borders.dedup();
+    let mut parts = Vec::new();
+    for (objective, it) in definition.objectives.iter().enumerate() {
+        let inside =
+            borders.iter().copied().filter(|&border| it.x_start < border && border < it.x_end);
+        let mut x_start = it.x_start;
+        for x_end in inside.chain([it.x_end]) {
+            parts.push(Part { objective, task_objective: it, x_start, x_end });
+            x_start = x_end;
+        }
+        if parts.len() > MAX_ACTIVITIES {
+            let message = format!("the mission has more than {MAX_ACTIVITIES} activities");
+            let help = "use fewer objectives or fewer zones";
+            return Err(vec![Diagnostic::new(it.span.clone(), message, "up to here").help(help)]);
+        }
+    }
+    Ok(parts)
+}
+
+/// Options for the tasks of an objective, one each, and what they come to.
+struct Combination {
+    tios: Vec<usize>,
+    label: String,
+    needs: Equipment,
+    speed_max: Option<MillimetresPerSecond>,
+    /// The option of the task that leads.
+    lead: usize,
+}
+
+/// All combinations of an objective's options, in the order of the file, the first task outermost.
+fn combine(
+    definition: &Definition,
+    objective: &Objective,
+) -> Result<Vec<Combination>, Vec<Diagnostic>> {
+    let empty = Combination {
+        tios: Vec::new(),
+        label: String::new(),
+        needs: Equipment::NONE,
+        speed_max: None,
+        lead: usize::MAX,
+    };
+    let mut combinations = vec![empty];
+    for &task in &objective.tasks {
+        let options: Vec<_> =
+            definition.tios.iter().enumerate().filter(|(_, tio)| tio.task == task).collect();
+        if combinations.len() * options.len() > MAX_ALTERNATIVES {
+            let message = format!(
+                "the objective `{}` has more than {MAX_ALTERNATIVES} combinations of options",
+                objective.id
+            );
+            let help = "use fewer options, or fewer tasks at the same time";
+            return Err(vec![
+                Diagnostic::new(objective.span.clone(), message, "too many").help(help),
+            ]);
+        }
+        let with = |before: &Combination, index: usize| {
+            let tio = &definition.tios[index];
+            let separator = if before.tios.is_empty() { "" } else { " " };
+            Combination {
+                tios: [&before.tios[..], &[index]].concat(),
+                label: format!("{}{separator}{}", before.label, tio.id),
+                needs: before.needs.union(tio.needs),
+                speed_max: before.speed_max.into_iter().chain(tio.speed_max).min(),
+                lead: if task.leads() { index } else { before.lead },
+            }
+        };
+        combinations = combinations
+            .iter()
+            .flat_map(|before| options.iter().map(move |&(index, _)| with(before, index)))
+            .collect();
+    }
+    Ok(combinations)
+}
+
+enum Impossible {
+    TooExpensive(Diagnostic),
+    Empty(Diagnostic),
+}
+
+fn plan(
+    definition: &Definition,
+    place: usize,
+    part: &Part<'_>,
+    combinations: &[Combination],
+) -> Result<PlannedActivity, Impossible> {
+    let travels = part.task_objective.travels();
+    let covers = |zone: &Zone| travels && zone.x_start <= part.x_start && part.x_end <= zone.x_end;
+    let zones: Vec<_> =
+        definition.zones.iter().enumerate().filter(|(_, zone)| covers(zone)).collect();
+    let robot = &definition.robot;
+    let slowest = zones.iter().filter_map(|(_, zone)| zone.speed_max);
+    let slowest =
+        slowest.fold(robot.speed_max.min(robot.speed_harmless), MillimetresPerSecond::min);
+    let mut activity = PlannedActivity {
+        id: format!("A{}", place + 1),
+        objective: part.objective,
+        x_start: part.x_start,
+        x_end: part.x_end,
+        speed_max: if travels { slowest } else { MillimetresPerSecond::ZERO },
+        alternatives: Vec::new(),
+        labels: Vec::new(),
+        dropped: Vec::new(),
+    };
+    for combination in combinations {
+        let alternative = alternative(definition, &activity, combination);
+        let whole = Activity { x_start: part.x_start, x_end: part.x_end, alternatives: &[] }
+            .whole(&alternative);
+        // Excluded combinations are held to this too, so that lifting a constraint cannot fail.
+        if alternative.candidate(whole, 0).is_none() {
+            return Err(Impossible::TooExpensive(too_expensive(
+                &activity,
+                part,
+                &combination.label,
+            )));
+        }
+        let by = excluding(definition, &zones, combination);
+        if by.is_empty() {
+            activity.alternatives.push(alternative);
+            activity.labels.push(combination.label.clone());
+        } else {
+            let reasons: Vec<_> =
+                by.iter().map(|&(zone, constraint)| demand(definition, zone, constraint)).collect();
+            let reason = reasons.join("; ");
+            activity.dropped.push(Dropped { label: combination.label.clone(), by, reason });
+        }
+    }
+    if activity.alternatives.is_empty() {
+        return Err(Impossible::Empty(emptied(definition, &activity, part)));
+    }
+    Ok(activity)
+}
+
+/// The options of a combination taken together: they move with the power of the speed, or take what
+/// the leading one takes standing, and everything they need is on.
+fn alternative(
+    definition: &Definition,
+    activity: &PlannedActivity,
+    combination: &Combination,
+) -> Alternative {
+    let tios = || combination.tios.iter().filter_map(|&tio| definition.tios.get(tio));
+    let hardware = definition.power_of(combination.needs);
+    let together = |power: Milliwatts| power.0.saturating_add(hardware.0);
+    let standing = definition.tios.get(combination.lead).and_then(|lead| lead.standing);
+    if let Some(standing) = standing {
+        let quality = tios().map(|tio| tio.quality).sum();
+        return Alternative::standing(
+            standing.duration.0,
+            together(standing.power),
+            combination.needs,
+            quality,
+        );
+    }
+    let speed =
+        combination.speed_max.into_iter().fold(activity.speed_max, MillimetresPerSecond::min);
+    let quality = tios().map(|tio| tio.quality_per_dm).sum();
+    Alternative::travelling(
+        speed.0,
+        together(definition.motion_power.at(speed)),
+        combination.needs,
+        quality,
+    )
+}
+
+/// The constraints that exclude a combination, in the order of the file.
+fn excluding(
+    definition: &Definition,
+    zones: &[(usize, &Zone)],
+    combination: &Combination,
+) -> Vec<(usize, Constraint)> {
+    let moving = definition.tios.get(combination.lead).filter(|tio| tio.task == Task::Move);
+    let uses = moving.map_or(Equipment::NONE, |tio| tio.needs);
+    let mut by = Vec::new();
+    for &(index, zone) in zones {
+        let hardware = zone.require_hardware.as_ref().map(|required| required.value);
+        if hardware.is_some_and(|required| uses.of(required.hardware) < required.units) {
+            by.push((index, Constraint::Hardware));
+        }
+        let tio = zone.require_tio.as_ref().map(|required| required.value);
+        if tio.is_some_and(|required| !combination.tios.contains(&required)) {
+            by.push((index, Constraint::Tio));
+        }
+    }
+    by
+}
+
+/// What a constraint demands, for people.
+fn demand(definition: &Definition, zone: usize, constraint: Constraint) -> String {
+    let Some(zone) = definition.zones.get(zone) else { return String::new() };
+    match (constraint, &zone.require_hardware, &zone.require_tio) {
+        (Constraint::Hardware, Some(required), _) => {
+            let name =
+                definition.hardware.get(required.value.hardware).map_or("", |it| it.name.as_str());
+            let count = required.value.units;
+            format!("zone `{}` requires the moving option to use {count} of `{name}`", zone.id)
+        }
+        (Constraint::Tio, _, Some(required)) => {
+            let id = definition.tios.get(required.value).map_or("", |it| it.id.as_str());
+            format!("zone `{}` requires the option `{id}`", zone.id)
+        }
+        _ => String::new(),
+    }
+}
+
+fn place_of(activity: &PlannedActivity, part: &Part<'_>) -> String {
+    let (id, objective) = (&activity.id, &part.task_objective.id);
+    format!(
+        "the activity {id} (objective `{objective}`, {} to {})",
+        activity.x_start, activity.x_end
+    )
+}
+
+fn too_expensive(activity: &PlannedActivity, part: &Part<'_>, label: &str) -> Diagnostic {
+    let place = place_of(activity, part);
+    let message = format!("{place}, done with `{label}`, costs more than {} ms or mJ", u32::MAX);
+    let help =
+        "split the objective, or give it a higher speed or less power; quality has the same limit";
+    Diagnostic::new(part.task_objective.span.clone(), message, "too large").help(help)
+}
+
+/// Says which constraint excluded the last alternative, and what each left.
+fn emptied(definition: &Definition, activity: &PlannedActivity, part: &Part<'_>) -> Diagnostic {
+    let mut constraints: Vec<_> =
+        activity.dropped.iter().flat_map(|dropped| dropped.by.clone()).collect();
+    constraints.sort_unstable();
+    constraints.dedup();
+    let mut story = vec![format!("of {} combinations", activity.dropped.len())];
+    let mut last = part.task_objective.span.clone();
+    for count in 1..=constraints.len() {
+        let applied = &constraints[..count];
+        let excluded = |by: &[(usize, Constraint)]| by.iter().any(|one| applied.contains(one));
+        let left = activity.dropped.iter().filter(|dropped| !excluded(&dropped.by)).count();
+        let (zone, constraint) = constraints[count - 1];
+        story.push(format!("{left} are left when {}", demand(definition, zone, constraint)));
+        if left == 0 {
+            let zone = &definition.zones[zone];
+            last = match constraint {
+                Constraint::Hardware => {
+                    zone.require_hardware.as_ref().map(|required| required.span.clone())
+                }
+                Constraint::Tio => zone.require_tio.as_ref().map(|required| required.span.clone()),
+            }
+            .unwrap_or(zone.span.clone());
+            break;
+        }
+    }
+    let message = format!("{} is left without alternatives", place_of(activity, part));
+    Diagnostic::new(last, message, "excludes the last of them").help(story.join(", "))
+}

@@ -1,0 +1,76 @@
+//! The activities of the mission `delivery`, printed from its file.
+
+use cotama_core::{hardware::Equipment, units::Millimetres};
+use cotama_models::missions::tables::{Activity, Alternative};
+
+const fn units(bits: u64) -> Equipment {
+    match Equipment::from_bits(bits) {
+        Some(units) => units,
+        None => panic!("a count of units passes its field"), // of constants: an error when compiled
+    }
+}
+
+const fn activity(x_start: u64, x_end: u64, alternatives: &[Alternative]) -> Activity<'_> {
+    Activity { x_start: Millimetres(x_start), x_end: Millimetres(x_end), alternatives }
+}
+
+const fn travel(speed_mm_s: u64, power_mw: u64, needs: u64, quality: u32) -> Alternative {
+    Alternative::travelling(speed_mm_s, power_mw, units(needs), quality)
+}
+
+const fn stand(duration_ms: u64, power_mw: u64, needs: u64, quality: u32) -> Alternative {
+    Alternative::standing(duration_ms, power_mw, units(needs), quality)
+}
+
+/// The inclusive limits, in ms and mJ.
+pub const LIMITS: [u64; 2] = [900_000, 7_200_000];
+/// The axes in their order of treatment.
+pub const ORDER: [usize; 2] = [0, 1];
+/// All the hardware of the robot.
+pub const AVAILABLE: Equipment = units(0x0111_1111_1111);
+
+/// The activities.
+#[rustfmt::skip]
+pub static ACTIVITIES: [Activity<'static>; 4] = [
+    activity(0, 40_000, &ALTERNATIVES_0),
+    activity(40_000, 40_000, &ALTERNATIVES_1),
+    activity(40_000, 80_000, &ALTERNATIVES_0),
+    activity(80_000, 80_000, &ALTERNATIVES_1),
+];
+
+/// The names of the alternatives of each activity.
+#[rustfmt::skip]
+pub static LABELS: [&[&str]; 4] = [
+    &LABELS_0,
+    &LABELS_1,
+    &LABELS_0,
+    &LABELS_2,
+];
+
+#[rustfmt::skip]
+static ALTERNATIVES_0: [Alternative; 4] = [
+    travel(300, 7_720, 0x1001_1111, 4),
+    travel(300, 7_720, 0x1001_1111, 3),
+    travel(300, 7_720, 0x1001_0111, 2),
+    travel(150, 6_000, 0x0101_0001, 1),
+];
+
+#[rustfmt::skip]
+static ALTERNATIVES_1: [Alternative; 1] = [
+    stand(30_000, 4_600, 0x1, 0),
+];
+
+#[rustfmt::skip]
+static LABELS_0: [&str; 4] = [
+    "PF.OPT", "PF.OPTR", "PF.ODO", "PF.DEG",
+];
+
+#[rustfmt::skip]
+static LABELS_1: [&str; 1] = [
+    "hand-in",
+];
+
+#[rustfmt::skip]
+static LABELS_2: [&str; 1] = [
+    "hand-over",
+];

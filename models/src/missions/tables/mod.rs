@@ -1,0 +1,250 @@
+//! The tables of a mission as an allocator needs them: numbers only, no heap, ready for flash.
+//!
+//! ```
+//! use cotama_core::{hardware::Equipment, problem::Problem, units::Millimetres};
+//! use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
+//! use cotama_models::missions::tables::{EMPTY, Rest, remaining};
+//!
+//! // 10 m before the end of the patrol, with everything working.
+//! let mut candidates = [EMPTY; 32];
+//! let mut lists = [&[][..]; 1];
+//! let rest = Rest::Travel(Millimetres(10_000));
+//! let activities = remaining(&ACTIVITIES[16..], rest, AVAILABLE, &mut candidates, &mut lists).unwrap();
+//! let problem = Problem::new(activities, LIMITS, ORDER).unwrap();
+//! assert_eq!(problem.combinations(), Some(21));
+//! ```
+
+pub mod delivery;
+pub mod patrol;
+
+use cotama_core::hardware::Equipment;
+use cotama_core::problem::Candidate;
+use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+
+/// The performance axis of durations, in ms.
+pub const DURATION: usize = 0;
+/// The performance axis of energies, in mJ.
+pub const ENERGY: usize = 1;
+
+/// A candidate that costs nothing, to fill a buffer before its first use.
+pub const EMPTY: Candidate<2> = Candidate { cost: [0; 2], quality: 0, id: 0 };
+
+/// Quality is counted per this length of travel, in mm.
+const QUALITY_LENGTH: u64 = 100;
+
+/// An implementation alternative of an activity: its TIOs taken together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Alternative {
+    /// The speed of travel; zero when the activity does not travel.
+    pub speed: MillimetresPerSecond,
+    /// The duration of the whole activity when it does not travel, else zero.
+    pub duration: Millis,
+    /// The power of everything that is on.
+    pub power: Milliwatts,
+    /// The hardware it needs.
+    pub needs: Equipment,
+    /// The quality per 100 mm of travel, or of the whole activity when it does not travel.
+    pub quality: u32,
+}
+
+/// What is left of an activity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Rest {
+    /// So much path, at the speed of the alternative.
+    Travel(Millimetres),
+    /// So much time, for an activity that does not travel.
+    Time(Millis),
+}
+
+/// An activity and the ways to do it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Activity<'a> {
+    /// Where it starts on the path.
+    pub x_start: Millimetres,
+    /// Where it ends on the path; the same place when it does not travel.
+    pub x_end: Millimetres,
+    /// Its alternatives; the index of each is its [`Candidate::id`].
+    pub alternatives: &'a [Alternative],
+}
+
+impl Alternative {
+    /// An alternative of an activity that travels.
+    #[must_use]
+    pub const fn travelling(
+        speed_mm_s: u64,
+        power_mw: u64,
+        needs: Equipment,
+        quality: u32,
+    ) -> Self {
+        let speed = MillimetresPerSecond(speed_mm_s);
+        Self { speed, duration: Millis(0), power: Milliwatts(power_mw), needs, quality }
+    }
+
+    /// An alternative of an activity that does not travel.
+    #[must_use]
+    pub const fn standing(duration_ms: u64, power_mw: u64, needs: Equipment, quality: u32) -> Self {
+        let duration = Millis(duration_ms);
+        Self {
+            speed: MillimetresPerSecond(0),
+            duration,
+            power: Milliwatts(power_mw),
+            needs,
+            quality,
+        }
+    }
+
+    /// The duration (ms) and the energy (mJ) of a rest done this way, each rounded half up.
+    ///
+    /// `None` for travel without speed, or when a cost does not fit 32 bits.
+    #[must_use]
+    pub const fn cost(&self, rest: Rest) -> Option<[u32; 2]> {
+        let duration = match rest {
+            Rest::Travel(length) => Millis::to_travel(length, self.speed),
+            Rest::Time(duration) => Some(duration),
+        };
+        let Some(duration) = duration else { return None };
+        let Some(energy) = Millijoules::spent(self.power, duration) else { return None };
+        if duration.0 > u32::MAX as u64 || energy.0 > u32::MAX as u64 {
+            return None;
+        }
+        Some([duration.0 as u32, energy.0 as u32])
+    }
+
+    /// The quality of a rest done this way: per full 100 mm of travel, else that of the whole
+    /// activity.
+    ///
+    /// `None` when it does not fit 32 bits.
+    #[must_use]
+    pub const fn quality_of(&self, rest: Rest) -> Option<u32> {
+        match rest {
+            Rest::Time(_) => Some(self.quality),
+            Rest::Travel(length) => {
+                match (self.quality as u64).checked_mul(length.0 / QUALITY_LENGTH) {
+                    Some(quality) if quality <= u32::MAX as u64 => Some(quality as u32),
+                    _ => None,
+                }
+            }
+        }
+    }
+
+    /// A rest done this way as a candidate of the allocation problem; `None` as for cost and
+    /// quality.
+    #[must_use]
+    pub const fn candidate(&self, rest: Rest, id: u16) -> Option<Candidate<2>> {
+        match (self.cost(rest), self.quality_of(rest)) {
+            (Some(cost), Some(quality)) => Some(Candidate { cost, quality, id }),
+            _ => None,
+        }
+    }
+}
+
+impl Activity<'_> {
+    /// Whether it moves along the path.
+    #[must_use]
+    pub const fn travels(&self) -> bool {
+        self.x_start.0 < self.x_end.0
+    }
+
+    /// Its length; zero when it does not travel.
+    #[must_use]
+    pub const fn length(&self) -> Millimetres {
+        Millimetres(self.x_end.0.saturating_sub(self.x_start.0))
+    }
+
+    /// The whole of it as a rest, for one of its alternatives.
+    #[must_use]
+    pub const fn whole(&self, alternative: &Alternative) -> Rest {
+        if self.travels() { Rest::Travel(self.length()) } else { Rest::Time(alternative.duration) }
+    }
+}
+
+/// Why there is no problem of the remaining mission.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RemainingError {
+    /// The available hardware covers no alternative of this activity, the first such one.
+    NoCandidates {
+        /// Its position in the given activities.
+        activity: usize,
+    },
+    /// A cost or a quality of this activity does not fit 32 bits, or it has more than 65,536
+    /// alternatives.
+    TooLarge {
+        /// Its position in the given activities.
+        activity: usize,
+    },
+    /// The buffer of candidates or that of lists is too small; see [`buffer_sizes`].
+    BufferTooSmall,
+}
+
+impl core::fmt::Display for RemainingError {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::NoCandidates { activity } => {
+                write!(
+                    f,
+                    "the available hardware covers no alternative of remaining activity {activity}"
+                )
+            }
+            Self::TooLarge { activity } => {
+                write!(f, "a cost of remaining activity {activity} does not fit 32 bits")
+            }
+            Self::BufferTooSmall => {
+                f.write_str("the buffers are too small for the remaining mission")
+            }
+        }
+    }
+}
+
+impl core::error::Error for RemainingError {}
+
+/// The buffers that [`remaining`] may need for these activities: candidates and lists.
+#[must_use]
+pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
+    let mut candidates = 0;
+    let mut activity = 0;
+    while activity < activities.len() {
+        candidates += activities[activity].alternatives.len();
+        activity += 1;
+    }
+    (candidates, activities.len())
+}
+
+/// The candidates of a remaining mission, written into the caller's memory.
+///
+/// `activities` start with the current one, of which `first` is left. Alternatives that need more
+/// than `available` are left out. The lists returned are what
+/// [`Problem::new`](cotama_core::problem::Problem::new) takes; [`Candidate::id`] is the index of
+/// the alternative in its activity.
+///
+/// # Errors
+/// The first activity without candidates, a cost that does not fit, or a buffer smaller than
+/// needed.
+pub fn remaining<'c, 'l>(
+    activities: &[Activity<'_>],
+    first: Rest,
+    available: Equipment,
+    mut candidates: &'c mut [Candidate<2>],
+    lists: &'l mut [&'c [Candidate<2>]],
+) -> Result<&'l [&'c [Candidate<2>]], RemainingError> {
+    let lists = lists.get_mut(..activities.len()).ok_or(RemainingError::BufferTooSmall)?;
+    for (index, (activity, list)) in activities.iter().zip(lists.iter_mut()).enumerate() {
+        let mut count = 0;
+        for (id, alternative) in activity.alternatives.iter().enumerate() {
+            if !available.covers(alternative.needs) {
+                continue;
+            }
+            let rest = if index == 0 { first } else { activity.whole(alternative) };
+            let candidate = u16::try_from(id).ok().and_then(|id| alternative.candidate(rest, id));
+            let place = candidates.get_mut(count).ok_or(RemainingError::BufferTooSmall)?;
+            *place = candidate.ok_or(RemainingError::TooLarge { activity: index })?;
+            count += 1;
+        }
+        if count == 0 {
+            return Err(RemainingError::NoCandidates { activity: index });
+        }
+        let (filled, free) = core::mem::take(&mut candidates).split_at_mut(count);
+        *list = filled;
+        candidates = free;
+    }
+    Ok(lists)
+}
