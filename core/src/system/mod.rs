@@ -8,7 +8,7 @@
 pub(crate) mod data;
 mod macros;
 #[allow(clippy::large_types_passed_by_value, reason = "texts live while compiling")]
-pub mod source;
+pub(crate) mod source;
 
 pub use data::{
     Binding, Clear, Component, DEPTH, Delivery, Link, Of, System, SystemDefect, Target,

@@ -94,8 +94,58 @@ const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of
     }
 }
 
-/// An item of `links`: an output, events, and the room of a mailbox when there is one.
-pub type WrittenLink<'n> = (Port<'n>, &'n [Port<'n>], &'n [u16]);
+/// Where `system!` keeps what it read. It is implemented outside of the module that `system!` makes,
+/// so that nets can be those of an enclosing function.
+pub trait Written {
+    /// `nets`.
+    const COMPONENTS: &'static [Component<'static>];
+    /// `links`.
+    const LINKS: &'static [WrittenLink<'static>];
+    /// `shared` and `pending`.
+    const BINDINGS: &'static [WrittenBinding<'static>];
+    /// `clears`.
+    const CLEARS: &'static [WrittenClear<'static>];
+}
+
+/// The position of a net of a system; behind the last when there is none.
+pub const fn at<S: Written>(name: &str) -> u16 {
+    let mut at = 0;
+    while at < S::COMPONENTS.len() && !same(S::COMPONENTS[at].name, name) {
+        at += 1;
+    }
+    at as u16
+}
+
+/// Ends the compilation when an extension replaces a net that the system does not have.
+pub const fn replaced<S: Written>(system: &str, names: &[&str]) {
+    let mut known = 0;
+    while known < names.len() {
+        if at::<S>(names[known]) as usize == S::COMPONENTS.len() {
+            Text::new()
+                .with("system ")
+                .name(system)
+                .with(" has no net ")
+                .name(names[known])
+                .with(" that an extension could replace")
+                .stop()
+        }
+        known += 1;
+    }
+}
+
+/// A delivery by mail into a mailbox with so much room.
+pub const fn mail(system: &str, from: Port<'_>, capacity: i128) -> Delivery {
+    if capacity < 1 || capacity > u16::MAX as i128 {
+        says(system, "link", from).with("the room of a mailbox is from 1 to 65,535").stop()
+    }
+    Delivery::Mail { capacity: capacity as u16 }
+}
+
+/// An item of `links`: an output, events, and how they arrive.
+pub type WrittenLink<'n> = (Port<'n>, &'n [Port<'n>], Delivery);
+
+/// An item of `clears`: an event, and that whose mailbox it empties.
+pub type WrittenClear<'n> = (Port<'n>, Port<'n>);
 
 /// An item of `shared` or `pending`: shared places, the place or the event that they are bound to,
 /// and whether it is the mailbox of an event.
@@ -134,17 +184,12 @@ pub const fn links<const N: usize>(
     };
     let (mut links, mut count, mut at) = ([nothing; N], 0, 0);
     while at < written.len() {
-        let (from, to, capacity) = written[at];
+        let (from, to, delivery) = written[at];
         let component = component(system, components, "link", from);
         let net = components[component as usize].net;
         let output =
             OutputId(signal(says(system, "link", from), net.name, "output", net.outputs, from.1));
         let from = Of { component, id: output };
-        let delivery = if capacity.is_empty() {
-            Delivery::Now
-        } else {
-            Delivery::Mail { capacity: capacity[0] }
-        };
         let mut each = 0;
         while each < to.len() {
             links[count] = Link { from, to: event(system, components, "link", to[each]), delivery };
@@ -183,19 +228,27 @@ pub const fn bindings<const N: usize>(
     bindings
 }
 
-/// Makes an event empty a mailbox.
-pub const fn clear(
+/// The clears.
+pub const fn clears<const N: usize>(
     system: &str,
     components: &[Component<'_>],
-    on: Port<'_>,
-    mailbox: Port<'_>,
-) -> Clear {
-    let of = event(system, components, "clears", on);
-    let mailbox = event(system, components, "clears", mailbox);
-    if of.component != mailbox.component {
-        says(system, "clears", on).with("an event empties mailboxes of its own net only").stop();
+    written: &[WrittenClear<'_>],
+) -> [Clear; N] {
+    let nothing = Of { component: 0, id: EventId(0) };
+    let mut clears = [Clear { on: nothing, mailbox: EventId(0) }; N];
+    let mut at = 0;
+    while at < written.len() {
+        let on = event(system, components, "clears", written[at].0);
+        let mailbox = event(system, components, "clears", written[at].1);
+        if on.component != mailbox.component {
+            says(system, "clears", written[at].0)
+                .with("an event empties mailboxes of its own net only")
+                .stop();
+        }
+        clears[at] = Clear { on, mailbox: mailbox.id };
+        at += 1;
     }
-    Clear { on: of, mailbox: mailbox.id }
+    clears
 }
 
 const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
