@@ -46,7 +46,6 @@ macro_rules! __net_extended {
             $(events { $($more_events:tt)* })?
             $(outputs { $($more_outputs:tt)* })?
             $(groups { $($more_groups:tt)* })?
-            $(transitions { $($more_lines:tt)* })?
             $(instead { $(
                 $(#[doc = $line_doc:expr])*
                 $old:ident $(on $on:ident)? $([ $($guard:tt)* ])? :
@@ -61,6 +60,7 @@ macro_rules! __net_extended {
                     $(priority $priority:expr)?
                 ;
             )* })?
+            $(transitions { $($more_lines:tt)* })?
             $(ignore { $($more_ignored:tt)* })?
             $(laws { $($more_laws:tt)* })?
         }
@@ -113,8 +113,8 @@ macro_rules! __system_extended {
     (
         { $($nets:tt)* } { $($links:tt)* } { $($shared:tt)* } { $($pending:tt)* } { $($clears:tt)* }
         { $($head:tt)* } $base:ident $(:: $base_in:ident)* {
-            $(nets { $($more_nets:tt)* })?
             $(instead { $( $old:ident : $new:ident $(:: $new_in:ident)* ),* $(,)? })?
+            $(nets { $($more_nets:tt)* })?
             $(links { $($more_links:tt)* })?
             $(shared { $($more_shared:tt)* })?
             $(pending { $($more_pending:tt)* })?

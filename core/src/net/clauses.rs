@@ -4,8 +4,12 @@
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __net_constants {
-    ({ $( $constant:ident : $is:expr, )* } $($rest:tt)+) => {{
-        $( #[allow(dead_code, non_upper_case_globals)] const $constant: i128 = !!($is) as i128; )*
+    ({ $( $(#[doc = $doc:expr])* $constant:ident : $is:expr, )* } $($rest:tt)+) => {{
+        $(
+            $(#[doc = $doc])*
+            #[allow(dead_code, non_upper_case_globals)]
+            const $constant: i128 = !!($is) as i128;
+        )*
         $crate::__net_constants!($($rest)+)
     }};
     ($value:expr) => { $value };

@@ -97,10 +97,12 @@
 #[macro_export]
 macro_rules! net {
     (
-        $([$export:ident])?
+        $(@ $export:ident)?
         $(#[doc = $doc:expr])*
         $vis:vis mod $name:ident {
-            $(constants { $( $constant:ident : $constant_is:expr ),* $(,)? })*
+            $(constants { $(
+                $(#[doc = $constant_doc:expr])* $constant:ident : $constant_is:expr
+            ),* $(,)? })*
             places { $(
                 $(#[doc = $place_doc:expr])*
                 $place:ident $(: $tokens:tt $(:: $tokens_in:ident)*
@@ -147,7 +149,7 @@ macro_rules! net {
     ) => {
         impl $crate::__private::Written for $name::Program {
             const SOURCE: $crate::__private::source::Source<'static> = $crate::__net_constants!(
-                $({ $( $constant: $constant_is, )* })*
+                $({ $( $(#[doc = $constant_doc])* $constant: $constant_is, )* })*
                 $crate::__private::source::Source {
                     name: stringify!($name),
                     doc: $crate::__private::source::doc(concat!($($doc,)* "")),
@@ -269,7 +271,7 @@ macro_rules! net {
 
             $crate::__definition! {
                 ($) __net_extended [$($export)?] $name
-                { $(constants { $( $constant: $constant_is, )* })* }
+                { $(constants { $( $(#[doc = $constant_doc])* $constant: $constant_is, )* })* }
                 { $( $(#[doc = $place_doc])* $place $(: $tokens $(:: $tokens_in)*
                     $(of $bound $(:: $bound_in)*)?)?, )* }
                 { $( $( $(#[doc = $flag_doc])* $flag $(: $flag_is $(:: $flag_in)*)?, )* )? }
@@ -504,16 +506,16 @@ macro_rules! net {
     };
     // The same with a definition that other crates may extend.
     ($(#[doc = $doc:expr])* #[macro_export] $vis:vis mod $name:ident $($rest:tt)+) => {
-        $crate::net! { [macro_export] $(#[doc = $doc])* $vis mod $name $($rest)+ }
+        $crate::net! { @macro_export $(#[doc = $doc])* $vis mod $name $($rest)+ }
     };
     // Another net with more: its definition hands its sections over.
     (
-        $([$export:ident])?
+        $(@ $export:ident)?
         $(#[doc = $doc:expr])*
         $vis:vis mod $name:ident extends $base:ident $(:: $base_in:ident)* { $($more:tt)* }
     ) => {
         $base $(:: $base_in)* ::definition! {
-            { $([$export])? $(#[doc = $doc])* $vis mod $name }
+            { $(@ $export)? $(#[doc = $doc])* $vis mod $name }
             $base $(:: $base_in)* { $($more)* }
         }
     };

@@ -66,7 +66,7 @@
 #[macro_export]
 macro_rules! system {
     (
-        $([$export:ident])?
+        $(@ $export:ident)?
         $(#[doc = $doc:expr])*
         $vis:vis mod $name:ident {
             nets { $( $component:ident : $net:ident $(:: $net_in:ident)* ),* $(,)? }
@@ -328,16 +328,16 @@ macro_rules! system {
         }
     };    // The same with a definition that other crates may extend.
     ($(#[doc = $doc:expr])* #[macro_export] $vis:vis mod $name:ident $($rest:tt)+) => {
-        $crate::system! { [macro_export] $(#[doc = $doc])* $vis mod $name $($rest)+ }
+        $crate::system! { @macro_export $(#[doc = $doc])* $vis mod $name $($rest)+ }
     };
     // Another system with more: its definition hands its sections over.
     (
-        $([$export:ident])?
+        $(@ $export:ident)?
         $(#[doc = $doc:expr])*
         $vis:vis mod $name:ident extends $base:ident $(:: $base_in:ident)* { $($more:tt)* }
     ) => {
         $base $(:: $base_in)* ::definition! {
-            { $([$export])? $(#[doc = $doc])* $vis mod $name }
+            { $(@ $export)? $(#[doc = $doc])* $vis mod $name }
             $base $(:: $base_in)* { $($more)* }
         }
     };
