@@ -15,6 +15,18 @@ macro_rules! __net_constants {
     ($value:expr) => { $value };
 }
 
+/// A number of a part of a net, one without a number.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __net_number {
+    ($of:tt) => { 1 };
+    (($net:ident $part:ident) $($number:tt)+) => {
+        $crate::__private::source::number(
+            (stringify!($net), stringify!($part)), !!($($number)+) as i128,
+        )
+    };
+}
+
 /// The conditions of a guard.
 #[doc(hidden)]
 #[macro_export]
@@ -69,13 +81,11 @@ macro_rules! __net_compared {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __net_test {
-    (($net:ident $line:ident) $name:ident $relation:ident $($value:tt)+) => {
+    ($of:tt $name:ident $relation:ident $($value:tt)+) => {
         $crate::__private::source::Test {
             name: stringify!($name),
             relation: $crate::__private::source::Relation::$relation,
-            value: $crate::__private::source::first(
-                (stringify!($net), stringify!($line)), &[!!($($value)+) as i128],
-            ),
+            value: $crate::__net_number!($of $($value)+),
         }
     };
 }
@@ -85,19 +95,13 @@ macro_rules! __net_test {
 #[macro_export]
 macro_rules! __net_change {
     (($net:ident $line:ident $change:ident) += $($value:tt)+) => {
-        $crate::__private::source::By::Add($crate::__private::source::first(
-            (stringify!($net), stringify!($line)), &[!!($($value)+) as i128],
-        ))
+        $crate::__private::source::By::Add($crate::__net_number!(($net $line) $($value)+))
     };
     (($net:ident $line:ident $change:ident) -= $($value:tt)+) => {
-        $crate::__private::source::By::Subtract($crate::__private::source::first(
-            (stringify!($net), stringify!($line)), &[!!($($value)+) as i128],
-        ))
+        $crate::__private::source::By::Subtract($crate::__net_number!(($net $line) $($value)+))
     };
     (($net:ident $line:ident $change:ident) = $($value:tt)+) => {
-        $crate::__private::source::By::Become($crate::__private::source::first(
-            (stringify!($net), stringify!($line)), &[!!($($value)+) as i128],
-        ))
+        $crate::__private::source::By::Become($crate::__net_number!(($net $line) $($value)+))
     };
     (($net:ident $line:ident $change:ident) $($other:tt)*) => {
         compile_error!(concat!(
@@ -116,14 +120,10 @@ macro_rules! __net_claim {
         $( $place:ident $(* $weight:tt $(:: $weight_in:ident)*)? )&+ = $($sum:tt)+
     )) => {
         $crate::__private::source::Claim::Invariant(
-            &[$( $crate::__private::source::arc(
-                (stringify!($net), "laws"),
-                stringify!($place),
-                &[$( !!($weight $(:: $weight_in)*) as i128, )? 1],
-            ), )+],
-            $crate::__private::source::first(
-                (stringify!($net), "laws"), &[!!($($sum)+) as i128],
-            ),
+            &[$( (stringify!($place), $crate::__net_number!(
+                ($net laws) $( $weight $(:: $weight_in)* )?
+            )), )+],
+            $crate::__net_number!(($net laws) $($sum)+),
         )
     };
     ($of:tt never_both ( $a:ident, $b:ident )) => {

@@ -153,59 +153,36 @@ macro_rules! net {
                 $crate::__private::source::Source {
                     name: stringify!($name),
                     doc: $crate::__private::source::doc(concat!($($doc,)* "")),
-                    places: &[$( $crate::__private::source::Declared {
-                        name: stringify!($place),
-                        doc: $crate::__private::source::doc(concat!($($place_doc,)* "")),
-                        initial: $crate::__private::source::first(
-                            (stringify!($name), stringify!($place)),
-                            &[$( !!($tokens $(:: $tokens_in)*) as i128, )? 0],
-                        ),
-                        bound: $crate::__private::source::first(
-                            (stringify!($name), stringify!($place)),
-                            &[$( $( !!($bound $(:: $bound_in)*) as i128, )? )? 1],
-                        ),
-                    }, )*],
-                    flags: &[$( $( $crate::__private::source::Declared {
-                        name: stringify!($flag),
-                        doc: $crate::__private::source::doc(concat!($($flag_doc,)* "")),
-                        initial: $crate::__private::source::first(
-                            (stringify!($name), stringify!($flag)),
-                            &[$( !!($flag_is $(:: $flag_in)*) as i128, )? 0],
-                        ),
-                        bound: 1,
-                    }, )* )?],
-                    counters: &[$( $( $crate::__private::source::Declared {
-                        name: stringify!($counter),
-                        doc: $crate::__private::source::doc(concat!($($counter_doc,)* "")),
-                        initial: $crate::__private::source::first(
-                            (stringify!($name), stringify!($counter)),
-                            &[!!($count $(:: $count_in)*) as i128],
-                        ),
-                        bound: $crate::__private::source::first(
-                            (stringify!($name), stringify!($counter)),
-                            &[!!($largest $(:: $largest_in)*) as i128],
-                        ),
-                    }, )* )?],
-                    shared: &[$( $( $crate::__private::source::Declared {
-                        name: stringify!($shared),
-                        doc: $crate::__private::source::doc(concat!($($shared_doc,)* "")),
-                        initial: $crate::__private::source::first(
-                            (stringify!($name), stringify!($shared)),
-                            &[$( !!($shared_is $(:: $shared_in)*) as i128, )? 0],
-                        ),
-                        bound: $crate::__private::source::first(
-                            (stringify!($name), stringify!($shared)),
-                            &[$( $( !!($shared_largest $(:: $shared_largest_in)*) as i128, )? )? 1],
-                        ),
-                    }, )* )?],
-                    events: &[$( $( $crate::net::Signal {
-                        name: stringify!($event),
-                        doc: $crate::__private::source::doc(concat!($($event_doc,)* "")),
-                    }, )* )?],
-                    outputs: &[$( $( $crate::net::Signal {
-                        name: stringify!($output),
-                        doc: $crate::__private::source::doc(concat!($($output_doc,)* "")),
-                    }, )* )?],
+                    places: &[$( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($place)),
+                        concat!($($place_doc,)* ""),
+                        &[$( !!($tokens $(:: $tokens_in)*) as i128, )? 0],
+                        &[$( $( !!($bound $(:: $bound_in)*) as i128, )? )? 1],
+                    ), )*],
+                    flags: &[$( $( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($flag)),
+                        concat!($($flag_doc,)* ""),
+                        &[$( !!($flag_is $(:: $flag_in)*) as i128, )? 0],
+                        &[1],
+                    ), )* )?],
+                    counters: &[$( $( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($counter)),
+                        concat!($($counter_doc,)* ""),
+                        &[!!($count $(:: $count_in)*) as i128],
+                        &[!!($largest $(:: $largest_in)*) as i128],
+                    ), )* )?],
+                    shared: &[$( $( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($shared)),
+                        concat!($($shared_doc,)* ""),
+                        &[$( !!($shared_is $(:: $shared_in)*) as i128, )? 0],
+                        &[$( $( !!($shared_largest $(:: $shared_largest_in)*) as i128, )? )? 1],
+                    ), )* )?],
+                    events: &[$( $( $crate::__private::source::signal(
+                        stringify!($event), concat!($($event_doc,)* ""),
+                    ), )* )?],
+                    outputs: &[$( $( $crate::__private::source::signal(
+                        stringify!($output), concat!($($output_doc,)* ""),
+                    ), )* )?],
                     groups: &[$( $( $crate::__private::source::Group {
                         name: stringify!($group),
                         members: &[$( stringify!($member), )+],
@@ -215,21 +192,15 @@ macro_rules! net {
                         doc: $crate::__private::source::doc(concat!($($line_doc,)* "")),
                         on: concat!($( stringify!($on), )? ""),
                         guard: $crate::__net_guard!(($name $line) [] $($($guard)*)?),
-                        take: &[$( $crate::__private::source::arc(
-                            (stringify!($name), stringify!($line)),
-                            stringify!($take),
-                            &[$( !!($take_weight $(:: $take_weight_in)*) as i128, )? 1],
-                        ), )+],
-                        give: &[$( $crate::__private::source::arc(
-                            (stringify!($name), stringify!($line)),
-                            stringify!($give),
-                            &[$( !!($give_weight $(:: $give_weight_in)*) as i128, )? 1],
-                        ), )+],
-                        read: &[$( $( $crate::__private::source::arc(
-                            (stringify!($name), stringify!($line)),
-                            stringify!($read),
-                            &[$( !!($read_weight $(:: $read_weight_in)*) as i128, )? 1],
-                        ), )+ )?],
+                        take: &[$( (stringify!($take), $crate::__net_number!(
+                            ($name $line) $( $take_weight $(:: $take_weight_in)* )?
+                        )), )+],
+                        give: &[$( (stringify!($give), $crate::__net_number!(
+                            ($name $line) $( $give_weight $(:: $give_weight_in)* )?
+                        )), )+],
+                        read: &[$( $( (stringify!($read), $crate::__net_number!(
+                            ($name $line) $( $read_weight $(:: $read_weight_in)* )?
+                        )), )+ )?],
                         changes: &[$( $( $crate::__private::source::Change {
                             name: stringify!($change),
                             by: $crate::__net_change!(
@@ -241,10 +212,17 @@ macro_rules! net {
                             (stringify!($name), stringify!($line)),
                             &[
                                 $( (
-                                    !!($earliest $(:: $earliest_in)*) as i128,
-                                    Some(!!($latest $(:: $latest_in)*) as i128),
+                                    $crate::__net_number!(
+                                        ($name $line) $earliest $(:: $earliest_in)*
+                                    ),
+                                    Some($crate::__net_number!(
+                                        ($name $line) $latest $(:: $latest_in)*
+                                    )),
                                 ), )?
-                                $( (!!($after $(:: $after_in)*) as i128, None), )?
+                                $( (
+                                    $crate::__net_number!(($name $line) $after $(:: $after_in)*),
+                                    None,
+                                ), )?
                             ],
                         ),
                         priority: $crate::__private::source::priority(

@@ -33,6 +33,8 @@ pub mod owned;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod settling;
 pub(crate) mod source;
+#[cfg(all(test, feature = "alloc"))]
+mod tests;
 pub(crate) mod text;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod variant;

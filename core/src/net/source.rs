@@ -184,9 +184,8 @@ const fn at_part(of: Part<'_>) -> Text {
     Text::new().with("net ").name(of.0).with(", ").name(of.1).with(": ")
 }
 
-/// The first of these numbers, all from 0 up: what was written, or what stands for nothing.
-pub const fn first(of: Part<'_>, numbers: &[i128]) -> u64 {
-    let number = numbers[0];
+/// A number from 0 up.
+pub const fn number(of: Part<'_>, number: i128) -> u64 {
     if number < 0 {
         at_part(of)
             .with("the number -")
@@ -201,22 +200,31 @@ const fn saturated(number: u128) -> u64 {
     if number > u64::MAX as u128 { u64::MAX } else { number as u64 }
 }
 
-/// A name with the first of these numbers.
-pub const fn arc<'n>(of: Part<'_>, name: &'n str, weights: &[i128]) -> (&'n str, u64) {
-    (name, first(of, weights))
+/// A place with the first of each list of numbers: what was written, or what stands for nothing.
+pub const fn declared<'n>(
+    of: Part<'n>,
+    text: &'n str,
+    initial: &[i128],
+    bound: &[i128],
+) -> Declared<'n> {
+    Declared {
+        name: of.1,
+        doc: doc(text),
+        initial: number(of, initial[0]),
+        bound: number(of, bound[0]),
+    }
 }
 
-/// The interval that was written for a transition; `of` is its net and itself.
-pub const fn interval(
-    of: Part<'_>,
-    written: &[(i128, Option<i128>)],
-) -> Option<(u64, Option<u64>)> {
+/// An event or output.
+pub const fn signal<'n>(name: &'n str, text: &'n str) -> Signal<'n> {
+    Signal { name, doc: doc(text) }
+}
+
+/// The interval that was written for a transition.
+pub const fn interval(of: Part<'_>, written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
     match written {
         [] => None,
-        [(earliest, None)] => Some((first(of, &[*earliest]), None)),
-        [(earliest, Some(latest))] => {
-            Some((first(of, &[*earliest]), Some(first(of, &[*latest]))))
-        }
+        [interval] => Some(*interval),
         _ => at_part(of).with("it has two intervals; say either `within` or `after`").stop(),
     }
 }

@@ -162,7 +162,11 @@ macro_rules! system {
             /// How many words, clocks and slots its player has, and how long its packed lists
             /// are.
             pub const SIZE: system_code::Size = {
-                system_source::check(&SYSTEM);
+                system_source::check::<
+                    { SYSTEM.links.len() },
+                    { SYSTEM.bindings.len() },
+                    { COMPONENTS.len() },
+                >(&SYSTEM);
                 system_code::size_of(&SYSTEM)
             };
             // A static: of a constant each crate that uses it may keep a copy.
@@ -347,7 +351,9 @@ macro_rules! system {
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __system_delivery {
-    ($of:tt now) => { $crate::system::Delivery::Now };
+    ($of:tt now) => {
+        $crate::system::Delivery::Now
+    };
     (($system:ident $from:ident $output:ident) mail $capacity:expr) => {
         $crate::__private::system::mail(
             stringify!($system),
@@ -357,8 +363,13 @@ macro_rules! __system_delivery {
     };
     (($system:ident $from:ident $output:ident) $($other:tt)*) => {
         compile_error!(concat!(
-            "system `", stringify!($system), "`, link ", stringify!($from), ".",
-            stringify!($output), ": say when it arrives: `now`, in the same step, or `mail 1`, ",
+            "system `",
+            stringify!($system),
+            "`, link ",
+            stringify!($from),
+            ".",
+            stringify!($output),
+            ": say when it arrives: `now`, in the same step, or `mail 1`, ",
             "at the turn of its receiver, in a mailbox with room for 1"
         ))
     };

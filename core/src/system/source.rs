@@ -1,6 +1,7 @@
 //! Names of a system, looked up while compiling: what `system!` writes.
 
-use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, SystemDefect, Target};
+use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
+use super::defect::{Index, SystemDefect};
 use crate::net::text::{Text, distance, same};
 use crate::net::{EventId, OutputId, PlaceId, Signal};
 
@@ -32,23 +33,47 @@ const fn component(system: &str, components: &[Component<'_>], what: &str, port:
 }
 
 const fn signal(text: Text, net: &str, kind: &str, signals: &[Signal<'_>], name: &str) -> u32 {
-    let (mut best, mut least) = ("", 3);
     let mut at = 0;
     while at < signals.len() {
         if same(signals[at].name, name) {
             return at as u32;
         }
-        let far = distance(signals[at].name, name);
-        if far < least {
-            (best, least) = (signals[at].name, far);
-        }
         at += 1;
     }
-    let text = text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(name);
-    if best.is_empty() {
-        text.stop()
-    } else {
-        text.with("; did you mean ").name(best).with("?").stop()
+    let mut near = Near::to(name);
+    let mut at = 0;
+    while at < signals.len() {
+        near = near.or(signals[at].name);
+        at += 1;
+    }
+    near.stop(text, net, kind)
+}
+
+/// The name that is nearest to a misspelt one.
+struct Near<'n> {
+    name: &'n str,
+    best: &'n str,
+    least: usize,
+}
+
+impl<'n> Near<'n> {
+    const fn to(name: &'n str) -> Self {
+        Self { name, best: "", least: 3 }
+    }
+
+    const fn or(self, other: &'n str) -> Self {
+        let far = distance(other, self.name);
+        if far < self.least { Self { best: other, least: far, ..self } } else { self }
+    }
+
+    const fn stop(self, text: Text, net: &str, kind: &str) -> ! {
+        let text =
+            text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(self.name);
+        if self.best.is_empty() {
+            text.stop()
+        } else {
+            text.with("; did you mean ").name(self.best).with("?").stop()
+        }
     }
 }
 
@@ -70,28 +95,20 @@ pub const fn event(
 const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of<PlaceId> {
     let component = component(system, components, "shared", port);
     let net = components[component as usize].net;
-    let (mut best, mut least) = ("", 3);
     let mut at = 0;
     while at < net.places.len() {
         if same(net.places[at].name, port.1) {
             return Of { component, id: PlaceId(at as u32) };
         }
-        let far = distance(net.places[at].name, port.1);
-        if far < least {
-            (best, least) = (net.places[at].name, far);
-        }
         at += 1;
     }
-    let text = says(system, "shared", port)
-        .with("net ")
-        .name(net.name)
-        .with(" has no place ")
-        .name(port.1);
-    if best.is_empty() {
-        text.stop()
-    } else {
-        text.with("; did you mean ").name(best).with("?").stop()
+    let mut near = Near::to(port.1);
+    let mut at = 0;
+    while at < net.places.len() {
+        near = near.or(net.places[at].name);
+        at += 1;
     }
+    near.stop(says(system, "shared", port), net.name, "place")
 }
 
 /// Where `system!` keeps what it read. It is implemented outside of the module that `system!` makes,
@@ -256,34 +273,57 @@ const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
     text.with(component.name).with(".").with(component.net.places[at.id.0 as usize].name)
 }
 
-/// Ends the compilation when something is wrong with a system.
-pub const fn check(system: &System<'_>) {
+/// Ends the compilation when something is wrong with a system of so many links, bindings and nets.
+pub const fn check<const L: usize, const B: usize, const N: usize>(system: &System<'_>) {
+    let mut index =
+        Index { links: &mut [(0, 0); L], bindings: &mut [(0, 0); B], chains: &mut [0; N] };
+    let Some(defect) = system.defect_by(&mut index) else { return };
     let text = Text::new().with("system ").name(system.name).with(": ");
-    match system.defect() {
-        None => {}
-        Some(SystemDefect::Net { .. }) => text.with("one of its nets is not sound").stop(),
-        Some(SystemDefect::UnknownId { list, at }) => text.with("number ").number(at as u64 + 1).with(" of the ")
-            .with(list).with(" names a mailbox of an event that does not arrive by mail").stop(),
-        Some(SystemDefect::TooLong) => text.with("it is too large").stop(),
-        Some(SystemDefect::Unbound(place)) => named(text.with("the shared place "), system, place)
-            .with(" belongs to nobody: say whose it is, as `shared { ").with(system.components[place.component as usize].name)
-            .with(".").with(system.components[place.component as usize].net.places[place.id.0 as usize].name)
-            .with(" = owner.place; }`").stop(),
-        Some(SystemDefect::Binding { at }) => named(text.with("the shared place "), system, system.bindings[at].shared)
-            .with(" is bound twice, or is no shared place, or to a place of another bound, or to a place that is shared itself").stop(),
-        Some(SystemDefect::Delivery { at }) => {
+    match defect {
+        SystemDefect::Net { .. } => text.with("one of its nets is not sound").stop(),
+        SystemDefect::UnknownId { list, at } => text
+            .with("number ")
+            .number(at as u64 + 1)
+            .with(" of the ")
+            .with(list)
+            .with(" names a mailbox of an event that does not arrive by mail")
+            .stop(),
+        SystemDefect::TooLong => text.with("it is too large").stop(),
+        SystemDefect::Unbound(place) => {
+            let text = named(text.with("the shared place "), system, place);
+            named(text.with(" belongs to nobody: say whose it is, as `shared { "), system, place)
+                .with(" = owner.place; }`")
+                .stop()
+        }
+        SystemDefect::Binding { at } => {
+            named(text.with("the shared place "), system, system.bindings[at].shared)
+                .with(" is bound twice, or is no shared place, or to a place of another bound, ")
+                .with("or to a place that is shared itself")
+                .stop()
+        }
+        SystemDefect::Delivery { at } => {
             let to = system.links[at].to;
             let component = &system.components[to.component as usize];
-            text.with("the links to ").with(component.name).with(".").with(component.net.events[to.id.0 as usize].name)
-                .with(" differ in how they deliver, or its mailbox has no room").stop()
+            text.with("the links to ")
+                .with(component.name)
+                .with(".")
+                .with(component.net.events[to.id.0 as usize].name)
+                .with(" differ in how they deliver, or its mailbox has no room")
+                .stop()
         }
-        Some(SystemDefect::Circle { component }) => text.with("`now` links lead from ")
+        SystemDefect::Circle { component } => text
+            .with("`now` links lead from ")
             .name(system.components[component as usize].name)
-            .with(" back to it, or on over more than 8 nets; use mail for one of them").stop(),
-        Some(SystemDefect::ChangesMailbox(of)) => {
+            .with(" back to it, or on over more than 8 nets; use mail for one of them")
+            .stop(),
+        SystemDefect::ChangesMailbox(of) => {
             let component = &system.components[of.component as usize];
-            text.with("transition ").with(component.name).with(".").with(component.net.transitions[of.id.0 as usize].name)
-                .with(" changes a shared place that is a mailbox; it can only be read").stop()
+            text.with("transition ")
+                .with(component.name)
+                .with(".")
+                .with(component.net.transitions[of.id.0 as usize].name)
+                .with(" changes a shared place that is a mailbox; it can only be read")
+                .stop()
         }
     }
 }
