@@ -34,6 +34,7 @@ extern crate std;
 pub mod allocation;
 pub mod exact;
 pub mod executive;
+mod extension;
 pub mod front;
 #[doc = include_str!("guide.md")]
 pub mod guide {}
@@ -45,3 +46,18 @@ pub mod player;
 pub mod problem;
 pub mod system;
 pub mod units;
+
+/// What `net!` and `system!` expand to: no part of the API, and free to change.
+#[doc(hidden)]
+pub mod __private {
+    pub use crate::net::source::Written;
+    pub mod lower {
+        pub use crate::net::lower::*;
+    }
+    pub mod source {
+        pub use crate::net::source::*;
+    }
+    pub mod system {
+        pub use crate::system::source::*;
+    }
+}

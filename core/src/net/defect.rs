@@ -1,9 +1,11 @@
 //! Whether the lists of a net fit together.
 
 use super::data::{Arc, Law, Net, PlaceId, Role, Within};
+use core::fmt;
 
 /// What is wrong with the lists of a [`Net`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Defect {
     /// A list is longer than ids can count.
     TooLong,
@@ -30,7 +32,54 @@ pub enum Defect {
     },
     /// A law or an ignored event names something that the net does not have.
     Law,
+    /// Two places, two events or two outputs have one name.
+    Twice {
+        /// In which list: places, events or outputs.
+        list: &'static str,
+        /// The position of one of them, behind another.
+        at: usize,
+    },
 }
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::TooLong => write!(f, "a list has more entries than ids can count"),
+            Self::UnknownId { transition } => write!(
+                f,
+                "transition {transition} names a place, an event or an output that the net does \
+                 not have; add it, or name another"
+            ),
+            Self::Arcs { transition } => write!(
+                f,
+                "transition {transition} has an arc of weight 0, or names a place twice in what \
+                 it gives, or in what it takes and reads; write one arc with the whole weight"
+            ),
+            Self::Interval { transition } => write!(
+                f,
+                "transition {transition} has an interval that ends before it begins, or after {} \
+                 ms; leave the end out for one without end",
+                Within::LATEST
+            ),
+            Self::Place { place } => write!(
+                f,
+                "place {place} has more tokens at the start than its bound or than can be played, \
+                 or does not sum to the bound with the place that it complements"
+            ),
+            Self::Law => write!(
+                f,
+                "a law or an ignored event names something that the net does not have, or a place \
+                 twice"
+            ),
+            Self::Twice { list, at } => write!(
+                f,
+                "entry {at} of the {list} has the name of an earlier one; give each its own"
+            ),
+        }
+    }
+}
+
+impl core::error::Error for Defect {}
 
 impl Net<'_> {
     /// What is wrong with its lists, if anything.
@@ -40,7 +89,18 @@ impl Net<'_> {
         if lists.iter().any(|&length| u32::try_from(length).is_err()) {
             return Some(Defect::TooLong);
         }
-        self.place_defect().or_else(|| self.transition_defect()).or_else(|| self.law_defect())
+        self.place_defect()
+            .or_else(|| self.transition_defect())
+            .or_else(|| self.law_defect())
+            .or_else(|| self.name_defect())
+    }
+
+    fn name_defect(&self) -> Option<Defect> {
+        let twice = |list, at: Option<usize>| at.map(|at| Defect::Twice { list, at });
+        let names = |signals: &[super::Signal<'_>]| again(signals.len(), |at| signals[at].name);
+        twice("places", again(self.places.len(), |at| self.places[at].name))
+            .or_else(|| twice("events", names(self.events)))
+            .or_else(|| twice("outputs", names(self.outputs)))
     }
 
     fn has(&self, place: PlaceId) -> bool {
@@ -105,4 +165,19 @@ fn once(lists: [&[Arc]; 2]) -> bool {
             || arcs()
                 .enumerate()
                 .all(|(at, arc)| arcs().skip(at + 1).all(|other| other.place != arc.place)))
+}
+
+/// The position of a name that an earlier one has too. Nets made at run time can be large.
+#[cfg(feature = "alloc")]
+fn again<'n>(count: usize, name: impl Fn(usize) -> &'n str) -> Option<usize> {
+    let mut order: alloc::vec::Vec<usize> = (0..count).collect();
+    order.sort_unstable_by_key(|&at| (name(at), at));
+    let twice = |pair: &&[usize]| name(pair[0]) == name(pair[1]);
+    order.windows(2).filter(twice).map(|pair| pair[1]).min()
+}
+
+/// The position of a name that an earlier one has too. Without a heap nets are small.
+#[cfg(not(feature = "alloc"))]
+fn again<'n>(count: usize, name: impl Fn(usize) -> &'n str) -> Option<usize> {
+    (0..count).find(|&at| (0..at).any(|earlier| name(earlier) == name(at)))
 }

@@ -97,97 +97,188 @@
 #[macro_export]
 macro_rules! net {
     (
+        $(@ $export:ident)?
         $(#[doc = $doc:expr])*
         $vis:vis mod $name:ident {
-            places { $( $(#[doc = $place_doc:expr])* $place:ident $(: $tokens:literal $(of $bound:literal)?)? ),* $(,)? }
-            $(flags { $( $(#[doc = $flag_doc:expr])* $flag:ident $(: $flag_is:literal)? ),* $(,)? })?
-            $(counters { $( $(#[doc = $counter_doc:expr])* $counter:ident : $count:literal of $largest:literal ),* $(,)? })?
-            $(shared { $( $(#[doc = $shared_doc:expr])* $shared:ident $(: $shared_is:literal $(of $shared_largest:literal)?)? ),* $(,)? })?
-            $(events { $( $(#[doc = $event_doc:expr])* $event:ident $(( $payload:ty ))? ),* $(,)? })?
+            $(constants { $(
+                $(#[doc = $constant_doc:expr])* $constant:ident : $constant_is:expr
+            ),* $(,)? })*
+            places { $(
+                $(#[doc = $place_doc:expr])*
+                $place:ident $(: $tokens:tt $(:: $tokens_in:ident)*
+                    $(of $bound:tt $(:: $bound_in:ident)*)?)?
+            ),* $(,)? }
+            $(flags { $(
+                $(#[doc = $flag_doc:expr])*
+                $flag:ident $(: $flag_is:tt $(:: $flag_in:ident)*)?
+            ),* $(,)? })?
+            $(counters { $(
+                $(#[doc = $counter_doc:expr])*
+                $counter:ident : $count:tt $(:: $count_in:ident)*
+                    of $largest:tt $(:: $largest_in:ident)*
+            ),* $(,)? })?
+            $(shared { $(
+                $(#[doc = $shared_doc:expr])*
+                $shared:ident $(: $shared_is:tt $(:: $shared_in:ident)*
+                    $(of $shared_largest:tt $(:: $shared_largest_in:ident)*)?)?
+            ),* $(,)? })?
+            $(events { $(
+                $(#[doc = $event_doc:expr])* $event:ident $(( $payload:ty ))?
+            ),* $(,)? })?
             $(outputs { $( $(#[doc = $output_doc:expr])* $output:ident ),* $(,)? })?
-            $(groups { $( $(#[doc = $group_doc:expr])* $group:ident : $( $member:ident )&+ ; )* })?
+            $(groups { $(
+                $(#[doc = $group_doc:expr])* $group:ident : $( $member:ident )&+ ;
+            )* })?
             transitions { $(
                 $(#[doc = $line_doc:expr])*
                 $line:ident $(on $on:ident)? $([ $($guard:tt)* ])? :
-                    $( $take:tt $(* $take_weight:literal)? )&+ => $( $give:tt $(* $give_weight:literal)? )&+
-                    $(read $( $read:ident $(* $read_weight:literal)? )&+ )?
-                    $(do $( $change:ident $change_by:tt $change_value:literal )&+ )?
+                    $( $take:tt $(* $take_weight:tt $(:: $take_weight_in:ident)*)? )&+
+                    => $( $give:tt $(* $give_weight:tt $(:: $give_weight_in:ident)*)? )&+
+                    $(read $( $read:ident $(* $read_weight:tt $(:: $read_weight_in:ident)*)? )&+ )?
+                    $(do $( $change:ident $change_by:tt $value:tt $(:: $value_in:ident)* )&+ )?
                     $(emit $( $emit:ident )&+ )?
-                    $(within $earliest:literal ..= $latest:literal ms)?
-                    $(after $after:literal ms)?
-                    $(priority $priority:literal)?
+                    $(within $earliest:tt $(:: $earliest_in:ident)*
+                        ..= $latest:tt $(:: $latest_in:ident)* ms)?
+                    $(after $after:tt $(:: $after_in:ident)* ms)?
+                    $(priority $priority:expr)?
                 ;
             )* }
             $(ignore { $( $ignored:ident in $( $ignored_in:ident )&+ ; )* })?
             $(laws { $( $law:ident $(( $($law_of:tt)* ))? ; )* })?
         }
     ) => {
+        impl $crate::__private::Written for $name::Program {
+            const SOURCE: $crate::__private::source::Source<'static> = $crate::__net_constants!(
+                $({ $( $(#[doc = $constant_doc])* $constant: $constant_is, )* })*
+                $crate::__private::source::Source {
+                    name: stringify!($name),
+                    doc: $crate::__private::source::doc(concat!($($doc,)* "")),
+                    places: &[$( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($place)),
+                        concat!($($place_doc,)* ""),
+                        &[$( !!($tokens $(:: $tokens_in)*) as i128, )? 0],
+                        &[$( $( !!($bound $(:: $bound_in)*) as i128, )? )? 1],
+                    ), )*],
+                    flags: &[$( $( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($flag)),
+                        concat!($($flag_doc,)* ""),
+                        &[$( !!($flag_is $(:: $flag_in)*) as i128, )? 0],
+                        &[1],
+                    ), )* )?],
+                    counters: &[$( $( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($counter)),
+                        concat!($($counter_doc,)* ""),
+                        &[!!($count $(:: $count_in)*) as i128],
+                        &[!!($largest $(:: $largest_in)*) as i128],
+                    ), )* )?],
+                    shared: &[$( $( $crate::__private::source::declared(
+                        (stringify!($name), stringify!($shared)),
+                        concat!($($shared_doc,)* ""),
+                        &[$( !!($shared_is $(:: $shared_in)*) as i128, )? 0],
+                        &[$( $( !!($shared_largest $(:: $shared_largest_in)*) as i128, )? )? 1],
+                    ), )* )?],
+                    events: &[$( $( $crate::__private::source::signal(
+                        stringify!($event), concat!($($event_doc,)* ""),
+                    ), )* )?],
+                    outputs: &[$( $( $crate::__private::source::signal(
+                        stringify!($output), concat!($($output_doc,)* ""),
+                    ), )* )?],
+                    groups: &[$( $( $crate::__private::source::Group {
+                        name: stringify!($group),
+                        members: &[$( stringify!($member), )+],
+                    }, )* )?],
+                    lines: &[$( $crate::__private::source::Line {
+                        name: stringify!($line),
+                        doc: $crate::__private::source::doc(concat!($($line_doc,)* "")),
+                        on: concat!($( stringify!($on), )? ""),
+                        guard: $crate::__net_guard!(($name $line) [] $($($guard)*)?),
+                        take: &[$( (stringify!($take), $crate::__net_number!(
+                            ($name $line) $( $take_weight $(:: $take_weight_in)* )?
+                        )), )+],
+                        give: &[$( (stringify!($give), $crate::__net_number!(
+                            ($name $line) $( $give_weight $(:: $give_weight_in)* )?
+                        )), )+],
+                        read: &[$( $( (stringify!($read), $crate::__net_number!(
+                            ($name $line) $( $read_weight $(:: $read_weight_in)* )?
+                        )), )+ )?],
+                        changes: &[$( $( $crate::__private::source::Change {
+                            name: stringify!($change),
+                            by: $crate::__net_change!(
+                                ($name $line $change) $change_by $value $(:: $value_in)*
+                            ),
+                        }, )+ )?],
+                        emits: &[$( $( stringify!($emit), )+ )?],
+                        within: $crate::__private::source::interval(
+                            (stringify!($name), stringify!($line)),
+                            &[
+                                $( (
+                                    $crate::__net_number!(
+                                        ($name $line) $earliest $(:: $earliest_in)*
+                                    ),
+                                    Some($crate::__net_number!(
+                                        ($name $line) $latest $(:: $latest_in)*
+                                    )),
+                                ), )?
+                                $( (
+                                    $crate::__net_number!(($name $line) $after $(:: $after_in)*),
+                                    None,
+                                ), )?
+                            ],
+                        ),
+                        priority: $crate::__private::source::priority(
+                            &[$( !!($priority) as i128, )? 0],
+                        ),
+                    }, )*],
+                    ignored: &[$( $( $(
+                        (stringify!($ignored), stringify!($ignored_in)),
+                    )+ )* )?],
+                    laws: &[$( $( $crate::__net_claim!(
+                        ($name) $law $(( $($law_of)* ))?
+                    ), )* )?],
+                }
+            );
+        }
+
         $(#[doc = $doc])*
         #[allow(long_running_const_eval)]
         $vis mod $name {
             #[allow(unused_imports)]
             use super::*;
-            use $crate::net::{lower as net_lower, source as net_source};
+            use $crate::__private::{lower as net_lower, source as net_source};
             use $crate::player::code as net_code;
 
-            const SOURCE: net_source::Source<'static> = net_source::Source {
-                name: stringify!($name),
-                doc: net_source::doc(concat!($($doc,)* "")),
-                places: &[$( net_source::Declared {
-                    name: stringify!($place),
-                    doc: net_source::doc(concat!($($place_doc,)* "")),
-                    initial: net_source::first(&[$( $tokens, )? 0]),
-                    bound: net_source::first(&[$( $( $bound, )? )? 1]),
-                }, )*],
-                flags: &[$( $( net_source::Declared {
-                    name: stringify!($flag),
-                    doc: net_source::doc(concat!($($flag_doc,)* "")),
-                    initial: net_source::first(&[$( $flag_is as u64, )? 0]),
-                    bound: 1,
-                }, )* )?],
-                counters: &[$( $( net_source::Declared {
-                    name: stringify!($counter),
-                    doc: net_source::doc(concat!($($counter_doc,)* "")),
-                    initial: $count,
-                    bound: $largest,
-                }, )* )?],
-                shared: &[$( $( net_source::Declared {
-                    name: stringify!($shared),
-                    doc: net_source::doc(concat!($($shared_doc,)* "")),
-                    initial: net_source::first(&[$( $shared_is as u64, )? 0]),
-                    bound: net_source::first(&[$( $( $shared_largest, )? )? 1]),
-                }, )* )?],
-                events: &[$( $( $crate::net::Signal {
-                    name: stringify!($event),
-                    doc: net_source::doc(concat!($($event_doc,)* "")),
-                }, )* )?],
-                outputs: &[$( $( $crate::net::Signal {
-                    name: stringify!($output),
-                    doc: net_source::doc(concat!($($output_doc,)* "")),
-                }, )* )?],
-                groups: &[$( $( net_source::Group {
-                    name: stringify!($group),
-                    members: &[$( stringify!($member), )+],
-                }, )* )?],
-                lines: &[$( net_source::Line {
-                    name: stringify!($line),
-                    doc: net_source::doc(concat!($($line_doc,)* "")),
-                    on: concat!($( stringify!($on), )? ""),
-                    guard: $crate::net_guard!(($name $line) [] $($($guard)*)?),
-                    take: &[$( (stringify!($take), net_source::first(&[$( $take_weight, )? 1])), )+],
-                    give: &[$( (stringify!($give), net_source::first(&[$( $give_weight, )? 1])), )+],
-                    read: &[$( $( (stringify!($read), net_source::first(&[$( $read_weight, )? 1])), )+ )?],
-                    changes: &[$( $( net_source::Change {
-                        name: stringify!($change),
-                        by: $crate::net_change!(($name $line $change) $change_by $change_value),
-                    }, )+ )?],
-                    emits: &[$( $( stringify!($emit), )+ )?],
-                    within: net_source::interval(stringify!($name), stringify!($line), &[$( ($earliest, Some($latest)), )? $( ($after, None), )?]),
-                    priority: net_source::priority(&[$( $priority, )? 0]),
-                }, )*],
-                ignored: &[$( $( $( (stringify!($ignored), stringify!($ignored_in)), )+ )* )?],
-                laws: &[$( $( $crate::net_claim!(($name) $law $(( $($law_of)* ))?), )* )?],
-            };
+            $crate::__definition! {
+                ($) __net_extended [$($export)?] $name
+                { $(constants { $( $(#[doc = $constant_doc])* $constant: $constant_is, )* })* }
+                { $( $(#[doc = $place_doc])* $place $(: $tokens $(:: $tokens_in)*
+                    $(of $bound $(:: $bound_in)*)?)?, )* }
+                { $( $( $(#[doc = $flag_doc])* $flag $(: $flag_is $(:: $flag_in)*)?, )* )? }
+                { $( $( $(#[doc = $counter_doc])* $counter: $count $(:: $count_in)*
+                    of $largest $(:: $largest_in)*, )* )? }
+                { $( $( $(#[doc = $shared_doc])* $shared $(: $shared_is $(:: $shared_in)*
+                    $(of $shared_largest $(:: $shared_largest_in)*)?)?, )* )? }
+                { $( $( $(#[doc = $event_doc])* $event $(( $payload ))?, )* )? }
+                { $( $( $(#[doc = $output_doc])* $output, )* )? }
+                { $( $( $(#[doc = $group_doc])* $group: $( $member )&+; )* )? }
+                { $( $line {
+                    $(#[doc = $line_doc])*
+                    $line $(on $on)? $([ $($guard)* ])? :
+                        $( $take $(* $take_weight $(:: $take_weight_in)*)? )&+
+                        => $( $give $(* $give_weight $(:: $give_weight_in)*)? )&+
+                        $(read $( $read $(* $read_weight $(:: $read_weight_in)*)? )&+ )?
+                        $(do $( $change $change_by $value $(:: $value_in)* )&+ )?
+                        $(emit $( $emit )&+ )?
+                        $(within $earliest $(:: $earliest_in)*
+                            ..= $latest $(:: $latest_in)* ms)?
+                        $(after $after $(:: $after_in)* ms)?
+                        $(priority $priority)?;
+                } )* }
+                { $( $( $ignored in $( $ignored_in )&+; )* )? }
+                { $( $( $law $(( $($law_of)* ))?; )* )? }
+            }
+
+            const SOURCE: net_source::Source<'static> =
+                <Program as $crate::__private::Written>::SOURCE;
             const SIZE: net_lower::Size = SOURCE.size();
             const LOWERED: &net_lower::Lowered<
                 'static,
@@ -240,7 +331,7 @@ macro_rules! net {
                 ARRAYS.code(KNOWN.settle(), KNOWN.bounded());
 
             /// A place, flag, counter or shared place.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub enum Place {
                 $( $(#[doc = $place_doc])* $place, )*
@@ -264,14 +355,14 @@ macro_rules! net {
             }
 
             /// The marked place, when the net is a state machine.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub enum State {
                 $( $(#[doc = $place_doc])* $place, )*
             }
 
             /// What the net reacts to.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq)]
             pub enum Event {
                 $( $( $(#[doc = $event_doc])* $event $(($payload))?, )* )?
@@ -293,14 +384,14 @@ macro_rules! net {
             }
 
             /// What the net says.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub enum Output {
                 $( $( $(#[doc = $output_doc])* $output, )* )?
             }
 
             /// The lines of the net's transitions.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
             pub enum Transition {
                 $( $(#[doc = $line_doc])* $line, )*
@@ -377,10 +468,12 @@ macro_rules! net {
             }
 
             /// Plays the net.
+            #[allow(dead_code)]
             pub type Player =
                 $crate::player::Player<Program, { CODE_SIZE.words }, { CODE_SIZE.clocks }>;
 
             /// Plays the net and takes nothing to be proven: for stored markings, and for steps.
+            #[allow(dead_code)]
             pub type Checked = $crate::player::Player<
                 $crate::player::Checked<Program>,
                 { CODE_SIZE.words },
@@ -388,99 +481,23 @@ macro_rules! net {
             >;
 
             /// A transition that has just fired, as an observer of the player is told.
+            #[allow(dead_code)]
             pub type Firing<'f> = $crate::player::Firing<'f, Program>;
         }
     };
-}
-
-/// The conditions of a guard.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! net_guard {
-    ($of:tt [$($done:tt)*]) => { &[$($done)*] };
-    ($of:tt [$($done:tt)*] & $($rest:tt)+) => { $crate::net_guard!($of [$($done)*] $($rest)+) };
-    ($of:tt [$($done:tt)*] ! $name:ident $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtMost 0),] $($rest)*)
+    // The same with a definition that other crates may extend.
+    ($(#[doc = $doc:expr])* #[macro_export] $vis:vis mod $name:ident $($rest:tt)+) => {
+        $crate::net! { @macro_export $(#[doc = $doc])* $vis mod $name $($rest)+ }
     };
-    ($of:tt [$($done:tt)*] $name:ident < $value:literal $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name Less $value),] $($rest)*)
-    };
-    ($of:tt [$($done:tt)*] $name:ident <= $value:literal $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtMost $value),] $($rest)*)
-    };
-    ($of:tt [$($done:tt)*] $name:ident == $value:literal $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name Equal $value),] $($rest)*)
-    };
-    ($of:tt [$($done:tt)*] $name:ident >= $value:literal $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtLeast $value),] $($rest)*)
-    };
-    ($of:tt [$($done:tt)*] $name:ident > $value:literal $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name More $value),] $($rest)*)
-    };
-    ($of:tt [$($done:tt)*] $name:ident $($rest:tt)*) => {
-        $crate::net_guard!($of [$($done)* $crate::net_test!($name AtLeast 1),] $($rest)*)
-    };
-    (($net:ident $line:ident) [$($done:tt)*] $($rest:tt)+) => {
-        compile_error!(concat!(
-            "net `", stringify!($net), "`, transition `", stringify!($line), "`: `", stringify!($($rest)+),
-            "` cannot be part of a guard, which is a conjunction as `[flag & !other & counter < 3]`; ",
-            "write an `or` as two transitions"
-        ))
-    };
-}
-
-/// One condition of a guard.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! net_test {
-    ($name:ident $relation:ident $value:literal) => {
-        $crate::net::source::Test {
-            name: stringify!($name),
-            relation: $crate::net::source::Relation::$relation,
-            value: $value,
+    // Another net with more: its definition hands its sections over.
+    (
+        $(@ $export:ident)?
+        $(#[doc = $doc:expr])*
+        $vis:vis mod $name:ident extends $base:ident $(:: $base_in:ident)* { $($more:tt)* }
+    ) => {
+        $base $(:: $base_in)* ::definition! {
+            { $(@ $export)? $(#[doc = $doc])* $vis mod $name }
+            $base $(:: $base_in)* { $($more)* }
         }
-    };
-}
-
-/// How a value changes.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! net_change {
-    ($of:tt += $value:literal) => { $crate::net::source::By::Add($value) };
-    ($of:tt -= $value:literal) => { $crate::net::source::By::Subtract($value) };
-    ($of:tt = $value:literal) => { $crate::net::source::By::Become($value as u64) };
-    (($net:ident $line:ident $change:ident) $($other:tt)*) => {
-        compile_error!(concat!(
-            "net `", stringify!($net), "`, transition `", stringify!($line), "`: `", stringify!($change), " ",
-            stringify!($($other)*), "` is no change; there are `counter += 1`, `counter -= 1`, `counter = 0` and `flag = true`"
-        ))
-    };
-}
-
-/// A law.
-#[doc(hidden)]
-#[macro_export]
-macro_rules! net_claim {
-    ($of:tt invariant ( $( $place:ident $(* $weight:literal)? )&+ = $sum:literal )) => {
-        $crate::net::source::Claim::Invariant(
-            &[$( (stringify!($place), $crate::net::source::first(&[$( $weight, )? 1])), )+],
-            $sum,
-        )
-    };
-    ($of:tt never_both ( $a:ident, $b:ident )) => { $crate::net::source::Claim::NeverBoth(stringify!($a), stringify!($b)) };
-    ($of:tt reachable ( $place:ident )) => { $crate::net::source::Claim::Reachable(stringify!($place)) };
-    ($of:tt always_can ( $place:ident )) => { $crate::net::source::Claim::AlwaysCan(stringify!($place)) };
-    ($of:tt handles ( all )) => { $crate::net::source::Claim::HandlesAll };
-    ($of:tt settles) => { $crate::net::source::Claim::Settles };
-    ($of:tt deadlock_free) => { $crate::net::source::Claim::DeadlockFree("") };
-    ($of:tt deadlock_free_except ( $place:ident )) => { $crate::net::source::Claim::DeadlockFree(stringify!($place)) };
-    ($of:tt deterministic) => { $crate::net::source::Claim::Deterministic };
-    ($of:tt left_to_checker) => { $crate::net::source::Claim::LeftToChecker };
-    (($net:ident) $law:ident $(( $($other:tt)* ))?) => {
-        compile_error!(concat!(
-            "net `", stringify!($net), "`: no law is written `", stringify!($law) $(, "(", stringify!($($other)*), ")")?,
-            "`; there are `invariant(A & B * 2 = 1)`, `never_both(A, B)`, `reachable(A)`, `always_can(A)`, `handles(all)`, ",
-            "`settles`, `deadlock_free`, `deadlock_free_except(A)`, `deterministic` and `left_to_checker`"
-        ))
     };
 }

@@ -10,6 +10,7 @@
 //!                 names    ids     words           Player { marking, clocks } -> Outcome
 //! ```
 
+mod clauses;
 pub(crate) mod data;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod declarations;
@@ -25,13 +26,15 @@ mod laws;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod lookup;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
-pub mod lower;
+pub(crate) mod lower;
 mod macros;
 #[cfg(feature = "alloc")]
 pub mod owned;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod settling;
-pub mod source;
+pub(crate) mod source;
+#[cfg(all(test, feature = "alloc"))]
+mod tests;
 pub(crate) mod text;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod variant;

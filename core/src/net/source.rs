@@ -2,7 +2,7 @@
 //! [`Net`](super::Net).
 
 use super::data::Signal;
-use super::text::Text;
+use super::text::{Text, same};
 
 /// A net as it was written.
 #[derive(Clone, Copy, Debug)]
@@ -170,31 +170,94 @@ pub const fn doc(text: &str) -> &str {
     text.trim_ascii()
 }
 
-/// What was written, or what is last in the list when nothing was.
-pub const fn first(numbers: &[u64]) -> u64 {
-    numbers[0]
+/// Where `net!` keeps what it read. It is implemented outside of the module that `net!` makes, so
+/// that numbers can be constants of an enclosing function.
+pub trait Written {
+    /// The net as it was written.
+    const SOURCE: Source<'static>;
 }
 
-/// The interval that was written for a transition of a net.
-pub const fn interval(
-    net: &str,
-    line: &str,
-    written: &[(u64, Option<u64>)],
-) -> Option<(u64, Option<u64>)> {
-    match written {
-        [] => None,
-        [interval] => Some(*interval),
-        _ => Text::new()
-            .with("net ")
-            .name(net)
-            .with(", transition ")
-            .name(line)
-            .with(": it has two intervals; say either `within` or `after`")
-            .stop(),
+/// A net and the part of it that a number belongs to.
+pub type Part<'n> = (&'n str, &'n str);
+
+const fn at_part(of: Part<'_>) -> Text {
+    Text::new().with("net ").name(of.0).with(", ").name(of.1).with(": ")
+}
+
+/// A number from 0 up.
+pub const fn number(of: Part<'_>, number: i128) -> u64 {
+    if number < 0 {
+        at_part(of)
+            .with("the number -")
+            .number(saturated(number.unsigned_abs()))
+            .with(" is negative; only priorities can be")
+            .stop();
+    }
+    saturated(number.unsigned_abs())
+}
+
+const fn saturated(number: u128) -> u64 {
+    if number > u64::MAX as u128 { u64::MAX } else { number as u64 }
+}
+
+/// A place with the first of each list of numbers: what was written, or what stands for nothing.
+pub const fn declared<'n>(
+    of: Part<'n>,
+    text: &'n str,
+    initial: &[i128],
+    bound: &[i128],
+) -> Declared<'n> {
+    Declared {
+        name: of.1,
+        doc: doc(text),
+        initial: number(of, initial[0]),
+        bound: number(of, bound[0]),
     }
 }
 
-/// The priority that was written, or what is last in the list when none was.
-pub const fn priority(numbers: &[i64]) -> i64 {
-    numbers[0]
+/// An event or output.
+pub const fn signal<'n>(name: &'n str, text: &'n str) -> Signal<'n> {
+    Signal { name, doc: doc(text) }
+}
+
+/// The interval that was written for a transition.
+pub const fn interval(of: Part<'_>, written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
+    match written {
+        [] => None,
+        [interval] => Some(*interval),
+        _ => at_part(of).with("it has two intervals; say either `within` or `after`").stop(),
+    }
+}
+
+/// The priority that was written, or what stands for nothing.
+pub const fn priority(numbers: &[i128]) -> i64 {
+    let number = numbers[0];
+    if number > i64::MAX as i128 {
+        i64::MAX
+    } else if number < i64::MIN as i128 {
+        i64::MIN
+    } else {
+        number as i64
+    }
+}
+
+/// Ends the compilation when an extension replaces a line that the net does not have.
+pub const fn replaced(source: &Source<'_>, names: &[&str]) {
+    let mut at = 0;
+    while at < names.len() {
+        let mut line = 0;
+        while line < source.lines.len() && !same(source.lines[line].name, names[at]) {
+            line += 1;
+        }
+        if line == source.lines.len() {
+            Text::new()
+                .with("net ")
+                .name(source.name)
+                .with(" has no transition ")
+                .name(names[at])
+                .with(" that an extension could replace")
+                .stop()
+        }
+        at += 1;
+    }
 }

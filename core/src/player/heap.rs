@@ -5,7 +5,8 @@ use super::code::{Packed, size};
 use super::program::Loaded;
 use crate::net::data::Net;
 use crate::net::defect::Defect;
-use crate::system::data::{Component, System, SystemDefect};
+use crate::system::data::{Component, System};
+use crate::system::defect::SystemDefect;
 
 /// How many machine words a marking of this system needs; `None` when it has too many places,
 /// events, transitions or links to be played.

@@ -1,7 +1,6 @@
 //! Several nets that work together, as plain data.
 
 use crate::net::data::{EventId, Net, OutputId, PlaceId};
-use crate::net::defect::Defect;
 
 /// Nets in the order in which they take their turns, and what connects them.
 ///
@@ -108,47 +107,6 @@ pub struct Clear {
     pub mailbox: EventId,
 }
 
-/// What is wrong with a [`System`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SystemDefect {
-    /// A net is not sound.
-    Net {
-        /// Which component.
-        component: u16,
-        /// What is wrong with its net.
-        defect: Defect,
-    },
-    /// A link, binding or clear at this position names something that is not there.
-    UnknownId {
-        /// In which list: links, bindings or clears.
-        list: &'static str,
-        /// Its position.
-        at: usize,
-    },
-    /// The lists are longer than 65,534.
-    TooLong,
-    /// A shared place has no binding.
-    Unbound(Of<PlaceId>),
-    /// A shared place has two bindings, or one of another bound, or is bound to a shared place.
-    Binding {
-        /// The position of the binding.
-        at: usize,
-    },
-    /// Two links to one event differ in delivery, or a mailbox has no room.
-    Delivery {
-        /// The position of the link.
-        at: usize,
-    },
-    /// A net would receive its own rendezvous, directly or through others, or through more than
-    /// [`DEPTH`] of them.
-    Circle {
-        /// The component where it begins.
-        component: u16,
-    },
-    /// A transition changes a shared place that is a mailbox.
-    ChangesMailbox(Of<crate::net::data::TransitionId>),
-}
-
 /// The most rendezvous that follow from one another.
 pub const DEPTH: usize = 8;
 
@@ -167,7 +125,7 @@ impl<'s> System<'s> {
             && self.clears.is_empty()
     }
 
-    const fn net(&self, component: u16) -> Option<&'s Net<'s>> {
+    pub(super) const fn net(&self, component: u16) -> Option<&'s Net<'s>> {
         if (component as usize) < self.components.len() {
             Some(self.components[component as usize].net)
         } else {
@@ -175,12 +133,17 @@ impl<'s> System<'s> {
         }
     }
 
-    const fn has_event(&self, it: Of<EventId>) -> bool {
+    pub(super) const fn has_event(&self, it: Of<EventId>) -> bool {
         matches!(self.net(it.component), Some(net) if (it.id.0 as usize) < net.events.len())
     }
 
-    const fn has_place(&self, it: Of<PlaceId>) -> bool {
+    pub(super) const fn has_place(&self, it: Of<PlaceId>) -> bool {
         matches!(self.net(it.component), Some(net) if (it.id.0 as usize) < net.places.len())
+    }
+
+    /// A place that is there.
+    pub(super) const fn place(&self, it: Of<PlaceId>) -> &crate::net::Place<'_> {
+        &self.components[it.component as usize].net.places[it.id.0 as usize]
     }
 
     /// How the events of this kind arrive: `None` from outside.
@@ -207,176 +170,5 @@ impl<'s> System<'s> {
             at += 1;
         }
         None
-    }
-
-    /// What is wrong with it, if anything. Its nets are taken to be sound.
-    pub const fn defect(&self) -> Option<SystemDefect> {
-        if self.is_alone() {
-            return None;
-        }
-        if self.components.len() > u16::MAX as usize - 1 || self.links.len() > u16::MAX as usize - 1
-        {
-            return Some(SystemDefect::TooLong);
-        }
-        let mut at = 0;
-        while at < self.links.len() {
-            let Link { from, to, delivery } = self.links[at];
-            let known = matches!(self.net(from.component), Some(net) if (from.id.0 as usize) < net.outputs.len());
-            if !known || !self.has_event(to) {
-                return Some(SystemDefect::UnknownId { list: "links", at });
-            }
-            let same = match (self.delivery(to), delivery) {
-                (Some(Delivery::Now), Delivery::Now) => true,
-                (Some(Delivery::Mail { capacity: first }), Delivery::Mail { capacity }) => {
-                    first == capacity && capacity > 0
-                }
-                _ => false,
-            };
-            if !same {
-                return Some(SystemDefect::Delivery { at });
-            }
-            at += 1;
-        }
-        let mut at = 0;
-        while at < self.clears.len() {
-            let Clear { on, mailbox } = self.clears[at];
-            let mailbox = Of { component: on.component, id: mailbox };
-            if !self.has_event(on) || !matches!(self.delivery(mailbox), Some(Delivery::Mail { .. }))
-            {
-                return Some(SystemDefect::UnknownId { list: "clears", at });
-            }
-            at += 1;
-        }
-        match (self.binding_defect(), self.changed_mailbox()) {
-            (Some(defect), _) | (None, Some(defect)) => Some(defect),
-            (None, None) => self.circle(),
-        }
-    }
-
-    /// A transition that would change a mailbox through a shared place.
-    const fn changed_mailbox(&self) -> Option<SystemDefect> {
-        let mut component = 0;
-        while component < self.components.len() {
-            let net = self.components[component].net;
-            let mut at = 0;
-            while at < net.transitions.len() {
-                let mut arc = 0;
-                let (take, give) = (net.transitions[at].take, net.transitions[at].give);
-                while arc < take.len() + give.len() {
-                    let place = if arc < take.len() {
-                        take[arc].place
-                    } else {
-                        give[arc - take.len()].place
-                    };
-                    let of = match net.places[place.0 as usize].role {
-                        crate::net::data::Role::Complement(of) => of,
-                        _ => place,
-                    };
-                    if let Some(Target::Mailbox(_)) =
-                        self.target(Of { component: component as u16, id: of })
-                    {
-                        let id = crate::net::data::TransitionId(at as u32);
-                        return Some(SystemDefect::ChangesMailbox(Of {
-                            component: component as u16,
-                            id,
-                        }));
-                    }
-                    arc += 1;
-                }
-                at += 1;
-            }
-            component += 1;
-        }
-        None
-    }
-
-    const fn binding_defect(&self) -> Option<SystemDefect> {
-        let mut at = 0;
-        while at < self.bindings.len() {
-            let Binding { shared, target } = self.bindings[at];
-            if !self.has_place(shared) {
-                return Some(SystemDefect::UnknownId { list: "bindings", at });
-            }
-            let place =
-                &self.components[shared.component as usize].net.places[shared.id.0 as usize];
-            let bound = match target {
-                Target::Place(owner) if self.has_place(owner) => {
-                    let owner =
-                        &self.components[owner.component as usize].net.places[owner.id.0 as usize];
-                    if matches!(
-                        owner.role,
-                        crate::net::data::Role::Shared | crate::net::data::Role::Complement(_)
-                    ) {
-                        0
-                    } else {
-                        owner.bound
-                    }
-                }
-                Target::Mailbox(event) => match self.delivery(event) {
-                    Some(Delivery::Mail { capacity }) => capacity as u32,
-                    _ => return Some(SystemDefect::UnknownId { list: "bindings", at }),
-                },
-                Target::Place(_) => return Some(SystemDefect::UnknownId { list: "bindings", at }),
-            };
-            let mut other = 0;
-            while other < at {
-                let earlier = self.bindings[other].shared;
-                if earlier.component == shared.component && earlier.id.0 == shared.id.0 {
-                    return Some(SystemDefect::Binding { at });
-                }
-                other += 1;
-            }
-            if bound != place.bound || !matches!(place.role, crate::net::data::Role::Shared) {
-                return Some(SystemDefect::Binding { at });
-            }
-            at += 1;
-        }
-        let mut component = 0;
-        while component < self.components.len() {
-            let net = self.components[component].net;
-            let mut place = 0;
-            while place < net.places.len() {
-                let of = Of { component: component as u16, id: PlaceId(place as u32) };
-                if matches!(net.places[place].role, crate::net::data::Role::Shared)
-                    && self.target(of).is_none()
-                {
-                    return Some(SystemDefect::Unbound(of));
-                }
-                place += 1;
-            }
-            component += 1;
-        }
-        None
-    }
-
-    /// A rendezvous that comes back to where it began, or goes on too long.
-    const fn circle(&self) -> Option<SystemDefect> {
-        let mut component = 0;
-        while component < self.components.len() {
-            // After `DEPTH` steps along rendezvous nothing may be left to reach.
-            if self.reaches(component as u16, DEPTH) {
-                return Some(SystemDefect::Circle { component: component as u16 });
-            }
-            component += 1;
-        }
-        None
-    }
-
-    const fn reaches(&self, from: u16, steps: usize) -> bool {
-        if steps == 0 {
-            return true;
-        }
-        let mut at = 0;
-        while at < self.links.len() {
-            let link = &self.links[at];
-            if matches!(link.delivery, Delivery::Now)
-                && link.from.component == from
-                && self.reaches(link.to.component, steps - 1)
-            {
-                return true;
-            }
-            at += 1;
-        }
-        false
     }
 }

@@ -66,34 +66,41 @@
 #[macro_export]
 macro_rules! system {
     (
+        $(@ $export:ident)?
         $(#[doc = $doc:expr])*
         $vis:vis mod $name:ident {
-            nets { $( $component:ident : $net:ident ),* $(,)? }
+            nets { $( $component:ident : $net:ident $(:: $net_in:ident)* ),* $(,)? }
             $(links { $(
-                $from:ident . $output:ident => $( $to:ident . $event:ident )&+ $(mail $capacity:literal)? $(now $($now:literal)?)? ;
+                $from:ident . $output:ident => $( $to:ident . $event:ident )&+
+                    $( $arrives:ident $( $capacity:expr )? )? ;
             )* })?
-            $(shared { $( $( $borrower:ident . $borrowed:ident )&+ = $owner:ident . $owned:ident ; )* })?
-            $(pending { $( $( $watcher:ident . $watches:ident )&+ = $box_owner:ident . $box_event:ident ; )* })?
-            $(clears { $( $clearer:ident . $clear_on:ident empties $( $cleared:ident . $clear_box:ident )&+ ; )* })?
+            $(shared { $(
+                $( $borrower:ident . $borrowed:ident )&+ = $owner:ident . $owned:ident ;
+            )* })?
+            $(pending { $(
+                $( $watcher:ident . $watches:ident )&+ = $box_owner:ident . $box_event:ident ;
+            )* })?
+            $(clears { $(
+                $clearer:ident . $clear_on:ident
+                    empties $( $cleared:ident . $clear_box:ident )&+ ;
+            )* })?
         }
     ) => {
-        $(#[doc = $doc])*
-        $vis mod $name {
-            #[allow(unused_imports)]
-            use super::*;
-            use $crate::player::code as system_code;
-            use $crate::system::source as system_source;
-
-            const NAME: &str = stringify!($name);
-            const COMPONENTS: &[$crate::system::Component<'static>] =
-                &[$( $crate::system::Component { name: stringify!($component), net: &$net::NET }, )*];
-
-            const LINKS: &[system_source::WrittenLink<'static>] = &[$( $( (
+        impl $crate::__private::system::Written for $name::Program {
+            const COMPONENTS: &'static [$crate::system::Component<'static>] = &[$(
+                $crate::system::Component {
+                    name: stringify!($component),
+                    net: &$net $(:: $net_in)* ::NET,
+                },
+            )*];
+            const LINKS: &'static [$crate::__private::system::WrittenLink<'static>] = &[$( $( (
                 (stringify!($from), stringify!($output)),
                 &[$( (stringify!($to), stringify!($event)), )+],
-                &[$( $capacity )?],
+                $crate::__system_delivery!(
+                    ($name $from $output) $( $arrives $( $capacity )? )?
+                ),
             ), )* )?];
-            const BINDINGS: &[system_source::WrittenBinding<'static>] = &[
+            const BINDINGS: &'static [$crate::__private::system::WrittenBinding<'static>] = &[
                 $( $( (
                     &[$( (stringify!($borrower), stringify!($borrowed)), )+],
                     (stringify!($owner), stringify!($owned)),
@@ -105,27 +112,61 @@ macro_rules! system {
                     true,
                 ), )* )?
             ];
+            const CLEARS: &'static [$crate::__private::system::WrittenClear<'static>] = &[
+                $( $( $( (
+                    (stringify!($clearer), stringify!($clear_on)),
+                    (stringify!($cleared), stringify!($clear_box)),
+                ), )+ )* )?
+            ];
+        }
+
+        $(#[doc = $doc])*
+        $vis mod $name {
+            #[allow(unused_imports)]
+            use super::*;
+            use $crate::__private::system as system_source;
+            use $crate::player::code as system_code;
+
+            $crate::__definition! {
+                ($) __system_extended [$($export)?] $name
+                { $( $component { $component: $net $(:: $net_in)*, } )* }
+                { $( $( $from.$output => $( $to.$event )&+ $( $arrives $( $capacity )? )?; )* )? }
+                { $( $( $( $borrower.$borrowed )&+ = $owner.$owned; )* )? }
+                { $( $( $( $watcher.$watches )&+ = $box_owner.$box_event; )* )? }
+                { $( $( $clearer.$clear_on empties $( $cleared.$clear_box )&+; )* )? }
+            }
+
+            const NAME: &str = stringify!($name);
+            const COMPONENTS: &[$crate::system::Component<'static>] =
+                <Program as system_source::Written>::COMPONENTS;
+            const LINKS: &[system_source::WrittenLink<'static>] =
+                <Program as system_source::Written>::LINKS;
+            const BINDINGS: &[system_source::WrittenBinding<'static>] =
+                <Program as system_source::Written>::BINDINGS;
+            const CLEARS: &[system_source::WrittenClear<'static>] =
+                <Program as system_source::Written>::CLEARS;
 
             /// The system as plain data.
             pub const SYSTEM: $crate::system::System<'static> = $crate::system::System {
                 name: NAME,
-                doc: $crate::net::source::doc(concat!($($doc,)* "")),
+                doc: $crate::__private::source::doc(concat!($($doc,)* "")),
                 components: COMPONENTS,
-                links: &system_source::links::<{ system_source::count_links(LINKS) }>(NAME, COMPONENTS, LINKS),
+                links: &system_source::links::<{ system_source::count_links(LINKS) }>(
+                    NAME, COMPONENTS, LINKS,
+                ),
                 bindings: &system_source::bindings::<{ system_source::count_bindings(BINDINGS) }>(
                     NAME, COMPONENTS, BINDINGS,
                 ),
-                clears: &[$( $( $( system_source::clear(
-                    NAME,
-                    COMPONENTS,
-                    (stringify!($clearer), stringify!($clear_on)),
-                    (stringify!($cleared), stringify!($clear_box)),
-                ), )+ )* )?],
+                clears: &system_source::clears::<{ CLEARS.len() }>(NAME, COMPONENTS, CLEARS),
             };
             /// How many words, clocks and slots its player has, and how long its packed lists
             /// are.
             pub const SIZE: system_code::Size = {
-                system_source::check(&SYSTEM);
+                system_source::check::<
+                    { SYSTEM.links.len() },
+                    { SYSTEM.bindings.len() },
+                    { COMPONENTS.len() },
+                >(&SYSTEM);
                 system_code::size_of(&SYSTEM)
             };
             // A static: of a constant each crate that uses it may keep a copy.
@@ -151,9 +192,9 @@ macro_rules! system {
             enum Number { $( $component, )* }
 
             /// An event of one of the nets.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub enum Event { $( $component($net::Event), )* }
+            pub enum Event { $( $component($net $(:: $net_in)* ::Event), )* }
 
             impl $crate::player::Kind for Event {
                 #[inline]
@@ -168,9 +209,9 @@ macro_rules! system {
             }
 
             /// A place of one of the nets.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub enum Place { $( $component($net::Place), )* }
+            pub enum Place { $( $component($net $(:: $net_in)* ::Place), )* }
 
             impl ::core::convert::From<Place> for $crate::system::Of<$crate::net::PlaceId> {
                 #[inline]
@@ -183,14 +224,14 @@ macro_rules! system {
             }
 
             /// What one of the nets says.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub enum Output { $( $component($net::Output), )* }
+            pub enum Output { $( $component($net $(:: $net_in)* ::Output), )* }
 
             /// The line of a transition of one of the nets.
-            #[allow(missing_docs, non_camel_case_types)]
+            #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub enum Transition { $( $component($net::Transition), )* }
+            pub enum Transition { $( $component($net $(:: $net_in)* ::Transition), )* }
 
             /// The system as a player runs it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -207,7 +248,7 @@ macro_rules! system {
                 ) -> Transition {
                     const ALL: &[fn($crate::system::Of<$crate::net::TransitionId>) -> Transition] =
                         &[$( |id| Transition::$component(
-                            $crate::player::Names::transition(&$net::Program, id),
+                            $crate::player::Names::transition(&$net $(:: $net_in)* ::Program, id),
                         ), )*];
                     ALL.get(usize::from(id.component)).unwrap_or(&ALL[0])(id)
                 }
@@ -218,7 +259,7 @@ macro_rules! system {
                     at: usize,
                 ) -> Option<Output> {
                     $( if id.component == Number::$component as u16 {
-                        let output = $crate::player::Names::output(&$net::Program, id, at);
+                        let output = $crate::player::Names::output(&$net $(:: $net_in)* ::Program, id, at);
                         return output.map(Output::$component);
                     } )*
                     None
@@ -247,6 +288,7 @@ macro_rules! system {
             }
 
             /// Runs the system; `M` is what events carry along.
+            #[allow(dead_code)]
             pub type Carrying<M> = $crate::player::Player<
                 Program,
                 { SIZE.words },
@@ -256,9 +298,11 @@ macro_rules! system {
             >;
 
             /// Runs the system.
+            #[allow(dead_code)]
             pub type Player = Carrying<()>;
 
             /// Runs the system and takes nothing to be proven: for stored markings.
+            #[allow(dead_code)]
             pub type Checked<M = ()> = $crate::player::Player<
                 $crate::player::Checked<Program>,
                 { SIZE.words },
@@ -268,10 +312,11 @@ macro_rules! system {
             >;
 
             /// A transition that has just fired, as an observer of the player is told.
+            #[allow(dead_code)]
             pub type Firing<'f, M = ()> = $crate::player::Firing<'f, Program, M>;
 
             /// The marked places of those nets that are state machines.
-            #[allow(missing_docs)]
+            #[allow(missing_docs, dead_code)]
             pub mod state {
                 #[allow(unused_imports)]
                 use super::*;
@@ -279,15 +324,57 @@ macro_rules! system {
                     #[inline]
                     pub fn $component<P, const W: usize, const C: usize, const S: usize, M>(
                         player: &$crate::player::Player<P, W, C, S, M>,
-                    ) -> $net::State
+                    ) -> $net $(:: $net_in)* ::State
                     where
                         P: $crate::player::Program<W, C, S>,
                         M: ::core::marker::Copy + ::core::default::Default,
                     {
-                        player.state_of::<$net::Program>(Number::$component as u16)
+                        player.state_of::<$net $(:: $net_in)* ::Program>(Number::$component as u16)
                     }
                 )*
             }
         }
+    };    // The same with a definition that other crates may extend.
+    ($(#[doc = $doc:expr])* #[macro_export] $vis:vis mod $name:ident $($rest:tt)+) => {
+        $crate::system! { @macro_export $(#[doc = $doc])* $vis mod $name $($rest)+ }
+    };
+    // Another system with more: its definition hands its sections over.
+    (
+        $(@ $export:ident)?
+        $(#[doc = $doc:expr])*
+        $vis:vis mod $name:ident extends $base:ident $(:: $base_in:ident)* { $($more:tt)* }
+    ) => {
+        $base $(:: $base_in)* ::definition! {
+            { $(@ $export)? $(#[doc = $doc])* $vis mod $name }
+            $base $(:: $base_in)* { $($more)* }
+        }
+    };
+}
+
+/// When a link delivers.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __system_delivery {
+    ($of:tt now) => {
+        $crate::system::Delivery::Now
+    };
+    (($system:ident $from:ident $output:ident) mail $capacity:expr) => {
+        $crate::__private::system::mail(
+            stringify!($system),
+            (stringify!($from), stringify!($output)),
+            !!($capacity) as i128,
+        )
+    };
+    (($system:ident $from:ident $output:ident) $($other:tt)*) => {
+        compile_error!(concat!(
+            "system `",
+            stringify!($system),
+            "`, link ",
+            stringify!($from),
+            ".",
+            stringify!($output),
+            ": say when it arrives: `now`, in the same step, or `mail 1`, ",
+            "at the turn of its receiver, in a mailbox with room for 1"
+        ))
     };
 }

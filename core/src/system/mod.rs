@@ -6,10 +6,12 @@
 //! component.
 
 pub(crate) mod data;
+pub(crate) mod defect;
 mod macros;
 #[allow(clippy::large_types_passed_by_value, reason = "texts live while compiling")]
-pub mod source;
+pub(crate) mod source;
+#[cfg(all(test, feature = "alloc"))]
+mod tests;
 
-pub use data::{
-    Binding, Clear, Component, DEPTH, Delivery, Link, Of, System, SystemDefect, Target,
-};
+pub use data::{Binding, Clear, Component, DEPTH, Delivery, Link, Of, System, Target};
+pub use defect::SystemDefect;

@@ -1,6 +1,7 @@
 //! Names of a system, looked up while compiling: what `system!` writes.
 
-use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, SystemDefect, Target};
+use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
+use super::defect::{Index, SystemDefect};
 use crate::net::text::{Text, distance, same};
 use crate::net::{EventId, OutputId, PlaceId, Signal};
 
@@ -32,23 +33,47 @@ const fn component(system: &str, components: &[Component<'_>], what: &str, port:
 }
 
 const fn signal(text: Text, net: &str, kind: &str, signals: &[Signal<'_>], name: &str) -> u32 {
-    let (mut best, mut least) = ("", 3);
     let mut at = 0;
     while at < signals.len() {
         if same(signals[at].name, name) {
             return at as u32;
         }
-        let far = distance(signals[at].name, name);
-        if far < least {
-            (best, least) = (signals[at].name, far);
-        }
         at += 1;
     }
-    let text = text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(name);
-    if best.is_empty() {
-        text.stop()
-    } else {
-        text.with("; did you mean ").name(best).with("?").stop()
+    let mut near = Near::to(name);
+    let mut at = 0;
+    while at < signals.len() {
+        near = near.or(signals[at].name);
+        at += 1;
+    }
+    near.stop(text, net, kind)
+}
+
+/// The name that is nearest to a misspelt one.
+struct Near<'n> {
+    name: &'n str,
+    best: &'n str,
+    least: usize,
+}
+
+impl<'n> Near<'n> {
+    const fn to(name: &'n str) -> Self {
+        Self { name, best: "", least: 3 }
+    }
+
+    const fn or(self, other: &'n str) -> Self {
+        let far = distance(other, self.name);
+        if far < self.least { Self { best: other, least: far, ..self } } else { self }
+    }
+
+    const fn stop(self, text: Text, net: &str, kind: &str) -> ! {
+        let text =
+            text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(self.name);
+        if self.best.is_empty() {
+            text.stop()
+        } else {
+            text.with("; did you mean ").name(self.best).with("?").stop()
+        }
     }
 }
 
@@ -70,32 +95,74 @@ pub const fn event(
 const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of<PlaceId> {
     let component = component(system, components, "shared", port);
     let net = components[component as usize].net;
-    let (mut best, mut least) = ("", 3);
     let mut at = 0;
     while at < net.places.len() {
         if same(net.places[at].name, port.1) {
             return Of { component, id: PlaceId(at as u32) };
         }
-        let far = distance(net.places[at].name, port.1);
-        if far < least {
-            (best, least) = (net.places[at].name, far);
-        }
         at += 1;
     }
-    let text = says(system, "shared", port)
-        .with("net ")
-        .name(net.name)
-        .with(" has no place ")
-        .name(port.1);
-    if best.is_empty() {
-        text.stop()
-    } else {
-        text.with("; did you mean ").name(best).with("?").stop()
+    let mut near = Near::to(port.1);
+    let mut at = 0;
+    while at < net.places.len() {
+        near = near.or(net.places[at].name);
+        at += 1;
+    }
+    near.stop(says(system, "shared", port), net.name, "place")
+}
+
+/// Where `system!` keeps what it read. It is implemented outside of the module that `system!` makes,
+/// so that nets can be those of an enclosing function.
+pub trait Written {
+    /// `nets`.
+    const COMPONENTS: &'static [Component<'static>];
+    /// `links`.
+    const LINKS: &'static [WrittenLink<'static>];
+    /// `shared` and `pending`.
+    const BINDINGS: &'static [WrittenBinding<'static>];
+    /// `clears`.
+    const CLEARS: &'static [WrittenClear<'static>];
+}
+
+/// The position of a net of a system; behind the last when there is none.
+pub const fn at<S: Written>(name: &str) -> u16 {
+    let mut at = 0;
+    while at < S::COMPONENTS.len() && !same(S::COMPONENTS[at].name, name) {
+        at += 1;
+    }
+    at as u16
+}
+
+/// Ends the compilation when an extension replaces a net that the system does not have.
+pub const fn replaced<S: Written>(system: &str, names: &[&str]) {
+    let mut known = 0;
+    while known < names.len() {
+        if at::<S>(names[known]) as usize == S::COMPONENTS.len() {
+            Text::new()
+                .with("system ")
+                .name(system)
+                .with(" has no net ")
+                .name(names[known])
+                .with(" that an extension could replace")
+                .stop()
+        }
+        known += 1;
     }
 }
 
-/// An item of `links`: an output, events, and the room of a mailbox when there is one.
-pub type WrittenLink<'n> = (Port<'n>, &'n [Port<'n>], &'n [u16]);
+/// A delivery by mail into a mailbox with so much room.
+pub const fn mail(system: &str, from: Port<'_>, capacity: i128) -> Delivery {
+    if capacity < 1 || capacity > u16::MAX as i128 {
+        says(system, "link", from).with("the room of a mailbox is from 1 to 65,535").stop()
+    }
+    Delivery::Mail { capacity: capacity as u16 }
+}
+
+/// An item of `links`: an output, events, and how they arrive.
+pub type WrittenLink<'n> = (Port<'n>, &'n [Port<'n>], Delivery);
+
+/// An item of `clears`: an event, and that whose mailbox it empties.
+pub type WrittenClear<'n> = (Port<'n>, Port<'n>);
 
 /// An item of `shared` or `pending`: shared places, the place or the event that they are bound to,
 /// and whether it is the mailbox of an event.
@@ -134,17 +201,12 @@ pub const fn links<const N: usize>(
     };
     let (mut links, mut count, mut at) = ([nothing; N], 0, 0);
     while at < written.len() {
-        let (from, to, capacity) = written[at];
+        let (from, to, delivery) = written[at];
         let component = component(system, components, "link", from);
         let net = components[component as usize].net;
         let output =
             OutputId(signal(says(system, "link", from), net.name, "output", net.outputs, from.1));
         let from = Of { component, id: output };
-        let delivery = if capacity.is_empty() {
-            Delivery::Now
-        } else {
-            Delivery::Mail { capacity: capacity[0] }
-        };
         let mut each = 0;
         while each < to.len() {
             links[count] = Link { from, to: event(system, components, "link", to[each]), delivery };
@@ -183,19 +245,27 @@ pub const fn bindings<const N: usize>(
     bindings
 }
 
-/// Makes an event empty a mailbox.
-pub const fn clear(
+/// The clears.
+pub const fn clears<const N: usize>(
     system: &str,
     components: &[Component<'_>],
-    on: Port<'_>,
-    mailbox: Port<'_>,
-) -> Clear {
-    let of = event(system, components, "clears", on);
-    let mailbox = event(system, components, "clears", mailbox);
-    if of.component != mailbox.component {
-        says(system, "clears", on).with("an event empties mailboxes of its own net only").stop();
+    written: &[WrittenClear<'_>],
+) -> [Clear; N] {
+    let nothing = Of { component: 0, id: EventId(0) };
+    let mut clears = [Clear { on: nothing, mailbox: EventId(0) }; N];
+    let mut at = 0;
+    while at < written.len() {
+        let on = event(system, components, "clears", written[at].0);
+        let mailbox = event(system, components, "clears", written[at].1);
+        if on.component != mailbox.component {
+            says(system, "clears", written[at].0)
+                .with("an event empties mailboxes of its own net only")
+                .stop();
+        }
+        clears[at] = Clear { on, mailbox: mailbox.id };
+        at += 1;
     }
-    Clear { on: of, mailbox: mailbox.id }
+    clears
 }
 
 const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
@@ -203,34 +273,57 @@ const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
     text.with(component.name).with(".").with(component.net.places[at.id.0 as usize].name)
 }
 
-/// Ends the compilation when something is wrong with a system.
-pub const fn check(system: &System<'_>) {
+/// Ends the compilation when something is wrong with a system of so many links, bindings and nets.
+pub const fn check<const L: usize, const B: usize, const N: usize>(system: &System<'_>) {
+    let mut index =
+        Index { links: &mut [(0, 0); L], bindings: &mut [(0, 0); B], chains: &mut [0; N] };
+    let Some(defect) = system.defect_by(&mut index) else { return };
     let text = Text::new().with("system ").name(system.name).with(": ");
-    match system.defect() {
-        None => {}
-        Some(SystemDefect::Net { .. }) => text.with("one of its nets is not sound").stop(),
-        Some(SystemDefect::UnknownId { list, at }) => text.with("number ").number(at as u64 + 1).with(" of the ")
-            .with(list).with(" names a mailbox of an event that does not arrive by mail").stop(),
-        Some(SystemDefect::TooLong) => text.with("it is too large").stop(),
-        Some(SystemDefect::Unbound(place)) => named(text.with("the shared place "), system, place)
-            .with(" belongs to nobody: say whose it is, as `shared { ").with(system.components[place.component as usize].name)
-            .with(".").with(system.components[place.component as usize].net.places[place.id.0 as usize].name)
-            .with(" = owner.place; }`").stop(),
-        Some(SystemDefect::Binding { at }) => named(text.with("the shared place "), system, system.bindings[at].shared)
-            .with(" is bound twice, or is no shared place, or to a place of another bound, or to a place that is shared itself").stop(),
-        Some(SystemDefect::Delivery { at }) => {
+    match defect {
+        SystemDefect::Net { .. } => text.with("one of its nets is not sound").stop(),
+        SystemDefect::UnknownId { list, at } => text
+            .with("number ")
+            .number(at as u64 + 1)
+            .with(" of the ")
+            .with(list)
+            .with(" names a mailbox of an event that does not arrive by mail")
+            .stop(),
+        SystemDefect::TooLong => text.with("it is too large").stop(),
+        SystemDefect::Unbound(place) => {
+            let text = named(text.with("the shared place "), system, place);
+            named(text.with(" belongs to nobody: say whose it is, as `shared { "), system, place)
+                .with(" = owner.place; }`")
+                .stop()
+        }
+        SystemDefect::Binding { at } => {
+            named(text.with("the shared place "), system, system.bindings[at].shared)
+                .with(" is bound twice, or is no shared place, or to a place of another bound, ")
+                .with("or to a place that is shared itself")
+                .stop()
+        }
+        SystemDefect::Delivery { at } => {
             let to = system.links[at].to;
             let component = &system.components[to.component as usize];
-            text.with("the links to ").with(component.name).with(".").with(component.net.events[to.id.0 as usize].name)
-                .with(" differ in how they deliver, or its mailbox has no room").stop()
+            text.with("the links to ")
+                .with(component.name)
+                .with(".")
+                .with(component.net.events[to.id.0 as usize].name)
+                .with(" differ in how they deliver, or its mailbox has no room")
+                .stop()
         }
-        Some(SystemDefect::Circle { component }) => text.with("`now` links lead from ")
+        SystemDefect::Circle { component } => text
+            .with("`now` links lead from ")
             .name(system.components[component as usize].name)
-            .with(" back to it, or on over more than 8 nets; use mail for one of them").stop(),
-        Some(SystemDefect::ChangesMailbox(of)) => {
+            .with(" back to it, or on over more than 8 nets; use mail for one of them")
+            .stop(),
+        SystemDefect::ChangesMailbox(of) => {
             let component = &system.components[of.component as usize];
-            text.with("transition ").with(component.name).with(".").with(component.net.transitions[of.id.0 as usize].name)
-                .with(" changes a shared place that is a mailbox; it can only be read").stop()
+            text.with("transition ")
+                .with(component.name)
+                .with(".")
+                .with(component.net.transitions[of.id.0 as usize].name)
+                .with(" changes a shared place that is a mailbox; it can only be read")
+                .stop()
         }
     }
 }

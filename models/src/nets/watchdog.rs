@@ -47,101 +47,97 @@
 //! assert_eq!(watchdog.tokens(Place::misses), 0);
 //! ```
 //!
-//! Modules differ in their numbers, so the net is a macro, [`watchdog!`](crate::watchdog!), and
-//! this one its first instance.
+//! Modules differ in their numbers, so a net can extend this one with its own:
+//!
+//! ```
+//! use cotama_core::{net, units::Millis};
+//! use cotama_models::nets::watchdog;
+//!
+//! net! {
+//!     /// Two late jobs in a row are a fault.
+//!     pub mod impatient extends watchdog { constants { MISSES: 2, DEADLINE: 8, EXTRA: 1 } }
+//! }
+//!
+//! let mut watchdog = impatient::Player::new();
+//! for start in [0, 10] {
+//!     assert!(watchdog.offer(Millis(start), &impatient::Event::Release).fired());
+//!     assert_eq!(watchdog.advance(Millis(start + 9)).fired, 2);
+//! }
+//! assert_eq!(watchdog.state(), impatient::State::Fault);
+//! ```
 
-/// Defines a watchdog with its own numbers: misses in a row that are a fault, the deadline after
-/// the release, and the extra time after the deadline. Its laws are checked as those of any net;
-/// see [`nets::watchdog`](crate::nets::watchdog).
-///
-/// ```
-/// cotama_models::watchdog! {
-///     /// Two late jobs in a row are a fault.
-///     pub mod impatient { misses: 2, deadline: 8 ms, extra: 1 ms }
-/// }
-/// use cotama_core::units::Millis;
-///
-/// let mut watchdog = impatient::Player::new();
-/// for start in [0, 10] {
-///     assert!(watchdog.offer(Millis(start), &impatient::Event::Release).fired());
-///     assert_eq!(watchdog.advance(Millis(start + 9)).fired, 2);
-/// }
-/// assert_eq!(watchdog.state(), impatient::State::Fault);
-/// ```
-#[macro_export]
-macro_rules! watchdog {
-    (
-        $(#[doc = $doc:literal])*
-        $vis:vis mod $name:ident { misses: $misses:tt, deadline: $deadline:tt ms, extra: $extra:tt ms $(,)? }
-    ) => {
-        ::cotama_core::net! {
-            $(#[doc = $doc])*
-            $vis mod $name {
-                places {
-                    /// No job of the module runs.
-                    Idle: 1,
-                    /// A job runs, and its deadline is ahead.
-                    Run,
-                    /// A job runs on in its extra time.
-                    Extra,
-                    /// The fault was reported; the module stands still until the supervisor has
-                    /// reacted.
-                    Fault,
-                }
-                counters {
-                    /// Deadlines missed in a row.
-                    misses: 0 of $misses,
-                }
-                events {
-                    /// The scheduler starts a job.
-                    Release,
-                    /// The job is done.
-                    Done,
-                    /// The contextual supervisor has dealt with the fault.
-                    CsAck,
-                }
-                outputs {
-                    /// The job is stopped; what it would have published is not.
-                    SkipJob,
-                    /// The module misses its deadlines persistently.
-                    RtFault,
-                }
-                transitions {
-                    w1 on Release: Idle => Run;
-                    w2 on Done [misses < $misses]: Run => Idle do misses = 0;
-                    /// The deadline.
-                    w3: Run => Extra do misses += 1 within $deadline..=$deadline ms;
-                    w4 on Done [misses < $misses]: Extra => Idle;
-                    /// The extra time is over.
-                    w5 [misses < $misses]: Extra => Idle emit SkipJob within $extra..=$extra ms;
-                    w6 on Done [misses == $misses]: Extra => Fault emit RtFault;
-                    /// The extra time is over, for the last time in a row.
-                    w7 [misses == $misses]: Extra => Fault emit SkipJob & RtFault within $extra..=$extra ms;
-                    w8 on CsAck [misses == $misses]: Fault => Idle do misses = 0;
-                }
-                ignore {
-                    Release in Run & Extra & Fault;
-                    Done in Idle & Fault;
-                    CsAck in Idle & Run & Extra;
-                }
-                laws {
-                    invariant(Idle & Run & Extra & Fault = 1);
-                    handles(all);
-                    deterministic;
-                    deadlock_free;
-                    always_can(Idle);
-                    always_can(Run);
-                    always_can(Fault);
-                }
-            }
-        }
-    };
-}
+use cotama_core::net;
 
 pub use self::watchdog::*;
 
-watchdog! {
+net! {
     /// The scheduler's watchdog for one module: three jobs in a row that miss their deadline are a
     /// fault.
-    mod watchdog { misses: 3, deadline: 100 ms, extra: 20 ms }
+    #[macro_export]
+    mod watchdog {
+        constants {
+            /// Misses in a row that are a fault.
+            MISSES: 3,
+            /// After the release, in milliseconds.
+            DEADLINE: 100,
+            /// After the deadline, in milliseconds.
+            EXTRA: 20,
+        }
+        places {
+            /// No job of the module runs.
+            Idle: 1,
+            /// A job runs, and its deadline is ahead.
+            Run,
+            /// A job runs on in its extra time.
+            Extra,
+            /// The fault was reported; the module stands still until the supervisor has
+            /// reacted.
+            Fault,
+        }
+        counters {
+            /// Deadlines missed in a row.
+            misses: 0 of MISSES,
+        }
+        events {
+            /// The scheduler starts a job.
+            Release,
+            /// The job is done.
+            Done,
+            /// The contextual supervisor has dealt with the fault.
+            CsAck,
+        }
+        outputs {
+            /// The job is stopped; what it would have published is not.
+            SkipJob,
+            /// The module misses its deadlines persistently.
+            RtFault,
+        }
+        transitions {
+            w1 on Release: Idle => Run;
+            w2 on Done [misses < MISSES]: Run => Idle do misses = 0;
+            /// The deadline.
+            w3: Run => Extra do misses += 1 within DEADLINE..=DEADLINE ms;
+            w4 on Done [misses < MISSES]: Extra => Idle;
+            /// The extra time is over.
+            w5 [misses < MISSES]: Extra => Idle emit SkipJob within EXTRA..=EXTRA ms;
+            w6 on Done [misses == MISSES]: Extra => Fault emit RtFault;
+            /// The extra time is over, for the last time in a row.
+            w7 [misses == MISSES]: Extra => Fault emit SkipJob & RtFault within EXTRA..=EXTRA ms;
+            w8 on CsAck [misses == MISSES]: Fault => Idle do misses = 0;
+        }
+        ignore {
+            Release in Run & Extra & Fault;
+            Done in Idle & Fault;
+            CsAck in Idle & Run & Extra;
+        }
+        laws {
+            invariant(Idle & Run & Extra & Fault = 1);
+            handles(all);
+            deterministic;
+            deadlock_free;
+            always_can(Idle);
+            always_can(Run);
+            always_can(Fault);
+        }
+    }
 }

@@ -1,23 +1,24 @@
 //! The executive of the core and the nets of its watchdogs do the same, event by event.
 
 use cotama_core::executive::{Executive, Happening, Task, Watchdog, What};
+use cotama_core::net;
 use cotama_core::player::{Outcome, Why};
 use cotama_core::units::{Micros, Millis};
-use cotama_models::watchdog;
+use cotama_models::nets::watchdog;
 use proptest::prelude::*;
 
-watchdog! {
+net! {
     /// The shipped numbers, within a period.
-    mod first { misses: 3, deadline: 80 ms, extra: 20 ms }
+    mod first extends watchdog { constants { DEADLINE: 80 } }
 }
-watchdog! {
+net! {
     /// Short and impatient.
-    mod second { misses: 2, deadline: 30 ms, extra: 10 ms }
+    mod second extends watchdog { constants { MISSES: 2, DEADLINE: 30, EXTRA: 10 } }
 }
-watchdog! {
+net! {
     /// Its extra time outlasts its period, so that a release may be refused, and the first miss is
     /// a fault.
-    mod third { misses: 1, deadline: 70 ms, extra: 25 ms }
+    mod third extends watchdog { constants { MISSES: 1, DEADLINE: 70, EXTRA: 25 } }
 }
 
 fn task(period: u64, cost: u64, net: (u64, u64, u8)) -> Task {

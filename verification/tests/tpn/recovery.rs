@@ -2,15 +2,16 @@
 //! when.
 
 use crate::bound;
+use cotama_core::net;
 use cotama_core::net::{Arc, Net, PlaceId};
-use cotama_models::cotama::recovery::NET;
+use cotama_models::cotama::recovery::{self, NET};
 use cotama_verification::check::{Model, Options, Verdict, check_all};
 use cotama_verification::property;
 use cotama_verification::tpn::{Interval, TimeNet, TimePlace, from_net};
 
-cotama_models::recovery! {
+net! {
     /// Short, and four times.
-    mod often { hold: 500 ms, returns: 4 }
+    mod often extends recovery { constants { HOLD: 500, RETURNS: 4 } }
 }
 
 /// The net with an observer that says when it likes what it likes; `first` and `second` are marked

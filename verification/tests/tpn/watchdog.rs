@@ -2,20 +2,21 @@
 //! deadlines.
 
 use crate::bound;
+use cotama_core::net;
 use cotama_core::net::{Arc, Net, PlaceId};
-use cotama_models::nets::watchdog::NET;
+use cotama_models::nets::watchdog::{self, NET};
 use cotama_verification::check::{Model, Options, Verdict, check_all};
 use cotama_verification::property;
 use cotama_verification::pt::Pt;
 use cotama_verification::tpn::{Interval, TimeNet, TimePlace, TimeTransition, from_net};
 
-cotama_models::watchdog! {
+net! {
     /// Its extra time ends with its period, so that no release waits.
-    mod within_period { misses: 3, deadline: 80 ms, extra: 20 ms }
+    mod within_period extends watchdog { constants { DEADLINE: 80 } }
 }
-cotama_models::watchdog! {
+net! {
     /// The first miss is a fault.
-    mod impatient { misses: 1, deadline: 30 ms, extra: 5 ms }
+    mod impatient extends watchdog { constants { MISSES: 1, DEADLINE: 30, EXTRA: 5 } }
 }
 
 /// The watchdog as it is defined, its events tied to a world: jobs are released each period, a

@@ -192,7 +192,7 @@ pub fn most_particles(
     Ok(left.and_then(|left| u32::try_from(left.0 / PARTICLE.0).ok()))
 }
 
-crate::watchdog! {
+cotama_core::net! {
     /// The watchdog of every module of the control loop.
-    pub mod loop_watchdog { misses: 3, deadline: 80 ms, extra: 20 ms }
+    pub mod loop_watchdog extends crate::nets::watchdog { constants { DEADLINE: 80 } }
 }

@@ -2,113 +2,88 @@
 
 use cotama_core::net;
 
-/// The contextual supervisor, and what else it may see, hear, say and do, and do at the floor of
-/// particles.
-macro_rules! contextual {
-    (
-        $(#[doc = $doc:literal])*
-        pub mod $name:ident {
-            shared { $($shared:tt)* }
-            events { $($events:tt)* }
-            outputs { $($outputs:tt)* }
-            transitions { $($lines:tt)* }
-            floor { $($floor:tt)* }
-        }
-    ) => {
-        net! {
-            $(#[doc = $doc])*
-            pub mod $name {
-                places {
-                    /// It decides at once.
-                    Ready: 1,
-                }
-                shared {
-                    planning, following, hand_over, teleprogrammed, teleoperated,
-                    optimal, reduced, odometric, degraded, avoiding,
-                    level: 2 of 2,
-                    wifi: true, mcl: true,
-                    $($shared)*
-                }
-                events {
-                    ambiguous, camera, collision,
-                    /// Any other failure that is hard where it happens.
-                    hard,
-                    /// The operator's avoidance is lost, and the sonars are not.
-                    avoidance,
-                    mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
-                    $($events)*
-                }
-                outputs { global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, adapt_sonar_teleoperation, $($outputs)* }
-                transitions {
-                    slow1 on slow [optimal & level >= 1]: Ready => Ready emit adapt_rt;
-                    slow2 on slow [reduced & level >= 1]: Ready => Ready emit adapt_rt;
-                    /// At the floor of particles localisation counts as lost.
-                    slow3 on slow [reduced & level < 1]: Ready => Ready do mcl = false $($floor)* emit adapt_mcl;
-                    mcl1 on mcl_lost [optimal]: Ready => Ready emit adapt_mcl;
-                    mcl2 on mcl_lost [reduced]: Ready => Ready emit adapt_mcl;
-                    sonar1 on sonar [following & !degraded]: Ready => Ready emit adapt_sonar;
-                    sonar2 on sonar [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
-                    avoidance on avoidance [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
-                    ambiguous1 on ambiguous [planning & wifi]: Ready => Ready emit local_event;
-                    ambiguous2 on ambiguous [planning & !wifi]: Ready => Ready emit global_event;
-                    ambiguous3 on ambiguous [following & wifi]: Ready => Ready emit local_event;
-                    ambiguous4 on ambiguous [following & !wifi]: Ready => Ready emit global_event;
-                    collision1 on collision [planning & wifi]: Ready => Ready emit local_event;
-                    collision2 on collision [planning & !wifi]: Ready => Ready emit global_event;
-                    collision3 on collision [degraded & wifi]: Ready => Ready emit local_event;
-                    collision4 on collision [degraded & !wifi]: Ready => Ready emit global_event;
-                    collision5 on collision [following & !degraded]: Ready => Ready emit adapt_bump;
-                    hard1 on hard [planning & wifi]: Ready => Ready emit local_event;
-                    hard2 on hard [planning & !wifi]: Ready => Ready emit global_event;
-                    hard3 on hard [following & wifi]: Ready => Ready emit local_event;
-                    hard4 on hard [following & !wifi]: Ready => Ready emit global_event;
-                    hard5 on hard [teleoperated & wifi]: Ready => Ready emit local_event;
-                    hard6 on hard [teleoperated & !wifi]: Ready => Ready emit global_event;
-                    planner1 on planner [planning & wifi]: Ready => Ready emit local_event;
-                    planner2 on planner [planning & !wifi]: Ready => Ready emit global_event;
-                    camera1 on camera [teleoperated & wifi]: Ready => Ready emit local_event;
-                    camera2 on camera [teleoperated & !wifi]: Ready => Ready emit global_event;
-                    wifi1 on wifi_lost [hand_over]: Ready => Ready emit global_event;
-                    wifi2 on wifi_lost [teleprogrammed]: Ready => Ready emit global_event;
-                    wifi3 on wifi_lost [teleoperated]: Ready => Ready emit global_event;
-                    vital on vital: Ready => Ready emit global_event;
-                    refusal1 on refusal [hand_over]: Ready => Ready emit global_event;
-                    refusal2 on refusal [teleprogrammed]: Ready => Ready emit global_event;
-                    refusal3 on refusal [teleoperated]: Ready => Ready emit global_event;
-                    $($lines)*
-                }
-                laws { left_to_checker; }
-            }
-        }
-    };
-}
-
-contextual! {
+net! {
     /// Contextual supervisor (Durand et al., TAROS 2010, Section IV): from a report, by its
     /// severity where the robot is and by what is still available, to an event for the adapter, the
     /// local or the global supervisor. What is not listed is acknowledged and recorded only.
     pub mod contextual {
-        shared {}
-        events {}
-        outputs {}
-        transitions {}
-        floor {}
+        places {
+            /// It decides at once.
+            Ready: 1,
+        }
+        shared {
+            planning, following, hand_over, teleprogrammed, teleoperated,
+            optimal, reduced, odometric, degraded, avoiding,
+            level: 2 of 2,
+            wifi: true, mcl: true,
+        }
+        events {
+            ambiguous, camera, collision,
+            /// Any other failure that is hard where it happens.
+            hard,
+            /// The operator's avoidance is lost, and the sonars are not.
+            avoidance,
+            mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
+        }
+        outputs { global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, adapt_sonar_teleoperation }
+        transitions {
+            slow1 on slow [optimal & level >= 1]: Ready => Ready emit adapt_rt;
+            slow2 on slow [reduced & level >= 1]: Ready => Ready emit adapt_rt;
+            /// At the floor of particles localisation counts as lost.
+            slow3 on slow [reduced & level < 1]: Ready => Ready do mcl = false emit adapt_mcl;
+            mcl1 on mcl_lost [optimal]: Ready => Ready emit adapt_mcl;
+            mcl2 on mcl_lost [reduced]: Ready => Ready emit adapt_mcl;
+            sonar1 on sonar [following & !degraded]: Ready => Ready emit adapt_sonar;
+            sonar2 on sonar [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
+            avoidance on avoidance [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
+            ambiguous1 on ambiguous [planning & wifi]: Ready => Ready emit local_event;
+            ambiguous2 on ambiguous [planning & !wifi]: Ready => Ready emit global_event;
+            ambiguous3 on ambiguous [following & wifi]: Ready => Ready emit local_event;
+            ambiguous4 on ambiguous [following & !wifi]: Ready => Ready emit global_event;
+            collision1 on collision [planning & wifi]: Ready => Ready emit local_event;
+            collision2 on collision [planning & !wifi]: Ready => Ready emit global_event;
+            collision3 on collision [degraded & wifi]: Ready => Ready emit local_event;
+            collision4 on collision [degraded & !wifi]: Ready => Ready emit global_event;
+            collision5 on collision [following & !degraded]: Ready => Ready emit adapt_bump;
+            hard1 on hard [planning & wifi]: Ready => Ready emit local_event;
+            hard2 on hard [planning & !wifi]: Ready => Ready emit global_event;
+            hard3 on hard [following & wifi]: Ready => Ready emit local_event;
+            hard4 on hard [following & !wifi]: Ready => Ready emit global_event;
+            hard5 on hard [teleoperated & wifi]: Ready => Ready emit local_event;
+            hard6 on hard [teleoperated & !wifi]: Ready => Ready emit global_event;
+            planner1 on planner [planning & wifi]: Ready => Ready emit local_event;
+            planner2 on planner [planning & !wifi]: Ready => Ready emit global_event;
+            camera1 on camera [teleoperated & wifi]: Ready => Ready emit local_event;
+            camera2 on camera [teleoperated & !wifi]: Ready => Ready emit global_event;
+            wifi1 on wifi_lost [hand_over]: Ready => Ready emit global_event;
+            wifi2 on wifi_lost [teleprogrammed]: Ready => Ready emit global_event;
+            wifi3 on wifi_lost [teleoperated]: Ready => Ready emit global_event;
+            vital on vital: Ready => Ready emit global_event;
+            refusal1 on refusal [hand_over]: Ready => Ready emit global_event;
+            refusal2 on refusal [teleprogrammed]: Ready => Ready emit global_event;
+            refusal3 on refusal [teleoperated]: Ready => Ready emit global_event;
+        }
+        laws { left_to_checker; }
     }
 }
 
-contextual! {
+net! {
     /// The contextual supervisor where modules may return: what is available again is for the
     /// adapter that runs without it. In every other place it is recorded only, since an adapter
     /// that starts looks at what is available. Assumed.
-    pub mod recovering_contextual {
+    pub mod recovering_contextual extends contextual {
         shared { given_up }
         events { sonar_back, avoidance_back, mcl_back }
         outputs { adapt_better, adapt_better_teleoperation }
+        instead {
+            /// At the floor of particles localisation counts as lost.
+            slow3 on slow [reduced & level < 1]: Ready => Ready
+                do mcl = false & given_up = true emit adapt_mcl;
+        }
         transitions {
             better1 on sonar_back [degraded]: Ready => Ready emit adapt_better;
             better2 on avoidance_back [teleoperated & !avoiding]: Ready => Ready emit adapt_better_teleoperation;
             better3 on mcl_back [odometric]: Ready => Ready emit adapt_better;
         }
-        floor { & given_up = true }
     }
 }

@@ -10,130 +10,110 @@ use super::status_vector::{observation, recovering_observation};
 use super::surroundings::{faults, operator, recovering_faults};
 use cotama_core::system;
 
-/// The decisional level of these nets, with further links and shared places.
-macro_rules! level {
-    (
-        $(#[doc = $doc:literal])*
-        pub mod $name:ident {
-            nets { $pf:ident, $to:ident, $gom:ident, $cs:ident, $faults:ident }
-            links { $($links:tt)* }
-            shared { $($shared:tt)* }
-        }
-    ) => {
-        system! {
-            $(#[doc = $doc])*
-            pub mod $name {
-                nets {
-                    gs: global,
-                    ls: local,
-                    pf: $pf,
-                    to: $to,
-                    permit: permit,
-                    gom: $gom,
-                    cs: $cs,
-                    faults: $faults,
-                    operator: operator,
-                }
-                links {
-                    gs.start_drive => ls.start_drive mail 1;
-                    gs.gs_abort => ls.gs_abort now;
-                    gs.halt => permit.halt now;
-                    ls.ended => ls.tick mail 1;
-                    ls.drive_done => gs.drive_done mail 1;
-                    ls.run_pp => gom.settle now;
-                    ls.pf_start => pf.pf_start & permit.grant & gom.settle now;
-                    ls.pf_stop => pf.pf_stop & permit.revoke now;
-                    ls.to_start => to.to_start & permit.grant now;
-                    ls.to_stop => to.to_stop & permit.revoke now;
-                    cs.global_event => gs.global_event mail 1;
-                    cs.local_event => ls.local_event mail 1;
-                    cs.adapt_rt => pf.adapt_rt mail 1;
-                    cs.adapt_mcl => pf.adapt_mcl mail 1;
-                    cs.adapt_sonar => pf.adapt_sonar mail 1;
-                    cs.adapt_bump => pf.adapt_bump mail 1;
-                    cs.adapt_sonar_teleoperation => to.adapt_sonar mail 1;
-                    gom.slow => cs.slow mail 1;
-                    gom.ambiguous => cs.ambiguous mail 1;
-                    gom.collision => cs.collision mail 1;
-                    gom.planner => cs.planner mail 1;
-                    gom.hard => cs.hard mail 1;
-                    gom.mcl_lost => cs.mcl_lost mail 1;
-                    gom.sonar_lost => cs.sonar mail 1;
-                    gom.avoidance_lost => cs.avoidance mail 1;
-                    gom.camera => cs.camera mail 1;
-                    gom.wifi_lost => cs.wifi_lost mail 1;
-                    gom.vital => cs.vital mail 1;
-                    faults.vital_flag => gom.vital_flag mail 1;
-                    faults.wifi_flag => gom.wifi_flag mail 1;
-                    faults.camera_flag => gom.camera_flag mail 1;
-                    faults.sonar_flag => gom.sonar_flag mail 1;
-                    faults.avoidance_flag => gom.avoidance_flag mail 1;
-                    faults.mcl_flag => gom.mcl_flag mail 1;
-                    faults.drift_flag => gom.drift_flag mail 1;
-                    faults.bumper_flag => gom.bumper_flag mail 1;
-                    faults.planner_flag => gom.planner_flag mail 1;
-                    faults.hard_flag => gom.hard_flag mail 1;
-                    faults.deadline_flag => gom.deadline_flag mail 1;
-                    operator.op_teleprogram => ls.op_teleprogram now;
-                    operator.op_teleoperate => ls.op_teleoperate now;
-                    operator.op_waypoints => ls.op_waypoints now;
-                    operator.op_path => ls.op_path now;
-                    operator.op_goal_reached => ls.op_goal_reached now;
-                    operator.refusal => cs.refusal mail 1;
-                    $($links)*
-                }
-                shared {
-                    ls.camera = gom.camera;
-                    ls.wifi & cs.wifi = gom.wifi;
-                    pf.sonar = gom.sonar;
-                    to.sonar = gom.avoidance;
-                    pf.mcl & cs.mcl = gom.mcl;
-                    operator.camera = faults.camera;
-                    operator.wifi = faults.wifi;
-                    cs.planning = ls.Planning;
-                    cs.following = ls.Following;
-                    cs.hand_over & operator.hand_over = ls.HandOver;
-                    cs.teleprogrammed & operator.teleprogrammed = ls.Teleprogrammed;
-                    cs.teleoperated & operator.teleoperated = ls.Teleoperated;
-                    cs.optimal = pf.Optimal;
-                    cs.reduced = pf.Reduced;
-                    cs.odometric = pf.Odometric;
-                    cs.degraded = pf.Degraded;
-                    cs.avoiding = to.Full;
-                    cs.level = pf.level;
-                    $($shared)*
-                }
-                pending {
-                    ls.local_pending = ls.local_event;
-                    ls.global_pending = gs.global_event;
-                }
-                clears {
-                    ls.gs_abort empties ls.local_event & ls.start_drive;
-                }
-            }
-        }
-    };
-}
-
-level! {
+system! {
     /// COTAMA's decisional level as it drives the robot, with everything that may fail and the
     /// operator. Events that no net here causes come from the robot and from whoever gives missions
     /// and objects.
     pub mod delivery {
-        nets { path_following, teleoperation, observation, contextual, faults }
-        links {}
-        shared {}
+        nets {
+            gs: global,
+            ls: local,
+            pf: path_following,
+            to: teleoperation,
+            permit: permit,
+            gom: observation,
+            cs: contextual,
+            faults: faults,
+            operator: operator,
+        }
+        links {
+            gs.start_drive => ls.start_drive mail 1;
+            gs.gs_abort => ls.gs_abort now;
+            gs.halt => permit.halt now;
+            ls.ended => ls.tick mail 1;
+            ls.drive_done => gs.drive_done mail 1;
+            ls.run_pp => gom.settle now;
+            ls.pf_start => pf.pf_start & permit.grant & gom.settle now;
+            ls.pf_stop => pf.pf_stop & permit.revoke now;
+            ls.to_start => to.to_start & permit.grant now;
+            ls.to_stop => to.to_stop & permit.revoke now;
+            cs.global_event => gs.global_event mail 1;
+            cs.local_event => ls.local_event mail 1;
+            cs.adapt_rt => pf.adapt_rt mail 1;
+            cs.adapt_mcl => pf.adapt_mcl mail 1;
+            cs.adapt_sonar => pf.adapt_sonar mail 1;
+            cs.adapt_bump => pf.adapt_bump mail 1;
+            cs.adapt_sonar_teleoperation => to.adapt_sonar mail 1;
+            gom.slow => cs.slow mail 1;
+            gom.ambiguous => cs.ambiguous mail 1;
+            gom.collision => cs.collision mail 1;
+            gom.planner => cs.planner mail 1;
+            gom.hard => cs.hard mail 1;
+            gom.mcl_lost => cs.mcl_lost mail 1;
+            gom.sonar_lost => cs.sonar mail 1;
+            gom.avoidance_lost => cs.avoidance mail 1;
+            gom.camera => cs.camera mail 1;
+            gom.wifi_lost => cs.wifi_lost mail 1;
+            gom.vital => cs.vital mail 1;
+            faults.vital_flag => gom.vital_flag mail 1;
+            faults.wifi_flag => gom.wifi_flag mail 1;
+            faults.camera_flag => gom.camera_flag mail 1;
+            faults.sonar_flag => gom.sonar_flag mail 1;
+            faults.avoidance_flag => gom.avoidance_flag mail 1;
+            faults.mcl_flag => gom.mcl_flag mail 1;
+            faults.drift_flag => gom.drift_flag mail 1;
+            faults.bumper_flag => gom.bumper_flag mail 1;
+            faults.planner_flag => gom.planner_flag mail 1;
+            faults.hard_flag => gom.hard_flag mail 1;
+            faults.deadline_flag => gom.deadline_flag mail 1;
+            operator.op_teleprogram => ls.op_teleprogram now;
+            operator.op_teleoperate => ls.op_teleoperate now;
+            operator.op_waypoints => ls.op_waypoints now;
+            operator.op_path => ls.op_path now;
+            operator.op_goal_reached => ls.op_goal_reached now;
+            operator.refusal => cs.refusal mail 1;
+        }
+        shared {
+            ls.camera = gom.camera;
+            ls.wifi & cs.wifi = gom.wifi;
+            pf.sonar = gom.sonar;
+            to.sonar = gom.avoidance;
+            pf.mcl & cs.mcl = gom.mcl;
+            operator.camera = faults.camera;
+            operator.wifi = faults.wifi;
+            cs.planning = ls.Planning;
+            cs.following = ls.Following;
+            cs.hand_over & operator.hand_over = ls.HandOver;
+            cs.teleprogrammed & operator.teleprogrammed = ls.Teleprogrammed;
+            cs.teleoperated & operator.teleoperated = ls.Teleoperated;
+            cs.optimal = pf.Optimal;
+            cs.reduced = pf.Reduced;
+            cs.odometric = pf.Odometric;
+            cs.degraded = pf.Degraded;
+            cs.avoiding = to.Full;
+            cs.level = pf.level;
+        }
+        pending {
+            ls.local_pending = ls.local_event;
+            ls.global_pending = gs.global_event;
+        }
+        clears {
+            ls.gs_abort empties ls.local_event & ls.start_drive;
+        }
     }
 }
 
-level! {
+system! {
     /// COTAMA's decisional level where sonars, the operator's avoidance and localisation may
     /// return: then adapters go up again. Assumed, and off unless a mission asks for it: the paper
     /// states no such transition. The rest is [`delivery`].
-    pub mod recovering {
-        nets {
-            recovering_path_following, recovering_teleoperation, recovering_observation, recovering_contextual,
-            recovering_faults
+    pub mod recovering extends delivery {
+        instead {
+            pf: recovering_path_following,
+            to: recovering_teleoperation,
+            gom: recovering_observation,
+            cs: recovering_contextual,
+            faults: recovering_faults,
         }
         links {
             cs.adapt_better => pf.adapt_better mail 1;

@@ -139,86 +139,62 @@ net! {
     }
 }
 
-/// The adapter of path following, and what else it may hear, say and do.
-macro_rules! path_following {
-    (
-        $(#[doc = $doc:literal])*
-        pub mod $name:ident {
-            events { $($events:tt)* }
-            outputs { $($outputs:tt)* }
-            transitions { $($lines:tt)* }
-            ignore { $($ignored:tt)* }
-        }
-    ) => {
-        net! {
-            $(#[doc = $doc])*
-            pub mod $name {
-                places {
-                    /// Not running.
-                    Off: 1,
-                    /// All modules, all particles.
-                    Optimal,
-                    /// All modules, fewer particles.
-                    Reduced,
-                    /// Odometry in place of Monte Carlo localisation.
-                    Odometric,
-                    /// No avoidance, no localisation, lower speed.
-                    Degraded,
-                }
-                counters {
-                    /// Particles: full, fewer, floor.
-                    level: 2 of 2,
-                }
-                shared { sonar: true, mcl: true }
-                events { adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, pf_start, pf_stop, $($events)* }
-                outputs { limit_speed, reduce_particles, $($outputs)* }
-                transitions {
-                    a1 on pf_start [sonar & mcl]: Off => Optimal;
-                    a2 on pf_start [sonar & !mcl]: Off => Odometric;
-                    a3 on pf_start [!sonar]: Off => Degraded emit limit_speed;
-                    a4 on adapt_rt: Optimal => Reduced do level -= 1 emit reduce_particles;
-                    a5 on adapt_rt: Reduced => Reduced do level -= 1 emit reduce_particles;
-                    a6 on adapt_mcl: Optimal => Odometric do level = 2;
-                    a7 on adapt_mcl: Reduced => Odometric do level = 2;
-                    a8 on adapt_sonar: Optimal => Degraded do level = 2 emit limit_speed;
-                    a9 on adapt_sonar: Reduced => Degraded do level = 2 emit limit_speed;
-                    a10 on adapt_sonar: Odometric => Degraded emit limit_speed;
-                    a11 on adapt_bump: Optimal => Optimal emit limit_speed;
-                    a12 on adapt_bump: Reduced => Reduced emit limit_speed;
-                    a13 on adapt_bump: Odometric => Odometric emit limit_speed;
-                    as1 on pf_stop: Optimal => Off do level = 2;
-                    as2 on pf_stop: Reduced => Off do level = 2;
-                    as3 on pf_stop: Odometric => Off;
-                    as4 on pf_stop: Degraded => Off;
-                    $($lines)*
-                }
-                ignore { adapt_rt in Off; adapt_mcl in Off; adapt_sonar in Off; adapt_bump in Off; pf_stop in Off; $($ignored)* }
-                laws {
-                    invariant(Off & Optimal & Reduced & Odometric & Degraded = 1);
-                    always_can(Off);
-                    deadlock_free;
-                    deterministic;
-                }
-            }
-        }
-    };
-}
-
-path_following! {
+net! {
     /// Adapter supervisor of autonomous path following (Durand et al., TAROS 2010, Fig. 4): which
     /// modules, and how many particles.
     pub mod path_following {
-        events {}
-        outputs {}
-        transitions {}
-        ignore {}
+        places {
+            /// Not running.
+            Off: 1,
+            /// All modules, all particles.
+            Optimal,
+            /// All modules, fewer particles.
+            Reduced,
+            /// Odometry in place of Monte Carlo localisation.
+            Odometric,
+            /// No avoidance, no localisation, lower speed.
+            Degraded,
+        }
+        counters {
+            /// Particles: full, fewer, floor.
+            level: 2 of 2,
+        }
+        shared { sonar: true, mcl: true }
+        events { adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, pf_start, pf_stop }
+        outputs { limit_speed, reduce_particles }
+        transitions {
+            a1 on pf_start [sonar & mcl]: Off => Optimal;
+            a2 on pf_start [sonar & !mcl]: Off => Odometric;
+            a3 on pf_start [!sonar]: Off => Degraded emit limit_speed;
+            a4 on adapt_rt: Optimal => Reduced do level -= 1 emit reduce_particles;
+            a5 on adapt_rt: Reduced => Reduced do level -= 1 emit reduce_particles;
+            a6 on adapt_mcl: Optimal => Odometric do level = 2;
+            a7 on adapt_mcl: Reduced => Odometric do level = 2;
+            a8 on adapt_sonar: Optimal => Degraded do level = 2 emit limit_speed;
+            a9 on adapt_sonar: Reduced => Degraded do level = 2 emit limit_speed;
+            a10 on adapt_sonar: Odometric => Degraded emit limit_speed;
+            a11 on adapt_bump: Optimal => Optimal emit limit_speed;
+            a12 on adapt_bump: Reduced => Reduced emit limit_speed;
+            a13 on adapt_bump: Odometric => Odometric emit limit_speed;
+            as1 on pf_stop: Optimal => Off do level = 2;
+            as2 on pf_stop: Reduced => Off do level = 2;
+            as3 on pf_stop: Odometric => Off;
+            as4 on pf_stop: Degraded => Off;
+        }
+        ignore { adapt_rt in Off; adapt_mcl in Off; adapt_sonar in Off; adapt_bump in Off; pf_stop in Off; }
+        laws {
+            invariant(Off & Optimal & Reduced & Odometric & Degraded = 1);
+            always_can(Off);
+            deadlock_free;
+            deterministic;
+        }
     }
 }
 
-path_following! {
+net! {
     /// The adapter of path following where modules may return: it goes up again when it is told so
     /// and what it needs is there. Assumed: the paper states no such transition.
-    pub mod recovering_path_following {
+    pub mod recovering_path_following extends path_following {
         events {
             /// More is available again than it uses.
             adapt_better,
@@ -236,59 +212,35 @@ path_following! {
     }
 }
 
-/// The adapter of teleoperation, and what else it may hear, say and do.
-macro_rules! teleoperation {
-    (
-        $(#[doc = $doc:literal])*
-        pub mod $name:ident {
-            events { $($events:tt)* }
-            outputs { $($outputs:tt)* }
-            transitions { $($lines:tt)* }
-            ignore { $($ignored:tt)* }
-        }
-    ) => {
-        net! {
-            $(#[doc = $doc])*
-            pub mod $name {
-                places {
-                    /// Not running.
-                    Off: 1,
-                    /// With obstacle avoidance.
-                    Full,
-                    /// Without, at lower speed.
-                    Degraded,
-                }
-                shared { sonar: true }
-                events { adapt_sonar, to_start, to_stop, $($events)* }
-                outputs { limit_speed, $($outputs)* }
-                transitions {
-                    b1 on to_start [sonar]: Off => Full;
-                    b2 on to_start [!sonar]: Off => Degraded emit limit_speed;
-                    b3 on adapt_sonar: Full => Degraded emit limit_speed;
-                    bs1 on to_stop: Full => Off;
-                    bs2 on to_stop: Degraded => Off;
-                    $($lines)*
-                }
-                ignore { adapt_sonar in Off; to_stop in Off; $($ignored)* }
-                laws { invariant(Off & Full & Degraded = 1); always_can(Off); deadlock_free; deterministic; }
-            }
-        }
-    };
-}
-
-teleoperation! {
+net! {
     /// Adapter supervisor of teleoperation: with avoidance, or without.
     pub mod teleoperation {
-        events {}
-        outputs {}
-        transitions {}
-        ignore {}
+        places {
+            /// Not running.
+            Off: 1,
+            /// With obstacle avoidance.
+            Full,
+            /// Without, at lower speed.
+            Degraded,
+        }
+        shared { sonar: true }
+        events { adapt_sonar, to_start, to_stop }
+        outputs { limit_speed }
+        transitions {
+            b1 on to_start [sonar]: Off => Full;
+            b2 on to_start [!sonar]: Off => Degraded emit limit_speed;
+            b3 on adapt_sonar: Full => Degraded emit limit_speed;
+            bs1 on to_stop: Full => Off;
+            bs2 on to_stop: Degraded => Off;
+        }
+        ignore { adapt_sonar in Off; to_stop in Off; }
+        laws { invariant(Off & Full & Degraded = 1); always_can(Off); deadlock_free; deterministic; }
     }
 }
 
-teleoperation! {
+net! {
     /// The adapter of teleoperation where modules may return: with avoidance again. Assumed.
-    pub mod recovering_teleoperation {
+    pub mod recovering_teleoperation extends teleoperation {
         events {
             /// Avoidance is available again.
             adapt_better,

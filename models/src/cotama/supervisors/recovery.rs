@@ -30,86 +30,83 @@
 //! assert_eq!(sonar.advance(Millis(69_000)).fired, 1); // 10 s after it was last heard to be sound again
 //! assert_eq!(sonar.state(), State::Available);
 //! ```
+//!
+//! Modules differ in their numbers, so a net can extend this one with its own:
+//!
+//! ```
+//! use cotama_core::{net, units::Millis};
+//! use cotama_models::cotama::recovery;
+//!
+//! net! {
+//!     /// It may return once.
+//!     pub mod once extends recovery { constants { HOLD: 500, RETURNS: 1 } }
+//! }
+//!
+//! let mut camera = once::Player::new();
+//! assert!(camera.offer(Millis(0), &once::Event::lost).fired());
+//! assert!(camera.offer(Millis(100), &once::Event::sound).fired());
+//! assert_eq!(camera.advance(Millis(600)).fired, 1);
+//! assert!(camera.offer(Millis(700), &once::Event::lost).fired());
+//! assert_eq!(camera.state(), once::State::Gone);
+//! ```
 
-/// Defines the hysteresis of a module with its own numbers: how long it must be sound without a
-/// break before it counts as available again, and how often in a mission it may return. See
-/// [`cotama::recovery`](crate::cotama::recovery).
-///
-/// ```
-/// cotama_models::recovery! {
-///     /// It may return once.
-///     pub mod once { hold: 500 ms, returns: 1 }
-/// }
-/// use cotama_core::units::Millis;
-///
-/// let mut camera = once::Player::new();
-/// assert!(camera.offer(Millis(0), &once::Event::lost).fired());
-/// assert!(camera.offer(Millis(100), &once::Event::sound).fired());
-/// assert_eq!(camera.advance(Millis(600)).fired, 1);
-/// assert!(camera.offer(Millis(700), &once::Event::lost).fired());
-/// assert_eq!(camera.state(), once::State::Gone);
-/// ```
-#[macro_export]
-macro_rules! recovery {
-    (
-        $(#[doc = $doc:literal])*
-        $vis:vis mod $name:ident { hold: $hold:tt ms, returns: $returns:tt $(,)? }
-    ) => {
-        ::cotama_core::net! {
-            $(#[doc = $doc])*
-            $vis mod $name {
-                places {
-                    /// It can be used.
-                    Available: 1,
-                    /// It is lost.
-                    Lost,
-                    /// It is sound, and not yet for long enough.
-                    Settling,
-                    /// It is lost for good.
-                    Gone,
-                }
-                counters {
-                    /// How often it may still return.
-                    returns: $returns of $returns,
-                }
-                events {
-                    /// Its observer finds it faulty.
-                    lost,
-                    /// Its observer finds it sound.
-                    sound,
-                }
-                outputs {
-                    /// It counts as available again.
-                    restored,
-                }
-                transitions {
-                    r1 on lost [returns >= 1]: Available => Lost;
-                    r2 on lost [returns < 1]: Available => Gone;
-                    r3 on sound: Lost => Settling;
-                    r4 on lost: Settling => Lost;
-                    /// It was sound for long enough.
-                    r5: Settling => Available do returns -= 1 emit restored within $hold..=$hold ms;
-                }
-                ignore {
-                    lost in Lost & Gone;
-                    sound in Available & Settling & Gone;
-                }
-                laws {
-                    invariant(Available & Lost & Settling & Gone = 1);
-                    handles(all);
-                    deterministic;
-                    deadlock_free_except(Gone);
-                    always_can(Gone);
-                }
-            }
-        }
-    };
-}
+use cotama_core::net;
 
 pub use self::recovery::*;
 
-recovery! {
+net! {
     /// The hysteresis before a module counts as available again: sound for ten seconds without a
     /// break, twice in a mission.
-    mod recovery { hold: 10_000 ms, returns: 2 }
+    #[macro_export]
+    mod recovery {
+        constants {
+            /// How long it must be sound without a break, in milliseconds.
+            HOLD: 10_000,
+            /// How often in a mission it may return.
+            RETURNS: 2,
+        }
+        places {
+            /// It can be used.
+            Available: 1,
+            /// It is lost.
+            Lost,
+            /// It is sound, and not yet for long enough.
+            Settling,
+            /// It is lost for good.
+            Gone,
+        }
+        counters {
+            /// How often it may still return.
+            returns: RETURNS of RETURNS,
+        }
+        events {
+            /// Its observer finds it faulty.
+            lost,
+            /// Its observer finds it sound.
+            sound,
+        }
+        outputs {
+            /// It counts as available again.
+            restored,
+        }
+        transitions {
+            r1 on lost [returns >= 1]: Available => Lost;
+            r2 on lost [returns < 1]: Available => Gone;
+            r3 on sound: Lost => Settling;
+            r4 on lost: Settling => Lost;
+            /// It was sound for long enough.
+            r5: Settling => Available do returns -= 1 emit restored within HOLD..=HOLD ms;
+        }
+        ignore {
+            lost in Lost & Gone;
+            sound in Available & Settling & Gone;
+        }
+        laws {
+            invariant(Available & Lost & Settling & Gone = 1);
+            handles(all);
+            deterministic;
+            deadlock_free_except(Gone);
+            always_can(Gone);
+        }
+    }
 }

@@ -3,84 +3,7 @@
 
 use cotama_core::net;
 
-/// The observation module, and what else it may keep, hear, say and do.
-macro_rules! observation {
-    (
-        $(#[doc = $doc:literal])*
-        pub mod $name:ident {
-            flags { $($flags:tt)* }
-            events { $($events:tt)* }
-            outputs { $($outputs:tt)* }
-            transitions { $($lines:tt)* }
-        }
-    ) => {
-        net! {
-            $(#[doc = $doc])*
-            pub mod $name {
-                places {
-                    /// It diagnoses at once.
-                    Watching: 1,
-                }
-                flags {
-                    /// Localisation by particles is available, as far as is known.
-                    mcl: true,
-                    /// The sonars are.
-                    sonar: true,
-                    /// Avoidance for the operator is: it needs the sonars too.
-                    avoidance: true,
-                    /// The camera is.
-                    camera: true,
-                    /// The operator can be reached.
-                    wifi: true,
-                    /// Power, micro-controller and effectors are.
-                    vital: true,
-                    /// Several faults are possible, and it is not settled which.
-                    suspected: false,
-                    $($flags)*
-                }
-                events {
-                    /// The vital parts: power, micro-controller, effectors.
-                    vital_flag,
-                    wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
-                    /// Odometry and localisation drift apart while the robot goes backward for too
-                    /// long.
-                    drift_flag,
-                    bumper_flag, planner_flag,
-                    /// Any other failure whose severity is hard where it happens.
-                    hard_flag,
-                    /// Localisation misses its deadline persistently.
-                    deadline_flag,
-                    /// A path is planned or followed anew: what was suspected is settled, and may
-                    /// be suspected again.
-                    settle,
-                    $($events)*
-                }
-                outputs { vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision, planner, hard, slow, $($outputs)* }
-                transitions {
-                    vital on vital_flag [vital]: Watching => Watching do vital = false emit vital;
-                    wifi on wifi_flag [wifi]: Watching => Watching do wifi = false emit wifi_lost;
-                    camera on camera_flag [camera]: Watching => Watching do camera = false emit camera;
-                    sonar on sonar_flag [sonar]: Watching => Watching do sonar = false & mcl = false & avoidance = false emit sonar_lost;
-                    avoidance on avoidance_flag [avoidance]: Watching => Watching do avoidance = false emit avoidance_lost;
-                    mcl on mcl_flag [mcl]: Watching => Watching do mcl = false emit mcl_lost;
-                    drift on drift_flag [!suspected]: Watching => Watching do suspected = true emit ambiguous;
-                    bumper on bumper_flag: Watching => Watching emit collision;
-                    planner on planner_flag: Watching => Watching emit planner;
-                    hard on hard_flag: Watching => Watching emit hard;
-                    slow on deadline_flag: Watching => Watching emit slow;
-                    settled on settle [suspected]: Watching => Watching do suspected = false;
-                    $($lines)*
-                }
-                laws {
-                    invariant(Watching = 1);
-                    deterministic;
-                }
-            }
-        }
-    };
-}
-
-observation! {
+net! {
     /// Global observation module (Durand et al., TAROS 2010, Section V): collects flags, diagnoses,
     /// keeps the module status vector, and reports what is new. A flag that tells nothing new is
     /// ignored.
@@ -89,18 +12,69 @@ observation! {
     /// by particles and avoidance along; a diagnosis that is not unique makes its candidates
     /// suspect until the robot sets out again, and is reported once.
     pub mod observation {
-        flags {}
-        events {}
-        outputs {}
-        transitions {}
+        places {
+            /// It diagnoses at once.
+            Watching: 1,
+        }
+        flags {
+            /// Localisation by particles is available, as far as is known.
+            mcl: true,
+            /// The sonars are.
+            sonar: true,
+            /// Avoidance for the operator is: it needs the sonars too.
+            avoidance: true,
+            /// The camera is.
+            camera: true,
+            /// The operator can be reached.
+            wifi: true,
+            /// Power, micro-controller and effectors are.
+            vital: true,
+            /// Several faults are possible, and it is not settled which.
+            suspected: false,
+        }
+        events {
+            /// The vital parts: power, micro-controller, effectors.
+            vital_flag,
+            wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
+            /// Odometry and localisation drift apart while the robot goes backward for too
+            /// long.
+            drift_flag,
+            bumper_flag, planner_flag,
+            /// Any other failure whose severity is hard where it happens.
+            hard_flag,
+            /// Localisation misses its deadline persistently.
+            deadline_flag,
+            /// A path is planned or followed anew: what was suspected is settled, and may
+            /// be suspected again.
+            settle,
+        }
+        outputs { vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision, planner, hard, slow }
+        transitions {
+            vital on vital_flag [vital]: Watching => Watching do vital = false emit vital;
+            wifi on wifi_flag [wifi]: Watching => Watching do wifi = false emit wifi_lost;
+            camera on camera_flag [camera]: Watching => Watching do camera = false emit camera;
+            sonar on sonar_flag [sonar]: Watching => Watching do sonar = false & mcl = false & avoidance = false emit sonar_lost;
+            avoidance on avoidance_flag [avoidance]: Watching => Watching do avoidance = false emit avoidance_lost;
+            mcl on mcl_flag [mcl]: Watching => Watching do mcl = false emit mcl_lost;
+            drift on drift_flag [!suspected]: Watching => Watching do suspected = true emit ambiguous;
+            bumper on bumper_flag: Watching => Watching emit collision;
+            planner on planner_flag: Watching => Watching emit planner;
+            hard on hard_flag: Watching => Watching emit hard;
+            slow on deadline_flag: Watching => Watching emit slow;
+            settled on settle [suspected]: Watching => Watching do suspected = false;
+        }
+        laws {
+            invariant(Watching = 1);
+            deterministic;
+        }
     }
 }
 
-observation! {
+net! {
     /// The observation module where modules may return: what was lost is available again when it is
     /// said to be sound, and what it needs is. Assumed: the paper states no such transition.
     /// Whoever says so holds it back for long enough; see [`recovery`](crate::cotama::recovery).
-    pub mod recovering_observation {
+    pub mod recovering_observation extends observation {
         flags {
             /// Localisation was too slow at the floor of its particles, and counts as lost for
             /// good.

@@ -3,88 +3,64 @@
 
 use cotama_core::net;
 
-/// What may fail, and what else may happen.
-macro_rules! faults {
-    (
-        $(#[doc = $doc:literal])*
-        pub mod $name:ident {
-            events { $($events:tt)* }
-            outputs { $($outputs:tt)* }
-            transitions { $($lines:tt)* }
-        }
-    ) => {
-        net! {
-            $(#[doc = $doc])*
-            pub mod $name {
-                places {
-                    /// Anything may fail.
-                    Ready: 1,
-                }
-                flags {
-                    /// Localisation by particles works.
-                    mcl: true,
-                    /// The sonars work.
-                    sonar: true,
-                    /// The operator's avoidance works.
-                    avoidance: true,
-                    /// The camera works.
-                    camera: true,
-                    /// The operator can be reached.
-                    wifi: true,
-                    /// Power, micro-controller and effectors work.
-                    vital: true,
-                }
-                events {
-                    lose_vital, lose_wifi, lose_camera, lose_sonar, lose_avoidance, lose_mcl,
-                    /// Odometry and localisation drift apart; why is not known.
-                    drift,
-                    bump, no_path,
-                    /// Any other hard failure; also: no plan is left that keeps the limits of the
-                    /// mission.
-                    fail_hard,
-                    overload,
-                    $($events)*
-                }
-                outputs {
-                    vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
-                    drift_flag, bumper_flag, planner_flag, hard_flag, deadline_flag,
-                    $($outputs)*
-                }
-                transitions {
-                    vital on lose_vital [vital]: Ready => Ready do vital = false emit vital_flag;
-                    wifi on lose_wifi [wifi]: Ready => Ready do wifi = false emit wifi_flag;
-                    camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
-                    sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
-                    avoidance on lose_avoidance [avoidance]: Ready => Ready do avoidance = false emit avoidance_flag;
-                    mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
-                    drift on drift: Ready => Ready emit drift_flag;
-                    bump on bump: Ready => Ready emit bumper_flag;
-                    no_path on no_path: Ready => Ready emit planner_flag;
-                    hard on fail_hard: Ready => Ready emit hard_flag;
-                    slow on overload: Ready => Ready emit deadline_flag;
-                    $($lines)*
-                }
-                laws { left_to_checker; }
-            }
-        }
-    };
-}
-
-faults! {
+net! {
     /// Everything that may fail, at any time: what is lost stays lost, the rest may come again and
     /// again.
     pub mod faults {
-        events {}
-        outputs {}
-        transitions {}
+        places {
+            /// Anything may fail.
+            Ready: 1,
+        }
+        flags {
+            /// Localisation by particles works.
+            mcl: true,
+            /// The sonars work.
+            sonar: true,
+            /// The operator's avoidance works.
+            avoidance: true,
+            /// The camera works.
+            camera: true,
+            /// The operator can be reached.
+            wifi: true,
+            /// Power, micro-controller and effectors work.
+            vital: true,
+        }
+        events {
+            lose_vital, lose_wifi, lose_camera, lose_sonar, lose_avoidance, lose_mcl,
+            /// Odometry and localisation drift apart; why is not known.
+            drift,
+            bump, no_path,
+            /// Any other hard failure; also: no plan is left that keeps the limits of the
+            /// mission.
+            fail_hard,
+            overload,
+        }
+        outputs {
+            vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
+            drift_flag, bumper_flag, planner_flag, hard_flag, deadline_flag,
+        }
+        transitions {
+            vital on lose_vital [vital]: Ready => Ready do vital = false emit vital_flag;
+            wifi on lose_wifi [wifi]: Ready => Ready do wifi = false emit wifi_flag;
+            camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
+            sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
+            avoidance on lose_avoidance [avoidance]: Ready => Ready do avoidance = false emit avoidance_flag;
+            mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
+            drift on drift: Ready => Ready emit drift_flag;
+            bump on bump: Ready => Ready emit bumper_flag;
+            no_path on no_path: Ready => Ready emit planner_flag;
+            hard on fail_hard: Ready => Ready emit hard_flag;
+            slow on overload: Ready => Ready emit deadline_flag;
+        }
+        laws { left_to_checker; }
     }
 }
 
-faults! {
+net! {
     /// Everything that may fail, at any time; sonars, the operator's avoidance and localisation may
     /// return, at any time and any number of times, so that what holds here holds for every
     /// [`recovery`](crate::cotama::recovery) that holds them back.
-    pub mod recovering_faults {
+    pub mod recovering_faults extends faults {
         events { regain_sonar, regain_avoidance, regain_mcl }
         outputs { sonar_sound, avoidance_sound, mcl_sound }
         transitions {

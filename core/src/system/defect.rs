@@ -1,0 +1,373 @@
+//! Whether the lists of a system fit together, in time that grows with their length.
+
+use super::data::{Binding, Clear, DEPTH, Delivery, Link, Of, System, Target};
+use crate::net::data::{EventId, PlaceId, Role, TransitionId};
+use crate::net::defect::Defect;
+use core::fmt;
+
+/// What is wrong with a [`System`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum SystemDefect {
+    /// A net is not sound.
+    Net {
+        /// Which component.
+        component: u16,
+        /// What is wrong with its net.
+        defect: Defect,
+    },
+    /// A link, binding or clear at this position names something that is not there.
+    UnknownId {
+        /// In which list: links, bindings or clears.
+        list: &'static str,
+        /// Its position.
+        at: usize,
+    },
+    /// The lists are longer than 65,534.
+    TooLong,
+    /// A shared place has no binding.
+    Unbound(Of<PlaceId>),
+    /// A shared place has two bindings, or one of another bound, or is bound to a shared place.
+    Binding {
+        /// The position of the binding.
+        at: usize,
+    },
+    /// Two links to one event differ in delivery, or a mailbox has no room.
+    Delivery {
+        /// The position of the link.
+        at: usize,
+    },
+    /// A net would receive its own rendezvous, directly or through others, or through more than
+    /// [`DEPTH`] of them.
+    Circle {
+        /// The component where it begins.
+        component: u16,
+    },
+    /// A transition changes a shared place that is a mailbox.
+    ChangesMailbox(Of<TransitionId>),
+}
+
+impl fmt::Display for SystemDefect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::Net { component, defect } => write!(f, "net {component} is not sound: {defect}"),
+            Self::UnknownId { list, at } => write!(
+                f,
+                "entry {at} of the {list} names a net, an event, a place or a mailbox that is not \
+                 there"
+            ),
+            Self::TooLong => write!(f, "the system has too many parts to be played"),
+            Self::Unbound(Of { component, id }) => write!(
+                f,
+                "place {} of net {component} is shared and belongs to nobody; bind it to its owner",
+                id.0
+            ),
+            Self::Binding { at } => write!(
+                f,
+                "entry {at} of the bindings binds a place a second time, or one that is not \
+                 shared, or to a place of another bound or that is shared itself"
+            ),
+            Self::Delivery { at } => write!(
+                f,
+                "link {at} delivers in another way than an earlier link to the same event, or by \
+                 mail without room; give both the same delivery, and a mailbox room for one"
+            ),
+            Self::Circle { component } => write!(
+                f,
+                "rendezvous lead from net {component} back to it, or on over more than {DEPTH} \
+                 nets; let one of the links deliver by mail"
+            ),
+            Self::ChangesMailbox(Of { component, id }) => write!(
+                f,
+                "transition {} of net {component} changes a shared place that is a mailbox; it \
+                 can only be read",
+                id.0
+            ),
+        }
+    }
+}
+
+impl core::error::Error for SystemDefect {}
+
+/// Numbers of a component and of something of its net as one, and a position in a list.
+type Entry = (u64, u32);
+
+const fn key(component: u16, id: u32) -> u64 {
+    (component as u64) << 32 | id as u64
+}
+
+/// Where the links to an event, and the bindings of a place, are found: memory as long as the lists
+/// of the system.
+pub(super) struct Index<'i> {
+    /// As many as links.
+    pub(super) links: &'i mut [Entry],
+    /// As many as bindings.
+    pub(super) bindings: &'i mut [Entry],
+    /// As many as components: how many rendezvous can follow from one another.
+    pub(super) chains: &'i mut [u8],
+}
+
+impl Index<'_> {
+    const fn fill(&mut self, system: &System<'_>) {
+        let mut at = 0;
+        while at < system.links.len() {
+            let to = system.links[at].to;
+            self.links[at] = (key(to.component, to.id.0), at as u32);
+            at += 1;
+        }
+        let mut at = 0;
+        while at < system.bindings.len() {
+            let shared = system.bindings[at].shared;
+            self.bindings[at] = (key(shared.component, shared.id.0), at as u32);
+            at += 1;
+        }
+        sort(self.links);
+        sort(self.bindings);
+    }
+
+    const fn delivery(&self, system: &System<'_>, to: Of<EventId>) -> Option<Delivery> {
+        match first(self.links, key(to.component, to.id.0)) {
+            Some(at) => Some(system.links[at].delivery),
+            None => None,
+        }
+    }
+
+    const fn mailbox(&self, system: &System<'_>, of: Of<EventId>) -> Option<u16> {
+        match self.delivery(system, of) {
+            Some(Delivery::Mail { capacity }) => Some(capacity),
+            _ => None,
+        }
+    }
+
+    const fn binding(&self, shared: Of<PlaceId>) -> Option<usize> {
+        first(self.bindings, key(shared.component, shared.id.0))
+    }
+}
+
+/// Sorts by heap: n log n steps, no memory.
+const fn sort(list: &mut [Entry]) {
+    let (mut root, mut end) = (list.len() / 2, list.len());
+    while end > 1 {
+        if root > 0 {
+            root -= 1;
+        } else {
+            end -= 1;
+            list.swap(0, end);
+        }
+        let mut at = root;
+        while 2 * at + 1 < end {
+            let mut child = 2 * at + 1;
+            if child + 1 < end && less(list[child], list[child + 1]) {
+                child += 1;
+            }
+            if !less(list[at], list[child]) {
+                break;
+            }
+            list.swap(at, child);
+            at = child;
+        }
+    }
+}
+
+const fn less(a: Entry, b: Entry) -> bool {
+    a.0 < b.0 || a.0 == b.0 && a.1 < b.1
+}
+
+/// The first position of this key.
+const fn first(sorted: &[Entry], key: u64) -> Option<usize> {
+    let (mut from, mut to) = (0, sorted.len());
+    while from < to {
+        let middle = usize::midpoint(from, to);
+        if sorted[middle].0 < key {
+            from = middle + 1;
+        } else {
+            to = middle;
+        }
+    }
+    if from < sorted.len() && sorted[from].0 == key { Some(sorted[from].1 as usize) } else { None }
+}
+
+impl System<'_> {
+    /// What is wrong with it, if anything. Its nets are taken to be sound.
+    #[cfg(feature = "alloc")]
+    pub fn defect(&self) -> Option<SystemDefect> {
+        use alloc::vec;
+        self.defect_by(&mut Index {
+            links: &mut vec![(0, 0); self.links.len()],
+            bindings: &mut vec![(0, 0); self.bindings.len()],
+            chains: &mut vec![0; self.components.len()],
+        })
+    }
+
+    /// The same while compiling.
+    pub(super) const fn defect_by(&self, index: &mut Index<'_>) -> Option<SystemDefect> {
+        if self.is_alone() {
+            return None;
+        }
+        let most = u16::MAX as usize - 1;
+        if self.components.len() > most || self.links.len() > most || self.bindings.len() > most {
+            return Some(SystemDefect::TooLong);
+        }
+        index.fill(self);
+        let defects = [
+            self.link_defect(index),
+            self.clear_defect(index),
+            self.binding_defect(index),
+            self.unbound(index),
+            self.changed_mailbox(index),
+        ];
+        let mut at = 0;
+        while at < defects.len() {
+            if defects[at].is_some() {
+                return defects[at];
+            }
+            at += 1;
+        }
+        self.circle(index.chains)
+    }
+
+    const fn link_defect(&self, index: &Index<'_>) -> Option<SystemDefect> {
+        let mut at = 0;
+        while at < self.links.len() {
+            let Link { from, to, delivery } = self.links[at];
+            let net = self.net(from.component);
+            let known = matches!(net, Some(net) if (from.id.0 as usize) < net.outputs.len());
+            if !known || !self.has_event(to) {
+                return Some(SystemDefect::UnknownId { list: "links", at });
+            }
+            let same = match (index.delivery(self, to), delivery) {
+                (Some(Delivery::Now), Delivery::Now) => true,
+                (Some(Delivery::Mail { capacity: first }), Delivery::Mail { capacity }) => {
+                    first == capacity && capacity > 0
+                }
+                _ => false,
+            };
+            if !same {
+                return Some(SystemDefect::Delivery { at });
+            }
+            at += 1;
+        }
+        None
+    }
+
+    const fn clear_defect(&self, index: &Index<'_>) -> Option<SystemDefect> {
+        let mut at = 0;
+        while at < self.clears.len() {
+            let Clear { on, mailbox } = self.clears[at];
+            let mailbox = Of { component: on.component, id: mailbox };
+            if !self.has_event(on) || index.mailbox(self, mailbox).is_none() {
+                return Some(SystemDefect::UnknownId { list: "clears", at });
+            }
+            at += 1;
+        }
+        None
+    }
+
+    const fn binding_defect(&self, index: &Index<'_>) -> Option<SystemDefect> {
+        let mut at = 0;
+        while at < self.bindings.len() {
+            let Binding { shared, target } = self.bindings[at];
+            let bound = match target {
+                Target::Place(owner) if self.has_place(owner) => {
+                    let it = self.place(owner);
+                    match it.role {
+                        Role::Shared | Role::Complement(_) => 0,
+                        _ => it.bound,
+                    }
+                }
+                Target::Place(_) => return Some(SystemDefect::UnknownId { list: "bindings", at }),
+                Target::Mailbox(event) => match index.mailbox(self, event) {
+                    Some(capacity) => capacity as u32,
+                    None => return Some(SystemDefect::UnknownId { list: "bindings", at }),
+                },
+            };
+            if !self.has_place(shared) {
+                return Some(SystemDefect::UnknownId { list: "bindings", at });
+            }
+            let place = self.place(shared);
+            let once = matches!(index.binding(shared), Some(first) if first == at);
+            if !once || bound != place.bound || !matches!(place.role, Role::Shared) {
+                return Some(SystemDefect::Binding { at });
+            }
+            at += 1;
+        }
+        None
+    }
+
+    const fn unbound(&self, index: &Index<'_>) -> Option<SystemDefect> {
+        let mut component = 0;
+        while component < self.components.len() {
+            let places = self.components[component].net.places;
+            let mut place = 0;
+            while place < places.len() {
+                let of = Of { component: component as u16, id: PlaceId(place as u32) };
+                if matches!(places[place].role, Role::Shared) && index.binding(of).is_none() {
+                    return Some(SystemDefect::Unbound(of));
+                }
+                place += 1;
+            }
+            component += 1;
+        }
+        None
+    }
+
+    /// A transition that would change a mailbox through a shared place.
+    const fn changed_mailbox(&self, index: &Index<'_>) -> Option<SystemDefect> {
+        let mut component = 0;
+        while component < self.components.len() {
+            let net = self.components[component].net;
+            let mut at = 0;
+            while at < net.transitions.len() {
+                let (take, give) = (net.transitions[at].take, net.transitions[at].give);
+                let mut arc = 0;
+                while arc < take.len() + give.len() {
+                    let arcs = if arc < take.len() { take } else { give };
+                    let place = arcs[if arc < take.len() { arc } else { arc - take.len() }].place;
+                    let place = match net.places[place.0 as usize].role {
+                        Role::Complement(of) => of,
+                        _ => place,
+                    };
+                    let component = component as u16;
+                    if let Some(binding) = index.binding(Of { component, id: place })
+                        && let Target::Mailbox(_) = self.bindings[binding].target
+                    {
+                        let id = TransitionId(at as u32);
+                        return Some(SystemDefect::ChangesMailbox(Of { component, id }));
+                    }
+                    arc += 1;
+                }
+                at += 1;
+            }
+            component += 1;
+        }
+        None
+    }
+
+    /// A rendezvous that comes back to where it began, or goes on too long. In each round every
+    /// link is followed once, so after [`DEPTH`] rounds each chain of so many links is found.
+    const fn circle(&self, chains: &mut [u8]) -> Option<SystemDefect> {
+        let mut round = 0;
+        while round < DEPTH {
+            let mut at = 0;
+            while at < self.links.len() {
+                let Link { from, to, delivery } = self.links[at];
+                let follow = chains[to.component as usize];
+                let from = &mut chains[from.component as usize];
+                if matches!(delivery, Delivery::Now) && *from <= follow && (*from as usize) < DEPTH
+                {
+                    *from = if (follow as usize) < DEPTH { follow + 1 } else { follow };
+                }
+                at += 1;
+            }
+            round += 1;
+        }
+        let mut component = 0;
+        while component < chains.len() {
+            if chains[component] as usize == DEPTH {
+                return Some(SystemDefect::Circle { component: component as u16 });
+            }
+            component += 1;
+        }
+        None
+    }
+}

@@ -1,0 +1,149 @@
+//! Stories of systems that fit together, or do not.
+
+use super::{Binding, Clear, Component, Delivery, Link, Of, System, SystemDefect, Target};
+use crate::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+use crate::net::{EventId, Net, OutputId, PlaceId, Role, TransitionId};
+use crate::{net, system};
+use std::string::ToString;
+use std::vec::Vec;
+
+net! {
+    /// Passes ten signals on.
+    mod relay {
+        places { On: 1 }
+        events { e0, e1, e2, e3, e4, e5, e6, e7, e8, e9 }
+        outputs { o0, o1, o2, o3, o4, o5, o6, o7, o8, o9 }
+        transitions {
+            t0 on e0: On => On emit o0;
+            t1 on e1: On => On emit o1;
+            t2 on e2: On => On emit o2;
+            t3 on e3: On => On emit o3;
+            t4 on e4: On => On emit o4;
+            t5 on e5: On => On emit o5;
+            t6 on e6: On => On emit o6;
+            t7 on e7: On => On emit o7;
+            t8 on e8: On => On emit o8;
+            t9 on e9: On => On emit o9;
+        }
+    }
+}
+
+// Six nets in a chain: as many paths as 10^5.
+system! {
+    /// Six relays, ten rendezvous from each to the next.
+    mod chain {
+        nets { a: relay, b: relay, c: relay, d: relay, e: relay, f: relay }
+        links {
+            a.o0 => b.e0 now; a.o1 => b.e1 now; a.o2 => b.e2 now; a.o3 => b.e3 now;
+            a.o4 => b.e4 now; a.o5 => b.e5 now; a.o6 => b.e6 now;
+            a.o7 => b.e7 now; a.o8 => b.e8 now; a.o9 => b.e9 now;
+            b.o0 => c.e0 now; b.o1 => c.e1 now; b.o2 => c.e2 now; b.o3 => c.e3 now;
+            b.o4 => c.e4 now; b.o5 => c.e5 now; b.o6 => c.e6 now;
+            b.o7 => c.e7 now; b.o8 => c.e8 now; b.o9 => c.e9 now;
+            c.o0 => d.e0 now; c.o1 => d.e1 now; c.o2 => d.e2 now; c.o3 => d.e3 now;
+            c.o4 => d.e4 now; c.o5 => d.e5 now; c.o6 => d.e6 now;
+            c.o7 => d.e7 now; c.o8 => d.e8 now; c.o9 => d.e9 now;
+            d.o0 => e.e0 now; d.o1 => e.e1 now; d.o2 => e.e2 now; d.o3 => e.e3 now;
+            d.o4 => e.e4 now; d.o5 => e.e5 now; d.o6 => e.e6 now;
+            d.o7 => e.e7 now; d.o8 => e.e8 now; d.o9 => e.e9 now;
+            e.o0 => f.e0 now; e.o1 => f.e1 now; e.o2 => f.e2 now; e.o3 => f.e3 now;
+            e.o4 => f.e4 now; e.o5 => f.e5 now; e.o6 => f.e6 now;
+            e.o7 => f.e7 now; e.o8 => f.e8 now; e.o9 => f.e9 now;
+        }
+    }
+}
+
+#[test]
+fn parallel_rendezvous_are_followed_once() {
+    assert_eq!(chain::SYSTEM.links.len(), 50);
+    assert_eq!(chain::SYSTEM.defect(), None);
+}
+
+const fn of<T>(component: u16, id: T) -> Of<T> {
+    Of { component, id }
+}
+
+fn link(from: u16, to: u16, signal: u32, delivery: Delivery) -> Link {
+    Link { from: of(from, OutputId(signal)), to: of(to, EventId(signal)), delivery }
+}
+
+fn relays(count: usize) -> Vec<Component<'static>> {
+    std::vec![Component { name: "relay", net: &relay::NET }; count]
+}
+
+fn linked<'s>(components: &'s [Component<'s>], links: &'s [Link]) -> System<'s> {
+    System { name: "linked", doc: "", components, links, bindings: &[], clears: &[] }
+}
+
+#[test]
+fn a_chain_of_eight_rendezvous_is_too_long_and_one_of_seven_is_not() {
+    let components = relays(9);
+    let chain = |count| (0..count).map(|at| link(at, at + 1, 0, Delivery::Now)).collect::<Vec<_>>();
+    assert_eq!(linked(&components, &chain(7)).defect(), None);
+    assert_eq!(
+        linked(&components, &chain(8)).defect(),
+        Some(SystemDefect::Circle { component: 0 })
+    );
+    let mut back = chain(7);
+    back.push(link(3, 2, 1, Delivery::Now));
+    let defect = linked(&components, &back).defect();
+    assert_eq!(defect, Some(SystemDefect::Circle { component: 0 }));
+    back[0].delivery = Delivery::Mail { capacity: 1 };
+    let defect = linked(&components, &back).defect();
+    assert_eq!(defect, Some(SystemDefect::Circle { component: 1 }));
+    assert!(defect.unwrap().to_string().starts_with("rendezvous lead from net 1 back to it"));
+}
+
+/// A system of 65,000 links and as many places is looked through in less than a minute, which a
+/// look at every pair is not.
+#[test]
+fn large_systems_are_looked_through_at_once() {
+    let mut net = OwnedNet::new("large", "");
+    let mut owner = OwnedNet::new("owner", "");
+    for at in 0..65_000_u32 {
+        let name = at.to_string();
+        let place = OwnedPlace::new(&name, 0).at_most(1);
+        owner.place(place.clone()).unwrap();
+        net.place(OwnedPlace { role: Role::Shared, ..place }).unwrap();
+        net.event(&name, "").unwrap();
+        owner.output(&name, "").unwrap();
+        net.transition(OwnedTransition::new(&name).take(PlaceId(at), 1)).unwrap();
+    }
+    let (net, owner) = (net.view(), owner.view());
+    let (net, owner): (Net<'_>, Net<'_>) = (net.net(), owner.net());
+    let components =
+        [Component { name: "net", net: &net }, Component { name: "owner", net: &owner }];
+    let mail = Delivery::Mail { capacity: 1 };
+    let links: Vec<Link> = (0..65_000).rev().map(|at| link(1, 0, at, mail)).collect();
+    let bound =
+        |at| Binding { shared: of(0, PlaceId(at)), target: Target::Place(of(1, PlaceId(at))) };
+    let bindings: Vec<Binding> = (0..65_000).rev().map(bound).collect();
+    let clears = [Clear { on: of(0, EventId(1)), mailbox: EventId(2) }];
+    let whole = System {
+        name: "large",
+        doc: "",
+        components: &components,
+        links: &links,
+        bindings: &bindings,
+        clears: &clears,
+    };
+    assert_eq!(whole.defect(), None);
+    let unbound = System { bindings: &bindings[1..], ..whole };
+    assert_eq!(unbound.defect(), Some(SystemDefect::Unbound(of(0, PlaceId(64_999)))));
+    let unsent = System { links: &links[..64_000], ..whole };
+    assert_eq!(unsent.defect(), Some(SystemDefect::UnknownId { list: "clears", at: 0 }));
+
+    let mut other = links.clone();
+    (other[3].to, other[3].delivery) = (links[2].to, Delivery::Now);
+    let differ = System { links: &other, ..whole };
+    assert_eq!(differ.defect(), Some(SystemDefect::Delivery { at: 3 }));
+    let mut other = bindings.clone();
+    other[7].shared = bindings[6].shared;
+    let twice = System { bindings: &other, ..whole };
+    assert_eq!(twice.defect(), Some(SystemDefect::Binding { at: 7 }));
+    other[7] = bindings[7];
+    other[5].target = Target::Mailbox(of(0, EventId(64_994)));
+    let changed = System { bindings: &other, ..whole };
+    let transition = of(0, TransitionId(64_994));
+    assert_eq!(changed.defect(), Some(SystemDefect::ChangesMailbox(transition)));
+}
