@@ -240,7 +240,7 @@ macro_rules! net {
         }
 
         $(#[doc = $doc])*
-        #[allow(long_running_const_eval)]
+        #[allow(long_running_const_eval, unreachable_pub)]
         $vis mod $name {
             #[allow(unused_imports)]
             use super::*;

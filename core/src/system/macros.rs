@@ -121,6 +121,7 @@ macro_rules! system {
         }
 
         $(#[doc = $doc])*
+        #[allow(unreachable_pub)]
         $vis mod $name {
             #[allow(unused_imports)]
             use super::*;

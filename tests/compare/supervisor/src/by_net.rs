@@ -2,7 +2,7 @@
 
 use crate::{Event, Line, Outcome, State, Supervisor};
 use cotama_core::net;
-use cotama_core::player::Outcome::{Fired, Ignored};
+use cotama_core::player::Outcome::{Fired, Ignored, Refused};
 use cotama_core::units::Millis;
 
 net! {
@@ -106,7 +106,7 @@ impl Supervisor for drive::Player {
     fn offer(&mut self, now: u64, event: Event) -> Outcome {
         match Self::offer(self, Millis(now), &event.into()) {
             Fired { transition, settled } => Some((transition.into(), settled)),
-            Ignored { .. } => None,
+            Ignored { .. } | Refused { .. } => None,
         }
     }
 

@@ -2,7 +2,7 @@
 
 use crate::{Event, Line, Outcome, State, Supervisor};
 use cotama_core::net;
-use cotama_core::player::Outcome::{Fired, Ignored};
+use cotama_core::player::Outcome::{Fired, Ignored, Refused};
 use cotama_core::units::Millis;
 
 net! {
@@ -80,7 +80,7 @@ impl Supervisor for drive::Player {
         match Self::offer(self, Millis(now), &event.into()) {
             // Which line is not asked for: only the cost is.
             Fired { settled, .. } => Some((Line::Start, settled)),
-            Ignored { .. } => None,
+            Ignored { .. } | Refused { .. } => None,
         }
     }
 
