@@ -166,7 +166,8 @@ fn fill(
         Verdict::Missed => answer.reason = Some(infeasible::missed("use `--allocator exact`")),
         Verdict::Unknown { .. } => {
             let text = format!(
-                "neither a plan nor the proof that there is none was found in {steps} steps: use more `--steps`"
+                "neither a plan nor the proof that there is none was found in {steps} steps: \
+                 use more `--steps`"
             );
             answer.reason = Some(Reason { text, ..Reason::default() });
         }

@@ -19,7 +19,8 @@
 //! let mut nodes = [Node::EMPTY; 16];
 //! let mut front = Front::new(&mut nodes);
 //! let plans = front.find(&problem).unwrap();
-//! assert_eq!(plans.len(), 3); // (2, 10, 5), (10, 2, 5) and (11, 3, 6); (3, 11, 6) is over the energy limit
+//! // (2, 10, 5), (10, 2, 5) and (11, 3, 6); (3, 11, 6) is over the energy limit.
+//! assert_eq!(plans.len(), 3);
 //! let mut plan = [0; 2];
 //! assert_eq!(plans.totals(0), Some(([2, 10], 5)));
 //! assert!(plans.plan(0, &mut plan));

@@ -18,7 +18,7 @@
 //! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling |
 //! | [`mod@system`] | several nets that work together |
 //! | [`player`] | plays a net or a system: events and time in, what fired out |
-//! | [`executive`] | periodic modules on one processor: their scheduler, its watchdog, and proofs that they are in time |
+//! | [`executive`] | periodic modules on one processor, their watchdogs, proofs of response times |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs

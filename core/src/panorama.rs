@@ -26,7 +26,9 @@
 //! let mut rule = Panorama::new(&mut caps);
 //!
 //! let duration_first = Problem::new(&activities, [6, 3], [0, 1]).unwrap();
-//! let Ok(Answer::Infeasible { shortfall, .. }) = rule.allocate(&duration_first, &mut plan) else { panic!("a plan") };
+//! let Ok(Answer::Infeasible { shortfall, .. }) = rule.allocate(&duration_first, &mut plan) else {
+//!     panic!("the rule finds a plan")
+//! };
 //! assert_eq!(shortfall, Shortfall::new(1, 3, 11)); // 11 mJ where 3 mJ is the limit
 //! let energy_first = Problem::new(&activities, [6, 3], [1, 0]).unwrap();
 //! assert!(matches!(rule.allocate(&energy_first, &mut plan), Ok(Answer::Planned(_))));

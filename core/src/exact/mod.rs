@@ -37,7 +37,9 @@
 //! let (mut items, mut stages) = ([Item::EMPTY; 5], [Stage::EMPTY; 2]);
 //! let mut exact = Exact::new(&[Objective::Least(1)], 1_000, &mut items, &mut stages);
 //! let mut plan = [0; 2];
-//! let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else { panic!("there is a plan") };
+//! let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut plan) else {
+//!     panic!("there is a plan")
+//! };
 //! assert_eq!((plan, planned.cost, planned.optimal), ([0, 2], [4, 5], true));
 //! ```
 

@@ -1,4 +1,5 @@
-//! A number for each limited sum: every axis, and the quality where an objective before has fixed it.
+//! A number for each limited sum: every axis, and the quality where an objective before has fixed
+//! it.
 
 /// One number for each axis and one for the quality.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

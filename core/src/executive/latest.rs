@@ -23,7 +23,8 @@ pub struct Publication {
 /// assert!(executive.step(ms(0)).is_some()); // the release
 /// let done = executive.complete(0, ms(50)).unwrap();
 /// pose.publish(done.publication().unwrap(), "in the corridor");
-/// assert_eq!(pose.read(ms(150)), Some((&"in the corridor", ms(100)))); // the consumer sees its age
+/// // The consumer sees its age.
+/// assert_eq!(pose.read(ms(150)), Some((&"in the corridor", ms(100))));
 ///
 /// // The next job hangs, until it is stopped: the old value stays and grows older.
 /// let mut last = None;
@@ -54,7 +55,8 @@ impl<T> Latest<T> {
     #[must_use]
     pub fn read(&self, now: Micros) -> Option<(&T, Micros)> {
         let (value, at) = self.last.as_ref()?;
-        Some((value, Micros(now.0.saturating_sub(at.0)))) // who is told the time late sees a fresh value
+        // Who is told the time late sees a fresh value.
+        Some((value, Micros(now.0.saturating_sub(at.0))))
     }
 
     /// The last value, unless it is older than this.

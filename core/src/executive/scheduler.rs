@@ -84,7 +84,7 @@ impl core::fmt::Display for NotRunning {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Self::Running(Some(task)) => {
-                write!(f, "not this task has the processor, task {task} has it")
+                write!(f, "task {task} has the processor, not this one")
             }
             Self::Running(None) => f.write_str("no task has the processor"),
             Self::Behind(due) => {
@@ -286,7 +286,8 @@ impl<const N: usize> Executive<N> {
             let deadline = (module.watchdog == Watchdog::Run)
                 .then(|| module.released.checked_add(task.deadline))
                 .flatten();
-            let end = Micros(task.deadline.0.saturating_add(task.extra.0)); // fits, in a task that makes sense
+            // Fits, in a task that makes sense.
+            let end = Micros(task.deadline.0.saturating_add(task.extra.0));
             let extra = (module.watchdog == Watchdog::Extra)
                 .then(|| module.released.checked_add(end))
                 .flatten();
@@ -317,7 +318,8 @@ impl<const N: usize> Executive<N> {
                 Due::Exhausted => What::Exhausted,
                 Due::Deadline => {
                     module.watchdog = Watchdog::Extra;
-                    module.misses = module.misses.saturating_add(1).min(of.patience); // is below it outside `Fault`
+                    // It is below the patience outside `Fault`.
+                    module.misses = module.misses.saturating_add(1).min(of.patience);
                     What::DeadlineMissed
                 }
                 Due::ExtraOver => What::Skipped { rt_fault: module.end(of) },
@@ -345,7 +347,8 @@ impl<const N: usize> Executive<N> {
         let passed = now.0.saturating_sub(self.now.0);
         let running = self.running().and_then(|task| self.modules.get_mut(task));
         if let Some(module) = running {
-            module.used = Micros(module.used.0.saturating_add(passed)); // no more than is left of the budget
+            // No more than is left of the budget.
+            module.used = Micros(module.used.0.saturating_add(passed));
         }
         self.now = self.now.max(now);
     }

@@ -126,13 +126,15 @@ impl core::fmt::Display for TaskError {
             Senseless::DeadlineAfterPeriod { deadline, period } => {
                 write!(
                     f,
-                    "its deadline, {deadline}, is after its period, {period}; at most the period is meant"
+                    "its deadline, {deadline}, is after its period, {period}; \
+                     at most the period is meant"
                 )
             }
             Senseless::NeverDone { cost, end } => {
                 write!(
                     f,
-                    "its cost, {cost}, is above deadline and extra time, {end}; no job would ever be done"
+                    "its cost, {cost}, is above deadline and extra time, {end}; \
+                     no job would ever be done"
                 )
             }
             Senseless::TooLong => f.write_str(

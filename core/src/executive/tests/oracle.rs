@@ -74,10 +74,13 @@ proptest! {
         match set.schedulable(Overruns::None) {
             Ok(()) => {
                 prop_assert!(late.is_empty());
-                let computed: Vec<u64> = set.response_times(Overruns::None).map(|it| it.unwrap().0).collect();
+                let times = set.response_times(Overruns::None);
+                let computed: Vec<u64> = times.map(|it| it.unwrap().0).collect();
                 prop_assert_eq!(computed, worst);
             }
-            Err(Unschedulable::Late { task, .. }) => prop_assert_eq!(late.iter().min(), Some(&task)),
+            Err(Unschedulable::Late { task, .. }) => {
+                prop_assert_eq!(late.iter().min(), Some(&task));
+            }
             Err(unknown) => prop_assert!(false, "{unknown}"),
         }
     }
@@ -88,9 +91,11 @@ proptest! {
         let mut needs = tasks.map(|task| task.cost.0);
         needs[one] = u64::MAX;
         let (worst, late) = observed(tasks, needs);
-        for (at, response) in TaskSet::new(&tasks).unwrap().response_times(Overruns::One).enumerate() {
+        let set = TaskSet::new(&tasks).unwrap();
+        for (at, response) in set.response_times(Overruns::One).enumerate() {
             let late = late.contains(&at);
-            prop_assert!(at == one || response.is_err() || !late && worst[at] <= response.unwrap().0);
+            let in_time = || !late && worst[at] <= response.unwrap().0;
+            prop_assert!(at == one || response.is_err() || in_time());
         }
 
         // Exact when the overrunning one can use all its extra time: it is in time as a task of its
@@ -112,7 +117,9 @@ proptest! {
     }
 
     #[test]
-    fn the_most_cost_is_the_last_that_a_search_upwards_finds(tasks in small::<3>(), task in 0..3_usize) {
+    fn the_most_cost_is_the_last_that_a_search_upwards_finds(
+        tasks in small::<3>(), task in 0..3_usize
+    ) {
         for overruns in [Overruns::None, Overruns::One, Overruns::All] {
             let holds = |cost: &u64| {
                 let mut tasks = tasks;
@@ -127,8 +134,10 @@ proptest! {
     #[test]
     fn more_overruns_are_never_better(tasks in small::<4>()) {
         let set = TaskSet::new(&tasks).unwrap();
-        let times = |overruns| set.response_times(overruns).map(|it| it.map_or(u64::MAX, |it| it.0));
-        for ((none, one), all) in times(Overruns::None).zip(times(Overruns::One)).zip(times(Overruns::All)) {
+        let times =
+            |overruns| set.response_times(overruns).map(|it| it.map_or(u64::MAX, |it| it.0));
+        let [none, one, all] = [Overruns::None, Overruns::One, Overruns::All].map(times);
+        for ((none, one), all) in none.zip(one).zip(all) {
             prop_assert!(none <= one && one <= all);
         }
     }

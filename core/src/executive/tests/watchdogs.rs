@@ -87,10 +87,16 @@ proptest! {
     /// time later.
     #[test]
     fn in_a_loop_one_overrunning_module_delays_the_others_by_at_most_its_extra_time(
-        costs in proptest::array::uniform4(1..20_u64), extra in 0..10_u64, one in 0..4_usize, need in 0..200_u64
+        costs in proptest::array::uniform4(1..20_u64),
+        extra in 0..10_u64,
+        one in 0..4_usize,
+        need in 0..200_u64
     ) {
         let tasks = costs.map(|cost| task(100, 90, cost, extra));
-        let ends = |needs| run(tasks, needs, 100).into_iter().filter(|it| it.what == What::Done).collect::<Vec<_>>();
+        let ends = |needs| {
+            let done = run(tasks, needs, 100).into_iter().filter(|it| it.what == What::Done);
+            done.collect::<Vec<_>>()
+        };
         let mut with = costs;
         with[one] = costs[one].max(need);
         for end in ends(with).iter().filter(|end| end.task != one) {
