@@ -439,6 +439,8 @@ macro_rules! net {
             }
 
             impl $crate::player::Program<{ CODE_SIZE.words }, { CODE_SIZE.clocks }> for Program {
+                const ALONE: bool = true;
+
                 #[inline]
                 fn code(&self) -> net_code::Code<'_, { CODE_SIZE.words }> {
                     CODE

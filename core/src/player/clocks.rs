@@ -72,11 +72,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         // In their order, so that of several due at one instant the first one goes first.
         for entry in code.row(code.timed(), &self.marking)? {
             let number = usize::from(entry.clock);
-            let (Some(clock), Some(&elapsed), Some(false)) =
-                (code.clocks.get(number), self.clocks.get(number), refused.get(number))
+            let (Some(clock), Some(&elapsed)) = (code.clocks.get(number), self.clocks.get(number))
             else {
                 continue;
             };
+            if S > 0 && refused.get(number) == Some(&true) {
+                continue;
+            }
             let waits = clock.earliest.saturating_sub(elapsed);
             if first.is_none_or(|(least, _)| waits < least) && self.can(&code, entry) {
                 first = Some((waits, entry));

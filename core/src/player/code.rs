@@ -332,6 +332,7 @@ impl<'c, const W: usize> Code<'c, W> {
     }
 
     /// Whether some place that ignores this event on purpose is marked.
+    #[inline]
     pub fn ignores(&self, marking: &[u64; W], event: usize) -> bool {
         self.ignored.iter().any(|&(ignored, place)| {
             usize::from(ignored) == event

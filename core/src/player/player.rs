@@ -91,21 +91,19 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         observer: &mut impl Observer<P, M>,
     ) -> Outcome<u16> {
         let code = self.program.code();
-        if C > 0 || !code.bounded || !code.is_alone() {
+        if C > 0 || !code.bounded || !Self::is_alone(&code) {
             if self.advance_with(now, observer).behind {
                 return Outcome::Ignored { why: Why::Behind };
             }
         } else {
-            // Nothing waits for an instant, and settling ends: only a step can have left something
-            // to fire.
-            self.rest(observer);
+            // Nothing waits for an instant, and what is proven has settled before.
             self.now = self.now.max(now);
         }
         let code = self.program.code();
         let Some(kind) = code.event_number(id) else {
             return Outcome::Ignored { why: Why::NoSuchEvent };
         };
-        if !code.is_alone() {
+        if !Self::is_alone(&code) {
             let outcome = self.deliver(kind as u16, event, carries, observer);
             return self.and_rest(outcome, observer);
         }
@@ -141,7 +139,9 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// due while a mailbox that it mails to is full waits until there is room. A time before the
     /// last one counts as the last one.
     pub fn advance_with(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
-        let fired = self.rest(observer);
+        // What is proven to settle has settled before.
+        let settled = P::ALONE && self.program.code().bounded;
+        let fired = if settled { 0 } else { self.rest(observer) };
         let mut advanced = Advanced { fired, behind: self.is_cut_short(fired) };
         let mut refused = [false; C];
         while !advanced.behind {
@@ -260,6 +260,12 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         state.map_or(N::STATES[0], |it| *it.1)
     }
 
+    /// Whether what an event does ends when its net has settled.
+    #[inline]
+    fn is_alone(code: &Code<'_, W>) -> bool {
+        P::ALONE || code.is_alone()
+    }
+
     /// Whether nothing fires at once by itself.
     pub(super) fn settled(&self, code: &Code<'_, W>) -> bool {
         code.rests(&self.marking) || self.urgent(code, 0).is_none()
@@ -268,14 +274,14 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Whether settling stopped before its end, having let so many transitions fire.
     fn is_cut_short(&self, fired: u32) -> bool {
         let code = self.program.code();
-        fired >= code.settle && !self.settled(&code)
+        !(P::ALONE && code.bounded) && fired >= code.settle && !self.settled(&code)
     }
 
     /// The position, at or after `from`, and the transition that fires next at once by itself.
     #[inline]
     fn urgent<'c>(&self, code: &Code<'c, W>, from: usize) -> Option<(usize, &'c Entry<W>)> {
         let first = code.first_urgent();
-        if code.is_alone() {
+        if Self::is_alone(code) {
             let entry = code.first(first, &self.marking, |it| self.can(code, it));
             return entry.map(|it| (0, it));
         }
@@ -311,7 +317,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         entry: &Entry<W>,
         observer: &mut impl Observer<P, M>,
     ) -> Option<u32> {
-        if self.program.code().is_alone() {
+        if Self::is_alone(&self.program.code()) {
             self.fire_alone(entry, None, None, M::default(), observer);
             return Some(0);
         }

@@ -48,6 +48,9 @@ pub trait Names {
 /// `W` is the number of words of a marking, `C` that of transitions with an interval, and `S` that
 /// of all that can wait in mailboxes: a player of other sizes does not compile.
 pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names {
+    /// Whether it is known to be a net alone: then a player carries no code for what connects nets.
+    const ALONE: bool;
+
     /// The packed system.
     fn code(&self) -> Code<'_, W>;
 
@@ -159,6 +162,8 @@ impl<const W: usize, const C: usize, const S: usize> Names for Loaded<'_, W, C, 
 }
 
 impl<const W: usize, const C: usize, const S: usize> Program<W, C, S> for Loaded<'_, W, C, S> {
+    const ALONE: bool = false;
+
     #[inline]
     fn code(&self) -> Code<'_, W> {
         self.code
@@ -215,6 +220,8 @@ impl<P, const W: usize, const C: usize, const S: usize> Program<W, C, S> for Che
 where
     P: Program<W, C, S>,
 {
+    const ALONE: bool = P::ALONE;
+
     #[inline]
     fn code(&self) -> Code<'_, W> {
         Code { bounded: false, settle: super::SETTLE, ..self.0.code() }

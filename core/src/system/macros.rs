@@ -270,6 +270,8 @@ macro_rules! system {
             impl $crate::player::Program<{ SIZE.words }, { SIZE.clocks }, { SIZE.slots }>
                 for Program
             {
+                const ALONE: bool = false;
+
                 #[inline]
                 fn code(&self) -> system_code::Code<'_, { SIZE.words }> {
                     CODE
