@@ -5,12 +5,15 @@
 //! has.
 
 use cotama_core::net::PlaceId;
-use cotama_core::system::{Happening, Offered, Turned};
+use cotama_core::net::TransitionId;
+use cotama_core::player::{Outcome, Round};
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Cause, Configuration, Configurations, Decision, DecisionalLevel, Diagnosis, FailureMode,
     FailureModes, Flags, Health, Losses, Modules, Report, Resources, Severity, Situation,
-    StatusVector, Told, available, by_rules, decide, diagnose, judge, lost_after, undetectable,
+    StatusVector, Told, available, by_rules, decide, delivery, diagnose, judge, lost_after,
+    undetectable,
 };
 
 #[unsafe(no_mangle)]
@@ -19,18 +22,20 @@ fn root_level_tell(
     now: Millis,
     told: Told,
     cause: Cause,
-    seen: &mut Option<Happening<Cause>>,
-) -> Offered {
-    level.tell(now, told, cause, &mut |it: &Happening<Cause>| *seen = Some(*it))
+    seen: &mut Option<(Of<TransitionId>, Cause)>,
+) -> Outcome<Of<TransitionId>> {
+    let mut see = |it: &delivery::Firing<'_, Cause>| *seen = Some((it.id, it.carries));
+    level.tell(now, told, cause, &mut see)
 }
 
 #[unsafe(no_mangle)]
 fn root_level_round(
     level: &mut DecisionalLevel,
     now: Millis,
-    seen: &mut Option<Happening<Cause>>,
-) -> Turned {
-    level.round(now, &mut |it: &Happening<Cause>| *seen = Some(*it))
+    seen: &mut Option<(Of<TransitionId>, Cause)>,
+) -> Round {
+    let mut see = |it: &delivery::Firing<'_, Cause>| *seen = Some((it.id, it.carries));
+    level.round(now, &mut see)
 }
 
 #[unsafe(no_mangle)]
@@ -39,8 +44,8 @@ fn root_level_situation(level: &DecisionalLevel, lost: Losses) -> (Situation, Pl
 }
 
 #[unsafe(no_mangle)]
-fn root_level_fired(happening: &Happening<Cause>) -> Option<(&'static str, &'static str, Cause)> {
-    cotama_models::cotama::fired(happening)
+fn root_level_named(transition: Of<TransitionId>) -> Option<(&'static str, &'static str)> {
+    cotama_models::cotama::named(transition)
 }
 
 #[unsafe(no_mangle)]

@@ -3,7 +3,9 @@
 //! A generic function can panic with one net and not with another, so each net has its own roots.
 
 use cotama_core::net::TransitionId;
-use cotama_core::player::{Advanced, Firing, Observer, Outcome, RestoreError, Round, Snapshot};
+use cotama_core::player::{
+    Advanced, Firing, Names, Observer, Outcome, RestoreError, Snapshot, Stepped,
+};
 use cotama_core::units::Millis;
 
 /// An observer that reads all it is shown.
@@ -13,9 +15,9 @@ pub struct Heard {
     at: Millis,
 }
 
-impl<E, T, O> Observer<E, T, O> for Heard {
-    fn on_fire(&mut self, firing: &Firing<'_, E, T, O>) {
-        self.outputs = self.outputs.wrapping_add(firing.outputs.len());
+impl<P: Names> Observer<P> for Heard {
+    fn on_fire(&mut self, firing: &Firing<'_, P>) {
+        self.outputs = self.outputs.wrapping_add(firing.outputs().count());
         self.at = firing.at;
     }
 }
@@ -25,9 +27,9 @@ impl<E, T, O> Observer<E, T, O> for Heard {
 macro_rules! roots {
     ($($kind:ident $name:ident: $module:path;)*) => {$(
         mod $name {
-            use super::{Advanced, Heard, Millis, Outcome, RestoreError, Round, Snapshot, TransitionId};
+            use super::{Advanced, Heard, Millis, Outcome, RestoreError, Snapshot, Stepped, TransitionId};
             use $module as net;
-            use net::{Event, Place, Player, Program, Transition};
+            use net::{Checked, Event, Place, Player, Program, Transition};
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_start"))]
             fn start(now: Millis, heard: &mut Heard) -> Player {
@@ -49,9 +51,14 @@ macro_rules! roots {
                 player.wake_at()
             }
 
-            #[unsafe(export_name = concat!("root_", stringify!($name), "_round"))]
-            fn round(player: &mut Player, now: Millis, events: &[Event], heard: &mut Heard) -> Round {
-                player.round_with(now, events, heard)
+            #[unsafe(export_name = concat!("root_", stringify!($name), "_step"))]
+            fn step(player: &mut Checked, now: Millis, events: &[Event], heard: &mut Heard) -> Stepped {
+                player.step_with(now, events, heard)
+            }
+
+            #[unsafe(export_name = concat!("root_", stringify!($name), "_checked"))]
+            fn checked(player: &mut Checked, now: Millis, event: &Event, heard: &mut Heard) -> Outcome<Transition> {
+                player.offer_with(now, event, heard)
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_snapshot"))]
@@ -60,8 +67,8 @@ macro_rules! roots {
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_restore"))]
-            fn restore(bytes: &[u8], now: Millis) -> Option<Result<Player, RestoreError>> {
-                Some(Player::restore(Program, now, &Snapshot::read(bytes)?))
+            fn restore(bytes: &[u8], now: Millis) -> Option<Result<Checked, RestoreError>> {
+                Some(Checked::restore(Default::default(), now, &Snapshot::read(bytes)?))
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_tokens"))]

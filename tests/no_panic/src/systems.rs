@@ -2,22 +2,40 @@
 //! for one on time.
 
 use cotama_core::net::{EventId, PlaceId};
-use cotama_core::player::Advanced;
-use cotama_core::system::{Happening, Of, Offered, Turned, Witness};
+use cotama_core::player::{
+    Advanced, Firing, Names, Observer, Outcome, RestoreError, Round, Snapshot,
+};
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
 /// What events carry along.
 type Message = u32;
 
-/// A witness that reads all it is shown.
+/// An observer that reads all it is shown.
 #[derive(Debug)]
 pub struct Seen {
-    last: Option<Happening<Message>>,
+    outputs: usize,
+    last: Option<(Of<EventId>, Message)>,
+    at: Millis,
 }
 
-impl Witness<Message> for Seen {
-    fn see(&mut self, happening: &Happening<Message>) {
-        self.last = Some(*happening);
+impl<P: Names> Observer<P, Message> for Seen {
+    fn on_fire(&mut self, firing: &Firing<'_, P, Message>) {
+        self.outputs = self.outputs.wrapping_add(firing.outputs().count());
+        self.last = firing.on.map(|it| (it, firing.carries));
+        self.at = firing.at;
+    }
+
+    fn on_ignore(&mut self, event: Of<EventId>, carries: Message) {
+        self.last = Some((event, carries));
+    }
+
+    fn on_mail(&mut self, to: Of<EventId>, carries: Message) {
+        self.last = Some((to, carries));
+    }
+
+    fn on_clear(&mut self, mailbox: Of<EventId>, carries: Message) {
+        self.last = Some((mailbox, carries));
     }
 }
 
@@ -25,10 +43,13 @@ impl Witness<Message> for Seen {
 macro_rules! roots {
     ($($name:ident: $module:path;)*) => {$(
         mod $name {
-            use super::{Advanced, EventId, Message, Millis, Of, Offered, PlaceId, Seen, Turned};
+            use super::{
+                Advanced, EventId, Message, Millis, Of, Outcome, PlaceId, RestoreError, Round, Seen, Snapshot,
+            };
             use $module as system;
-            use system::Program;
-            type Player = system::Player<Message>;
+            use system::{Event, Program, Transition};
+            type Player = system::Carrying<Message>;
+            type Checked = system::Checked<Message>;
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_start"))]
             fn start(now: Millis, seen: &mut Seen) -> Player {
@@ -36,18 +57,38 @@ macro_rules! roots {
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_offer"))]
-            fn offer(player: &mut Player, now: Millis, event: Of<EventId>, message: Message, seen: &mut Seen) -> Offered {
-                player.offer(now, event, message, seen)
+            fn offer(
+                player: &mut Player, now: Millis, event: &Event, message: Message, seen: &mut Seen,
+            ) -> Outcome<Transition> {
+                player.offer_carrying(now, event, message, seen)
+            }
+
+            #[unsafe(export_name = concat!("root_", stringify!($name), "_checked"))]
+            fn checked(
+                player: &mut Checked, now: Millis, event: Of<EventId>, message: Message, seen: &mut Seen,
+            ) -> bool {
+                let fired = player.offer_id(now, event, message, seen).fired();
+                fired & !player.round_with(now, seen).behind & !player.advance_with(now, seen).behind
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_round"))]
-            fn round(player: &mut Player, now: Millis, seen: &mut Seen) -> Turned {
-                player.round(now, seen)
+            fn round(player: &mut Player, now: Millis, seen: &mut Seen) -> Round {
+                player.round_with(now, seen)
+            }
+
+            #[unsafe(export_name = concat!("root_", stringify!($name), "_snapshot"))]
+            fn snapshot(player: &Player, bytes: &mut [u8]) -> Option<usize> {
+                player.snapshot().write(bytes).map(<[u8]>::len)
+            }
+
+            #[unsafe(export_name = concat!("root_", stringify!($name), "_restore"))]
+            fn restore(bytes: &[u8], now: Millis) -> Option<Result<Checked, RestoreError>> {
+                Some(Checked::restore(Default::default(), now, &Snapshot::read(bytes)?))
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_advance"))]
             fn advance(player: &mut Player, now: Millis, seen: &mut Seen) -> Advanced {
-                player.advance(now, seen)
+                player.advance_with(now, seen)
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_wake_at"))]
@@ -62,7 +103,7 @@ macro_rules! roots {
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_waiting"))]
             fn waiting(player: &Player, event: Of<EventId>) -> u32 {
-                player.waiting(event)
+                player.waiting(&event)
             }
         }
     )*};

@@ -17,7 +17,7 @@ use cotama_models::cotama::Configuration::FollowingOptimal;
 use cotama_models::cotama::load::{self, Load, MOST, SPARE};
 use cotama_models::cotama::{
     Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report,
-    Severity, Told, decide, diagnose, judge,
+    Severity, Told, decide, delivery, diagnose, judge,
 };
 use cotama_models::missions::tables::delivery::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
@@ -113,16 +113,14 @@ impl Robot {
 
     /// The supervisors are told something; the number of what fired, counted by `fired`.
     pub fn tell(&mut self, now: Millis, told: Told, cause: Cause, fired: &mut u32) {
-        let mut witness =
-            |_: &cotama_core::system::Happening<Cause>| *fired = fired.wrapping_add(1);
-        let _ = self.level.tell(now, told, cause, &mut witness);
+        let mut count = |_: &delivery::Firing<'_, Cause>| *fired = fired.wrapping_add(1);
+        let _ = self.level.tell(now, told, cause, &mut count);
     }
 
     /// The supervisors take a round.
     pub fn round(&mut self, now: Millis, fired: &mut u32) -> bool {
-        let mut witness =
-            |_: &cotama_core::system::Happening<Cause>| *fired = fired.wrapping_add(1);
-        let _ = self.level.round(now, &mut witness);
+        let mut count = |_: &delivery::Firing<'_, Cause>| *fired = fired.wrapping_add(1);
+        let _ = self.level.round(now, &mut count);
         self.level.permit().is_some()
     }
 
