@@ -18,7 +18,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Whether settling stopped before its end, having let so many transitions fire.
     pub(super) fn is_cut_short(&self, fired: u32) -> bool {
         let code = self.program.code();
-        fired >= code.settle && !self.settled(&code)
+        !(P::ALONE && code.bounded) && fired >= code.settle && !self.settled(&code)
     }
 
     /// The position, at or after `from`, and the transition of these kinds that fires next at once
@@ -30,7 +30,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         kinds: Range<usize>,
         from: usize,
     ) -> Option<(usize, &'c Entry<W>)> {
-        if code.is_alone() {
+        if Self::is_alone(code) {
             let entry = code.first(kinds.start, &self.marking, |it| self.can(code, it));
             return entry.map(|it| (0, it));
         }
@@ -80,7 +80,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> Option<u32> {
-        if self.program.code().is_alone() {
+        if Self::is_alone(&self.program.code()) {
             self.fire_alone(entry, None, None, carries, observer);
             return Some(0);
         }
