@@ -1,12 +1,13 @@
 //! The player against the textbook: on random nets and systems both do the same, firing by firing.
 
 mod limits;
-//mod snapshots;
+mod seen;
+mod snapshots;
 mod steps;
 
-use cotama_core::net::EventId;
+use cotama_core::net::{EventId, PlaceId};
 use cotama_core::player::{
-    Firing, Loaded, Observer, Outcome, Packed, Player, Round, Why, clocks, slots, words,
+    Firing, Loaded, Observer, Packed, Player, Program, clocks, slots, words,
 };
 use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
@@ -14,6 +15,7 @@ use cotama_tests::draw::Draw;
 use cotama_tests::textbook::nets::{Time, one_in, random_net};
 use cotama_tests::textbook::systems::{CLOCKS, OwnedSystem, SLOTS, random_system};
 use cotama_tests::textbook::{Game, Told};
+use seen::Seen;
 
 /// What is played: `W` words, up to `C` intervals, up to `S` in mailboxes, and numbers carried
 /// along.
@@ -109,7 +111,7 @@ fn assert_same<const W: usize, const C: usize, const S: usize>(
     assert_eq!(log.told, game.told, "seed {seed}");
     for (component, it) in (0..).zip(log.system.components) {
         for at in 0..it.net.places.len() as u32 {
-            let place = Of { component, id: cotama_core::net::PlaceId(at) };
+            let place = Of { component, id: PlaceId(at) };
             assert_eq!(player.tokens(place), game.place(place), "seed {seed}, {place:?}");
         }
     }
@@ -158,7 +160,7 @@ fn nets(seeds: std::ops::Range<u64>, time: Time) -> impl Iterator<Item = (u64, O
     })
 }
 
-/// So many systems that fit together, and how many before them do not.
+/// So many systems that fit together, from this seed on.
 fn systems(first: u64, count: usize) -> impl Iterator<Item = (u64, OwnedSystem, Draw)> {
     let systems = (first..).map(|seed| {
         let mut draw = Draw::new(seed);
@@ -177,110 +179,6 @@ fn delay(draw: &mut Draw) -> u64 {
     }
 }
 
-/// How often a story has seen what.
-#[derive(Debug, Default)]
-struct Seen {
-    fired: u32,
-    settled: u32,
-    by_itself: u32,
-    on_purpose: u32,
-    not_enabled: u32,
-    too_early: u32,
-    too_late: u32,
-    full: u32,
-    endless: u32,
-    bounded: u32,
-    state_machines: u32,
-    words: [u32; 5],
-    systems: Together,
-}
-
-/// What happens only where nets work together.
-#[derive(Debug, Default)]
-struct Together {
-    refused: u32,
-    /// Transitions of other nets that an offered event made fire: by a rendezvous, or by
-    /// themselves.
-    met: u32,
-    enabled: u32,
-    ignored: u32,
-    mailed: u32,
-    cleared: u32,
-    /// What was read in rounds.
-    read: u32,
-    unread: u32,
-    waiting: u32,
-    /// What was due, or enabled without an interval, and waited for room in a mailbox.
-    blocked: u32,
-    blocked_at_once: u32,
-}
-
-impl Seen {
-    /// A story that saw too little would prove nothing.
-    fn assert_enough(&self) {
-        let outcomes = [self.fired, self.settled, self.on_purpose, self.not_enabled, self.full];
-        assert!(outcomes.iter().all(|&it| it > 5_000), "{self:?}");
-        let nets = [self.endless, self.bounded, self.state_machines];
-        assert!(nets.iter().all(|&it| it > 500), "{self:?}");
-        assert!(self.words[1..].iter().all(|&it| it > 100), "{self:?}");
-    }
-
-    fn outcome<T>(&mut self, outcome: &Outcome<T>) {
-        let of = match outcome {
-            Outcome::Fired { settled, .. } => {
-                self.settled += u32::from(*settled > 0);
-                &mut self.fired
-            }
-            Outcome::Ignored { why } => match why {
-                Why::OnPurpose => &mut self.on_purpose,
-                Why::NotEnabled => &mut self.not_enabled,
-                Why::TooEarly(_) => &mut self.too_early,
-                Why::TooLate(_) => &mut self.too_late,
-                Why::Full(_) => &mut self.full,
-                Why::Behind | Why::NoSuchEvent => panic!("not by the book"),
-            },
-            Outcome::Refused { .. } => &mut self.systems.refused,
-        };
-        *of += 1;
-    }
-
-    /// What was told because of this.
-    fn told(&mut self, act: Act, told: &[Told]) {
-        let to = if let Act::Offer(to, _) = act { Some(to) } else { None };
-        let it = &mut self.systems;
-        for told in told {
-            match *told {
-                Told::Fired(id, on, ..) => {
-                    let elsewhere = to.is_some_and(|it| it.component != id.component);
-                    it.met += u32::from(elsewhere && on.is_some());
-                    it.enabled += u32::from(elsewhere && on.is_none());
-                }
-                Told::Ignored(event, _) => it.ignored += u32::from(Some(event) != to),
-                Told::Mailed(..) => it.mailed += 1,
-                Told::Cleared(..) => it.cleared += 1,
-            }
-        }
-    }
-
-    fn round(&mut self, round: Round) {
-        self.systems.read += round.fired;
-        self.systems.unread += round.ignored;
-        self.systems.waiting += round.waiting;
-    }
-
-    /// What can fire by itself and has not.
-    fn blocked(&mut self, game: &Game<'_>) {
-        let waits = |timed: bool| {
-            let mut lines = game.book.lines.iter().enumerate();
-            lines.any(|(at, it)| {
-                it.on.is_none() && it.within.is_some() == timed && game.can_fire(at)
-            })
-        };
-        self.systems.blocked += u32::from(waits(true));
-        self.systems.blocked_at_once += u32::from(waits(false));
-    }
-}
-
 /// Plays 50 events, rounds or waits, and compares after each.
 fn play_by_the_book<const W: usize, const C: usize, const S: usize>(
     system: &System<'_>,
@@ -294,7 +192,7 @@ fn play_by_the_book<const W: usize, const C: usize, const S: usize>(
     let mut player: Played<'_, W, C, S> = Player::start(program, Millis(now), &mut log);
     let mut game = Game::start(system, now);
     seen.words[W.min(4)] += 1;
-    let code = cotama_core::player::Program::<W, C, S>::code(&program);
+    let code = Program::<W, C, S>::code(&program);
     seen.bounded += u32::from(code.bounded);
     seen.state_machines += u32::from(code.control != 0);
     for _ in 0..50 {
@@ -337,7 +235,7 @@ fn play_by_the_book<const W: usize, const C: usize, const S: usize>(
                 }
             }
         }
-        seen.told(act, &game.told[before.0..]);
+        seen.told(act, &game.told[before.0..], system);
     }
     if !game.endless {
         assert_same(&player, &log, &game, seed);
@@ -375,8 +273,9 @@ fn nets_work_together_by_the_book() {
         system.with(|it| with_size_of!(it, draw, play_by_the_book(it, seed, draw, seen)));
         last = seed;
     }
-    let refused = last - 700_000 + 1 - 20_000;
-    println!("{refused} {seen:?}");
+    let unsound = last - 700_000 + 1 - 20_000;
+    assert!(unsound > 100, "{unsound}");
+    seen.assert_enough_together();
 }
 
 /// Plays the same events and rounds three times: told the time only with them, at every instant,
@@ -385,6 +284,7 @@ fn polling_makes_no_difference<const W: usize, const C: usize, const S: usize>(
     system: &System<'_>,
     seed: u64,
     draw: &mut Draw,
+    wakes: &mut u32,
 ) {
     let mut now = 0;
     let mut acts: Vec<(u64, Act)> = Vec::new();
@@ -440,6 +340,7 @@ fn polling_makes_no_difference<const W: usize, const C: usize, const S: usize>(
                 return; // it mails more at once than a mailbox holds, so it never can
             }
             assert_ne!(fired, 0, "seed {seed}: at {due}");
+            *wakes += 1;
         }
     });
     assert_eq!(late, always, "seed {seed}");
@@ -449,16 +350,22 @@ fn polling_makes_no_difference<const W: usize, const C: usize, const S: usize>(
 
 #[test]
 fn a_player_that_is_told_the_time_late_catches_up() {
+    let mut wakes = 0;
     for (seed, net, mut draw) in nets(300_000..305_000, Time::With) {
-        let draw = &mut draw;
-        net.with(|it| with_size_of!(it, draw, polling_makes_no_difference(it, seed, draw)));
+        let (draw, wakes) = (&mut draw, &mut wakes);
+        net.with(|it| with_size_of!(it, draw, polling_makes_no_difference(it, seed, draw, wakes)));
     }
+    assert!(wakes > 10_000, "{wakes}");
 }
 
 #[test]
 fn nets_that_are_told_the_time_late_catch_up_together() {
+    let mut wakes = 0;
     for (seed, system, mut draw) in systems(800_000, 20_000) {
-        let draw = &mut draw;
-        system.with(|it| with_size_of!(it, draw, polling_makes_no_difference(it, seed, draw)));
+        let (draw, wakes) = (&mut draw, &mut wakes);
+        system.with(|it| {
+            with_size_of!(it, draw, polling_makes_no_difference(it, seed, draw, wakes));
+        });
     }
+    assert!(wakes > 10_000, "{wakes}");
 }

@@ -57,9 +57,9 @@ pub struct Book {
 
 /// All of this kind that the nets have, in their order.
 fn all(counts: impl Iterator<Item = usize>) -> impl Iterator<Item = Of<u32>> {
-    (0..).zip(counts).flat_map(|(component, count)| {
-        (0..count as u32).map(move |id| Of { component, id })
-    })
+    (0..)
+        .zip(counts)
+        .flat_map(|(component, count)| (0..count as u32).map(move |id| Of { component, id }))
 }
 
 impl Book {

@@ -71,7 +71,7 @@ pub fn random_system(draw: &mut Draw) -> OwnedSystem {
         }
     }
     for component in 0..system.nets.len() {
-        for number in 0..draw.between(2, 7) {
+        for number in 0..draw.between(4, 10) {
             let timed = system.nets.iter().flat_map(|it| &it.transitions);
             let timed = timed.filter(|it| it.within.is_some()).count();
             let transition = transition(&system, component, number, timed < CLOCKS, draw);
@@ -99,7 +99,7 @@ fn places_and_signals(name: &str, draw: &mut Draw) -> OwnedNet {
     for output in 0..draw.between(1, 3) {
         net.output(&format!("o{output}"), "").expect("few outputs");
     }
-    let states = draw.between(1, 4);
+    let states = draw.between(1, 3);
     for state in 0..states {
         let place = OwnedPlace::new(&format!("s{state}"), u32::from(state == 0)).at_most(1);
         net.place(place).expect("few places");
@@ -158,7 +158,12 @@ fn share(system: &mut OwnedSystem, component: u16, draw: &mut Draw) {
             if owner == component || !is_own {
                 return;
             }
-            (Target::Place(Of { component: owner, id: PlaceId(at as u32) }), places[at].bound)
+            let found =
+                (Target::Place(Of { component: owner, id: PlaceId(at as u32) }), places[at].bound);
+            if places[at].role == Role::State {
+                system.nets[usize::from(owner)].laws.clear(); // others may move its tokens
+            }
+            found
         }
     };
     let mine = |it: &Binding| it.shared.component == component && it.target == target;

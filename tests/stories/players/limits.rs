@@ -22,10 +22,7 @@ fn wheel(transition: OwnedTransition) -> OwnedNet {
 
 /// Tells a story of a player of this net, that starts at time zero; it is one that can do
 /// synchronous steps too.
-fn with_player(
-    net: &OwnedNet,
-    story: impl FnOnce(&mut Player<Checked<Loaded<'_, 1, 2>>, 1, 2>),
-) {
+fn with_player(net: &OwnedNet, story: impl FnOnce(&mut Player<Checked<Loaded<'_, 1, 2>>, 1, 2>)) {
     let view = net.view();
     let net = view.net();
     let alone = [Component::alone(&net)];
@@ -113,14 +110,8 @@ fn the_longest_interval_is_kept_to_the_millisecond() {
         &wheel(OwnedTransition::new("turn").on(PUSH.id).within(0, Some(u32::MAX - 1))),
         |player| {
             assert_eq!(player.offer(Millis(longest - 1), &PUSH), fired(0));
-            assert_eq!(
-                player.offer(Millis(2 * longest - 1), &PUSH),
-                ignored(Why::TooLate(TURN))
-            );
-            assert_eq!(
-                player.offer(Millis(u64::MAX), &PUSH),
-                ignored(Why::TooLate(TURN))
-            );
+            assert_eq!(player.offer(Millis(2 * longest - 1), &PUSH), ignored(Why::TooLate(TURN)));
+            assert_eq!(player.offer(Millis(u64::MAX), &PUSH), ignored(Why::TooLate(TURN)));
         },
     );
 }
@@ -166,7 +157,8 @@ fn a_step_does_not_fit_when_its_gifts_together_do_not() {
     let right = net.place(OwnedPlace::new("right", 1).at_most(1)).unwrap();
     let both = net.place(OwnedPlace::new("both", 0).at_most(1)).unwrap();
     net.event("push", "").unwrap();
-    net.transition(OwnedTransition::new("from left").on(PUSH.id).take(left, 1).give(both, 1)).unwrap();
+    net.transition(OwnedTransition::new("from left").on(PUSH.id).take(left, 1).give(both, 1))
+        .unwrap();
     net.transition(OwnedTransition::new("from right").on(PUSH.id).take(right, 1).give(both, 1))
         .unwrap();
     with_player(&net, |player| {
@@ -208,8 +200,7 @@ fn every_call_returns_even_where_a_net_never_rests() {
     let mut endless = 0;
     for (seed, net, mut draw) in nets(600_000..601_000, Time::With) {
         let draw = &mut draw;
-        let is_endless =
-            net.with(|it| with_size_of!(it, draw, every_call_returns(it, seed, draw)));
+        let is_endless = net.with(|it| with_size_of!(it, draw, every_call_returns(it, seed, draw)));
         endless += u32::from(is_endless);
     }
     assert!(endless > 100, "{endless}");

@@ -1,105 +1,175 @@
 //! What a player stores comes back as it was, and what is damaged breaks no law.
 
-use super::{Played, delay, nets, with_size_of};
+use super::{Act, Log, Played, clocks, delay, nets, systems, with_size_of, words};
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{EventId, Law, Net, PlaceId, Role, Within};
-use cotama_core::player::{Loaded, Packed, Player, Program, RestoreError, Snapshot, clocks, words};
+use cotama_core::net::{Law, PlaceId, Role, Within};
+use cotama_core::player::{
+    Checked, Loaded, Packed, Player, Program, RestoreError, Snapshot, Stored,
+};
+use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
-use cotama_tests::instances::Draw;
+use cotama_tests::draw::Draw;
 use cotama_tests::textbook::Game;
-use cotama_tests::textbook::nets::{CLOCKS, Time, one_in};
+use cotama_tests::textbook::flat::Cell;
+use cotama_tests::textbook::nets::{Time, one_in};
+use cotama_tests::textbook::systems::{CLOCKS, OwnedSystem};
+
+/// A player of a stored marking.
+type Restored<'c, const W: usize, const C: usize, const S: usize> =
+    Player<Checked<Loaded<'c, W, C, S>>, W, C, S, u16>;
+
+/// How often a damaged snapshot was refused, and why; the first one counts those that were not.
+type Refused = [u32; 6];
 
 /// Stores and restores after each of 50 events, unharmed and with one byte changed.
-fn storing_changes_nothing<const W: usize, const C: usize>(
-    net: &Net<'_>,
+fn storing_changes_nothing<const W: usize, const C: usize, const S: usize>(
+    system: &System<'_>,
     seed: u64,
     draw: &mut Draw,
-    refused: &mut [u32; 6],
+    refused: &mut Refused,
 ) {
-    let packed = Packed::<W>::of(net).unwrap();
-    let program = packed.load(net);
-    let mut player: Played<'_, W, C> = Player::start(program, Millis(0), &mut ());
+    let packed = Packed::<W, C, S>::of(system).unwrap();
+    let program = packed.load(system);
+    let mut player: Played<'_, W, C, S> = Player::start(program, Millis(0), &mut ());
+    let mut restored: Option<Restored<'_, W, C, S>> = None;
     for _ in 0..50 {
         let now = Millis(player.now().0 + delay(draw));
+        // Restored a moment ago, it goes on as if nothing had been.
+        let act = Act::any(system, draw);
+        let (mut log, mut again) = (Log::new(system), Log::new(system));
+        let done = match act {
+            Act::Offer(event, carries) => {
+                let outcome = player.offer_carrying(now, &event, carries, &mut log);
+                let same = |it: &mut Restored<'_, W, C, S>| {
+                    it.offer_carrying(now, &event, carries, &mut again) == outcome
+                };
+                restored.as_mut().is_none_or(same)
+            }
+            Act::Round => {
+                let round = player.round_with(now, &mut log);
+                restored.as_mut().is_none_or(|it| it.round_with(now, &mut again) == round)
+            }
+            Act::Pass => {
+                let advanced = player.advance_with(now, &mut log);
+                restored.as_mut().is_none_or(|it| it.advance_with(now, &mut again) == advanced)
+            }
+        };
+        assert!(done, "seed {seed}: {act:?}");
+        if let Some(restored) = &restored {
+            assert_eq!(log.told, again.told, "seed {seed}");
+            assert_same_player(restored, &player, seed);
+        }
         if player.advance(now).behind {
             return;
         }
-        if !net.events.is_empty() {
-            let event = EventId(draw.between(0, net.events.len() as u64 - 1) as u32);
-            if player.offer(now, &event).fired() && player.advance(now).behind {
-                return;
-            }
-        }
         let stored = player.snapshot();
-        let mut room = [0; 128];
+        let mut room = [0; 512];
         let bytes = stored.write(&mut room).unwrap().to_vec();
-        assert_eq!(bytes.len(), Snapshot::<W, C>::BYTES);
+        assert_eq!(bytes.len(), Snapshot::<W, C, S, u16>::BYTES);
         assert_eq!(Snapshot::read(&bytes), Some(stored), "seed {seed}");
-        let restored = Player::restore(program, now, &stored)
+        let from = Player::restore(Checked(program), now, &stored)
             .unwrap_or_else(|why| panic!("seed {seed}: {why}"));
-        assert_same_player(&restored, &player, seed);
+        assert_same_player(&from, &player, seed);
+        restored = Some(from);
 
         let mut damaged = bytes;
         let at = draw.between(0, damaged.len() as u64 - 1) as usize;
         damaged[at] ^= draw.between(1, 255) as u8;
-        let damaged = Snapshot::<W, C>::read(&damaged).unwrap();
-        match Player::restore(program, now, &damaged) {
-            Ok(restored) => {
-                assert_eq!(restored.snapshot(), damaged, "seed {seed}");
-                assert_lawful(&restored, seed);
-                refused[0] += 1;
-            }
-            Err(RestoreError::OtherNet { .. }) => {
-                assert!(at < 8, "seed {seed}");
-                refused[1] += 1;
-            }
-            Err(RestoreError::Marking) => refused[2] += 1,
-            Err(RestoreError::Law(_)) => refused[3] += 1,
-            Err(RestoreError::Clock(_)) => refused[4] += 1,
-            Err(RestoreError::NotSettled) => refused[5] += 1,
-        }
+        assert_eq!(Snapshot::<W, C, S, u16>::read(&damaged), None, "seed {seed}");
+        restoring_breaks_no_law(Checked(program), &damaged_content(stored, draw), seed, refused);
     }
 }
 
-fn assert_same_player<const W: usize, const C: usize>(
-    one: &Played<'_, W, C>,
-    two: &Played<'_, W, C>,
+/// The same with one byte changed, before its checksum is made.
+fn damaged_content<const W: usize, const C: usize, const S: usize>(
+    mut stored: Snapshot<W, C, S, u16>,
+    draw: &mut Draw,
+) -> Snapshot<W, C, S, u16> {
+    let (at, bits) =
+        (draw.between(0, (8 + 8 * W + 4 * C) as u64 - 1) as usize, draw.between(1, 255));
+    match at {
+        0..8 => stored.fingerprint ^= bits << (8 * at),
+        _ if at < 8 + 8 * W => stored.marking[at / 8 - 1] ^= bits << (8 * (at % 8)),
+        _ => stored.clocks[(at - 8 - 8 * W) / 4] ^= (bits as u32) << (8 * (at % 4)),
+    }
+    stored
+}
+
+fn restoring_breaks_no_law<const W: usize, const C: usize, const S: usize>(
+    program: Checked<Loaded<'_, W, C, S>>,
+    damaged: &Snapshot<W, C, S, u16>,
+    seed: u64,
+    refused: &mut Refused,
+) {
+    let same = damaged.fingerprint == program.0.code().fingerprint;
+    let restored = Player::restore(program, Millis(0), damaged);
+    assert_eq!(same, !matches!(restored, Err(RestoreError::OtherSystem { .. })), "seed {seed}");
+    match restored {
+        Ok(restored) => {
+            assert_eq!(restored.snapshot(), *damaged, "seed {seed}");
+            assert_lawful(&restored, seed);
+            refused[0] += 1;
+        }
+        Err(RestoreError::OtherSystem { .. }) => refused[1] += 1,
+        Err(RestoreError::Marking) => refused[2] += 1,
+        Err(RestoreError::Law(..)) => refused[3] += 1,
+        Err(RestoreError::Clock(_)) => refused[4] += 1,
+        Err(RestoreError::NotSettled) => refused[5] += 1,
+        Err(other) => panic!("seed {seed}: {other}"),
+    }
+}
+
+fn assert_same_player<const W: usize, const C: usize, const S: usize>(
+    one: &Restored<'_, W, C, S>,
+    two: &Played<'_, W, C, S>,
     seed: u64,
 ) {
     assert_eq!((one.now(), one.snapshot()), (two.now(), two.snapshot()), "seed {seed}");
     assert_eq!(one.wake_at(), two.wake_at(), "seed {seed}");
+    assert_eq!(one.round_is_due(), two.round_is_due(), "seed {seed}");
 }
 
-/// Bounds, complements, invariants and clocks are as in a marking that the net can have, and the
-/// net is settled.
-fn assert_lawful<const W: usize, const C: usize>(player: &Played<'_, W, C>, seed: u64) {
-    let Loaded { net, code } = player.program();
-    let mut game = Game::start(net, 0);
-    let tokens = |place: PlaceId| player.tokens(place);
-    game.tokens = (0..net.places.len()).map(|it| tokens(PlaceId(it as u32))).collect();
+/// Bounds, complements, invariants and clocks are as in a marking that the system can have, and it
+/// is settled; where there are mailboxes something may wait for room.
+fn assert_lawful<const W: usize, const C: usize, const S: usize>(
+    player: &Restored<'_, W, C, S>,
+    seed: u64,
+) {
+    let (program, code) = (player.program(), player.program().0.code());
+    let system = program.system();
+    let mut game = Game::start(&system, 0);
+    game.endless = false;
+    let cells = game.book.cells.iter().map(|&(cell, bound)| match cell {
+        Cell::Place(of) => player.tokens(of),
+        Cell::Absence(of) => bound - player.tokens(of),
+        Cell::Waiting(event) => player.waiting(&event),
+        Cell::Room(event) => bound - player.waiting(&event),
+    });
+    game.state.tokens = cells.collect();
     assert!(game.is_within_bounds(), "seed {seed}");
-    assert!(game.is_settled(), "seed {seed}");
-    for (place, it) in net.places.iter().enumerate() {
-        if let Role::Complement(of) = it.role {
-            assert_eq!(game.tokens[place] + tokens(of), it.bound, "seed {seed}");
-        }
-    }
-    for law in net.laws {
-        match *law {
-            Law::Invariant { sum, equals } => {
-                let sum: u32 = sum.iter().map(|arc| arc.weight * tokens(arc.place)).sum();
-                assert_eq!(sum, equals, "seed {seed}");
+    assert!(S > 0 || game.is_settled(), "seed {seed}");
+    for (component, net) in (0..).zip(system.components.iter().map(|it| it.net)) {
+        let tokens = |id: PlaceId| player.tokens(Of { component, id });
+        for (place, it) in (0..).zip(net.places) {
+            if let Role::Complement(of) = it.role {
+                assert_eq!(tokens(PlaceId(place)) + tokens(of), it.bound, "seed {seed}");
             }
-            Law::NeverBoth(a, b) => assert!(tokens(a) == 0 || tokens(b) == 0, "seed {seed}"),
-            _ => {}
+        }
+        for law in net.laws {
+            match *law {
+                Law::Invariant { sum, equals } => {
+                    let sum: u32 = sum.iter().map(|arc| arc.weight * tokens(arc.place)).sum();
+                    assert_eq!(sum, equals, "seed {seed}");
+                }
+                Law::NeverBoth(a, b) => assert!(tokens(a) == 0 || tokens(b) == 0, "seed {seed}"),
+                _ => {}
+            }
         }
     }
-    let stored = player.snapshot();
-    for (number, &elapsed) in stored.clocks.iter().enumerate() {
-        let runs = code
-            .clocks
-            .get(number)
-            .is_some_and(|clock| game.has_tokens(code.entries[usize::from(clock.entry)].id()));
+    for (number, &elapsed) in player.snapshot().clocks.iter().enumerate() {
+        let line = |entry: u16| usize::from(code.entries[usize::from(entry)].transition);
+        let clock = code.clocks.get(number);
+        let runs = clock.is_some_and(|clock| game.has_tokens(line(clock.entry)));
         assert!(runs || elapsed == 0, "seed {seed}: clock {number}");
     }
 }
@@ -109,34 +179,53 @@ fn what_is_stored_comes_back_and_what_is_damaged_breaks_no_law() {
     let mut refused = [0; 6];
     for time in [Time::Without, Time::With] {
         for (seed, net, mut draw) in nets(400_000..402_500, time) {
-            let view = net.view();
-            let net = &view.net();
             let (draw, refused) = (&mut draw, &mut refused);
-            with_size_of!(net, draw, storing_changes_nothing(net, seed, draw, refused));
+            net.with(|it| {
+                with_size_of!(it, draw, storing_changes_nothing(it, seed, draw, refused))
+            });
         }
     }
     assert!(refused.iter().all(|&it| it > 100), "{refused:?}");
 }
 
+#[test]
+fn a_system_that_is_stored_comes_back_with_all_that_waits() {
+    let mut refused = [0; 6];
+    for (seed, system, mut draw) in systems(900_000, 3_000) {
+        let (draw, refused) = (&mut draw, &mut refused);
+        system.with(|it| with_size_of!(it, draw, storing_changes_nothing(it, seed, draw, refused)));
+    }
+    // What is not settled may wait for room in a mailbox: only systems without any are refused.
+    assert!(refused.iter().all(|&it| it > 100), "{refused:?}");
+}
+
 /// What the player of one net says to the snapshot of another one.
 fn refusal(of: &OwnedNet, by: &OwnedNet) -> Option<RestoreError> {
-    let (of, by) = (of.view(), by.view());
-    let (of, by) = (of.net(), by.net());
-    let (stored, other) = (Packed::<4>::of(&of).unwrap(), Packed::<4>::of(&by).unwrap());
-    let stored: Played<'_, 4, CLOCKS> = Player::start(stored.load(&of), Millis(0), &mut ());
-    Played::<'_, 4, CLOCKS>::restore(other.load(&by), Millis(0), &stored.snapshot()).err()
+    let [of, by] = [of, by].map(|it| OwnedSystem::alone(it.clone()));
+    let stored = of.with(|of| {
+        let packed = Packed::<4, CLOCKS>::of(of).unwrap();
+        Played::<'_, 4, CLOCKS, 0>::start(packed.load(of), Millis(0), &mut ()).snapshot()
+    });
+    by.with(|by| {
+        let packed = Packed::<4, CLOCKS>::of(by).unwrap();
+        Restored::<'_, 4, CLOCKS, 0>::restore(Checked(packed.load(by)), Millis(0), &stored).err()
+    })
 }
 
 #[test]
 fn the_snapshot_of_another_net_is_refused() {
     let mut last: Option<OwnedNet> = None;
     for (seed, net, mut draw) in nets(500_000..502_000, Time::With) {
-        if words(&net.view().net()).unwrap() > 4 || one_in(&mut draw, 8) {
+        if net.with(|it| words(it)).unwrap() > 4 || one_in(&mut draw, 8) {
             continue;
         }
+        let net = net.nets[0].clone();
         if let Some(last) = &last {
             let other = refusal(last, &net);
-            assert!(matches!(other, Some(RestoreError::OtherNet { .. })), "seed {seed}: {other:?}");
+            assert!(
+                matches!(other, Some(RestoreError::OtherSystem { .. })),
+                "seed {seed}: {other:?}"
+            );
         }
         last = Some(net);
     }
@@ -171,24 +260,39 @@ fn the_snapshot_of_another_version_of_a_net_is_refused() {
         let mut other = lamp();
         change(&mut other);
         let refused = refusal(&lamp(), &other);
-        assert!(matches!(refused, Some(RestoreError::OtherNet { .. })), "{number}: {refused:?}");
+        let is_refused = matches!(refused, Some(RestoreError::OtherSystem { .. }));
+        assert!(is_refused, "{number}: {refused:?}");
     }
 }
 
+/// Tells a story of the lamp.
+fn with_lamp(net: &OwnedNet, story: impl FnOnce(Checked<Loaded<'_, 1, 1>>)) {
+    OwnedSystem::alone(net.clone()).with(|system| {
+        assert_eq!((words(system), clocks(system)), (Some(1), 1));
+        let packed = Packed::<1, 1>::of(system).unwrap();
+        story(Checked(packed.load(system)));
+    });
+}
+
+/// The checksum tells any damage of up to 32 bits in a row: here of any one byte, in any way.
 #[test]
-fn a_snapshot_of_the_wrong_length_is_none() {
-    let view = lamp();
-    let view = view.view();
-    let net = view.net();
-    assert_eq!((words(&net), clocks(&net)), (Some(1), 1));
-    let packed = Packed::<1>::of(&net).unwrap();
-    let player: Played<'_, 1, 1> = Player::start(packed.load(&net), Millis(0), &mut ());
-    let (mut room, stored) = ([0; 20], player.snapshot());
-    assert_eq!(stored.fingerprint, player.program().code().fingerprint);
-    assert_eq!(stored.write(&mut room[..19]), None);
-    assert_eq!(stored.write(&mut room).map(<[u8]>::len), Some(20));
-    assert_eq!(Snapshot::<1, 1>::read(&room), Some(stored));
-    assert_eq!(Snapshot::<1, 1>::read(&room[..19]), None);
+fn a_snapshot_of_the_wrong_length_or_with_a_damaged_byte_is_none() {
+    with_lamp(&lamp(), |program| {
+        let player: Restored<'_, 1, 1, 0> = Player::start(program, Millis(0), &mut ());
+        let (mut room, stored) = ([0; 24], player.snapshot());
+        assert_eq!(stored.fingerprint, program.code().fingerprint);
+        assert_eq!(stored.write(&mut room[..23]), None);
+        assert_eq!(stored.write(&mut room).map(<[u8]>::len), Some(24));
+        assert_eq!(Snapshot::<1, 1, 0, u16>::read(&room), Some(stored));
+        assert_eq!(Snapshot::<1, 1, 0, u16>::read(&room[..23]), None);
+        for at in 0..room.len() {
+            for bits in 1..=u8::MAX {
+                let mut damaged = room;
+                damaged[at] ^= bits;
+                assert_eq!(Snapshot::<1, 1, 0, u16>::read(&damaged), None, "{at} {bits}");
+            }
+        }
+    });
 }
 
 #[test]
@@ -198,12 +302,43 @@ fn a_snapshot_with_two_tokens_that_are_never_both_there_is_refused() {
         place.role = Role::Data;
     }
     net.laws = vec![OwnedLaw::Reachable(PlaceId(1)), OwnedLaw::NeverBoth(PlaceId(0), PlaceId(1))];
-    let view = net.view();
-    let net = view.net();
-    let packed = Packed::<1>::of(&net).unwrap();
-    let program = packed.load(&net);
-    let mut stored = Played::<'_, 1, 1>::start(program, Millis(0), &mut ()).snapshot();
-    stored.marking[0] |= program.code.fields[1].tokens(1);
-    let refused = Played::<'_, 1, 1>::restore(program, Millis(0), &stored).err();
-    assert_eq!(refused, Some(RestoreError::Law(1)));
+    with_lamp(&net, |program| {
+        let mut stored = Restored::<'_, 1, 1, 0>::start(program, Millis(0), &mut ()).snapshot();
+        stored.marking[0] |= program.code().fields[1].tokens(1);
+        let refused = Restored::<'_, 1, 1, 0>::restore(program, Millis(0), &stored).err();
+        assert_eq!(refused, Some(RestoreError::Law(0, 1)));
+    });
+}
+
+/// Something that can be carried along, of which not all bytes stand for something.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Light {
+    #[default]
+    Red,
+    Green,
+}
+
+impl Stored for Light {
+    const BYTES: usize = 1;
+
+    fn write(&self, bytes: &mut [u8]) {
+        bytes[0] = *self as u8;
+    }
+
+    fn read(bytes: &[u8]) -> Option<Self> {
+        [Self::Red, Self::Green].into_iter().find(|it| *it as u8 == bytes[0])
+    }
+}
+
+#[test]
+fn what_stands_for_nothing_is_not_read() {
+    let stored: Snapshot<1, 0, 2, Light> =
+        Snapshot { fingerprint: 7, marking: [1], clocks: [], slots: [Light::Green, Light::Red] };
+    let mut room = [0; 22];
+    assert_eq!(stored.write(&mut room).map(<[u8]>::len), Some(22));
+    assert_eq!(Snapshot::read(&room), Some(stored));
+    let numbers =
+        Snapshot::<1, 0, 2, u8> { fingerprint: 7, marking: [1], clocks: [], slots: [1, 2] };
+    assert!(numbers.write(&mut room).is_some());
+    assert_eq!(Snapshot::<1, 0, 2, Light>::read(&room), None);
 }
