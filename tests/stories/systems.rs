@@ -1,8 +1,8 @@
 //! Stories of nets that work together.
 
 use cotama_core::net::EventId;
-use cotama_core::player::{Player, Program};
-use cotama_core::system::{Happening, Of, Offered, SystemDefect, Turned, Witness};
+use cotama_core::player::{Kind, Observer, Outcome, Packed, Player, Program, Round, Snapshot, Why};
+use cotama_core::system::{Of, System, SystemDefect};
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
 
@@ -76,48 +76,52 @@ system! {
     }
 }
 
-fn make() -> Of<EventId> {
-    line::on::maker(&maker::Event::make)
-}
+type Line = line::Carrying<u8>;
+
+const MAKE: line::Event = line::Event::maker(maker::Event::make);
+const FLUSH: line::Event = line::Event::maker(maker::Event::flush);
+const PART: line::Event = line::Event::worker(worker::Event::part);
 
 /// What is seen, in words.
 #[derive(Default)]
 struct Log(Vec<String>);
 
-impl Witness<u8> for Log {
-    fn see(&mut self, happening: &Happening<u8>) {
-        let component = |component: u16| &line::SYSTEM.components[usize::from(component)];
-        let event = |of: &Of<EventId>| {
-            let component = component(of.component);
-            format!("{}.{}", component.name, component.net.events[of.id.0 as usize].name)
-        };
-        self.0.push(match happening {
-            Happening::Fired { transition, carries, at, .. } => {
-                let net = component(transition.component).net;
-                format!(
-                    "{} at {} with {carries}",
-                    net.transitions[transition.id.0 as usize].name, at.0
-                )
-            }
-            Happening::Ignored { event: of, carries } => {
-                format!("{} ignored with {carries}", event(of))
-            }
-            Happening::Mailed { to, carries } => format!("{} mailed with {carries}", event(to)),
-            Happening::Cleared { mailbox, carries } => {
-                format!("{} cleared of {carries}", event(mailbox))
-            }
-        });
+fn name(event: Of<EventId>) -> String {
+    let component = &line::SYSTEM.components[usize::from(event.component)];
+    format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
+}
+
+impl Observer<line::Program, u8> for Log {
+    fn on_fire(&mut self, firing: &line::Firing<'_, u8>) {
+        let net = line::SYSTEM.components[usize::from(firing.id.component)].net;
+        let transition = net.transitions[firing.id.id.0 as usize].name;
+        self.0.push(format!("{transition} at {} with {}", firing.at.0, firing.carries));
+    }
+
+    fn on_ignore(&mut self, event: Of<EventId>, carries: u8) {
+        self.0.push(format!("{} ignored with {carries}", name(event)));
+    }
+
+    fn on_mail(&mut self, to: Of<EventId>, carries: u8) {
+        self.0.push(format!("{} mailed with {carries}", name(to)));
+    }
+
+    fn on_clear(&mut self, mailbox: Of<EventId>, carries: u8) {
+        self.0.push(format!("{} cleared of {carries}", name(mailbox)));
     }
 }
 
 #[test]
 fn what_is_mailed_waits_for_the_turn_and_carries_its_payload() {
-    let (mut line, mut log) = (line::Player::<u8>::new(), Log::default());
-    assert!(matches!(line.offer(Millis(5), make(), 7, &mut log), Offered::Fired(_)));
-    assert_eq!(line.waiting(line::on::worker(&worker::Event::part)), 1);
-    assert_eq!(line.round(Millis(10), &mut log), Turned { fired: 1, ..Turned::default() });
+    let (mut line, mut log) = (Line::new(), Log::default());
+    assert!(line.offer_carrying(Millis(5), &MAKE, 7, &mut log).fired());
+    assert_eq!(line.waiting(&PART), 1);
+    assert!(line.round_is_due());
+    let round = line.round_with(Millis(10), &mut log);
+    assert_eq!(round, Round { fired: 1, ..Round::default() });
+    assert!(!line.round_is_due());
     assert_eq!(line.wake_at(), Some(Millis(60)));
-    assert_eq!(line.advance(Millis(100), &mut log).fired, 1);
+    assert_eq!(line.advance_with(Millis(100), &mut log).fired, 2); // the tally counts too
     let told = [
         "make at 5 with 7",
         "worker.part mailed with 7",
@@ -128,38 +132,53 @@ fn what_is_mailed_waits_for_the_turn_and_carries_its_payload() {
     // `count` is one line: the counter only adds, so it has one transition.
     let told = told.map(|it| it.replace(".parts_0", ""));
     assert_eq!(log.0, told);
-    assert_eq!(line.tokens(line::at::tally(tally::Place::parts)), 1);
+    assert_eq!(line.tokens(line::Place::tally(tally::Place::parts)), 1);
+}
+
+#[test]
+fn firings_have_typed_lines_and_outputs() {
+    let mut line = Line::new();
+    let mut seen = Vec::new();
+    let mut see = |it: &line::Firing<'_, u8>| {
+        assert_eq!(it.event, Some(&MAKE));
+        assert!(it.says(line::Output::maker(maker::Output::part)));
+        seen.push((it.transition, it.outputs().collect::<Vec<_>>()));
+    };
+    assert!(line.offer_with(Millis(0), &MAKE, &mut see).fired());
+    let made = line::Transition::maker(maker::Transition::make);
+    assert_eq!(seen, [(made, vec![line::Output::maker(maker::Output::part)])]);
 }
 
 #[test]
 fn a_full_mailbox_refuses_and_nothing_has_happened() {
-    let mut line = line::Player::<u8>::new();
+    let mut line = Line::new();
     for part in [1, 2] {
-        assert!(matches!(line.offer(Millis(0), make(), part, &mut ()), Offered::Fired(_)));
+        assert!(line.offer_carrying(Millis(0), &MAKE, part, &mut ()).fired());
     }
     let before = line;
-    let full = line::on::worker(&worker::Event::part);
-    assert_eq!(line.offer(Millis(0), make(), 3, &mut ()), Offered::Refused { full });
+    let outcome = line.offer_carrying(Millis(0), &MAKE, 3, &mut ());
+    assert_eq!(outcome, Outcome::Refused { full: PART.id() });
     assert_eq!(line, before);
 }
 
 #[test]
 fn the_oldest_is_read_first_and_what_is_not_wanted_is_ignored_for_good() {
-    let (mut line, mut log) = (line::Player::<u8>::new(), Log::default());
+    let (mut line, mut log) = (Line::new(), Log::default());
     for part in [1, 2] {
-        let _ = line.offer(Millis(0), make(), part, &mut ());
+        let _ = line.offer_carrying(Millis(0), &MAKE, part, &mut ());
     }
-    assert_eq!(line.round(Millis(0), &mut log), Turned { fired: 1, ignored: 1, waiting: 0 });
+    let round = line.round_with(Millis(0), &mut log);
+    assert_eq!(round, Round { fired: 1, ignored: 1, ..Round::default() });
     assert_eq!(log.0, ["begin at 0 with 1", "worker.part ignored with 2"]);
 }
 
 #[test]
 fn an_event_empties_a_mailbox_even_when_its_net_ignores_it() {
-    let (mut line, mut log) = (line::Player::<u8>::new(), Log::default());
+    let (mut line, mut log) = (Line::new(), Log::default());
     for part in [1, 2] {
-        let _ = line.offer(Millis(0), make(), part, &mut ());
+        let _ = line.offer_carrying(Millis(0), &MAKE, part, &mut ());
     }
-    let _ = line.offer(Millis(0), line::on::maker(&maker::Event::flush), 9, &mut log);
+    let _ = line.offer_carrying(Millis(0), &FLUSH, 9, &mut log);
     let told = [
         "flush at 0 with 9",
         "worker.part cleared of 1",
@@ -167,49 +186,52 @@ fn an_event_empties_a_mailbox_even_when_its_net_ignores_it() {
         "worker.flush ignored with 9",
     ];
     assert_eq!(log.0, told);
-    assert_eq!(line.waiting(line::on::worker(&worker::Event::part)), 0);
+    assert_eq!(line.waiting(&PART), 0);
 }
 
 #[test]
 fn a_shared_place_sees_what_waits() {
-    let mut line = line::Player::<u8>::new();
+    let mut line = Line::new();
     for _ in 0..3 {
-        let _ = line.offer(line.now(), make(), 0, &mut ());
-        let _ = line.round(line.now(), &mut ());
-        let _ = line.advance(Millis(line.now().0 + 50), &mut ());
+        let _ = line.offer(line.now(), &MAKE);
+        let _ = line.round(line.now());
+        let _ = line.advance(Millis(line.now().0 + 50));
     }
     // Three are counted and nothing waits: with the last one the tally is full, at once.
-    assert_eq!(line.tokens(line::at::tally(tally::Place::Full)), 1);
+    assert_eq!(line.tokens(line::Place::tally(tally::Place::Full)), 1);
+    assert_eq!(line::state::tally(&line), tally::State::Full);
 }
 
 #[test]
 fn a_broadcast_reaches_all_or_none() {
-    let mut cell = broadcast::Player::<u8>::new();
-    let make = broadcast::on::maker(&maker::Event::make);
-    assert!(matches!(cell.offer(Millis(0), make, 1, &mut ()), Offered::Fired(_)));
-    let (one, two) =
-        (broadcast::on::one(&worker::Event::part), broadcast::on::two(&worker::Event::part));
-    assert_eq!((cell.waiting(one), cell.waiting(two)), (1, 1));
+    let mut cell = broadcast::Carrying::<u8>::new();
+    let make = broadcast::Event::maker(maker::Event::make);
+    assert!(cell.offer_carrying(Millis(0), &make, 1, &mut ()).fired());
+    let one = broadcast::Event::one(worker::Event::part);
+    let two = broadcast::Event::two(worker::Event::part);
+    assert_eq!((cell.waiting(&one), cell.waiting(&two)), (1, 1));
     let before = cell;
-    assert_eq!(cell.offer(Millis(0), make, 2, &mut ()), Offered::Refused { full: one });
+    let outcome = cell.offer_carrying(Millis(0), &make, 2, &mut ());
+    assert_eq!(outcome, Outcome::Refused { full: one.id() });
     assert_eq!(cell, before);
 }
 
 #[test]
-fn an_event_of_no_net_is_refused() {
-    let mut line = line::Player::<()>::new();
+fn an_event_of_no_net_is_ignored() {
+    let mut line = line::Player::new();
     let nobody = Of { component: 9, id: EventId(0) };
-    assert_eq!(line.offer(Millis(0), nobody, (), &mut ()), Offered::NotNow);
+    let outcome = line.offer_id(Millis(0), nobody, (), &mut ());
+    assert_eq!(outcome, Outcome::Ignored { why: Why::NoSuchEvent });
 }
 
 #[test]
 fn time_is_the_same_in_one_step_or_many() {
     let drive = |steps: &[u64]| {
-        let (mut line, mut log) = (line::Player::<u8>::new(), Log::default());
-        let _ = line.offer(Millis(0), make(), 1, &mut log);
-        let _ = line.round(Millis(0), &mut log);
+        let (mut line, mut log) = (Line::new(), Log::default());
+        let _ = line.offer_carrying(Millis(0), &MAKE, 1, &mut log);
+        let _ = line.round_with(Millis(0), &mut log);
         for &step in steps {
-            let _ = line.advance(Millis(step), &mut log);
+            let _ = line.advance_with(Millis(step), &mut log);
         }
         (line, log.0)
     };
@@ -222,11 +244,34 @@ fn time_is_the_same_in_one_step_or_many() {
 fn a_system_that_does_not_fit_together_says_why() {
     let whole = line::SYSTEM;
     assert_eq!(whole.defect(), None);
-    let unbound = cotama_core::system::System { bindings: &[], ..whole };
+    let unbound = System { bindings: &[], ..whole };
     assert!(matches!(unbound.defect(), Some(SystemDefect::Unbound(Of { component: 2, .. }))));
-    let packed = cotama_core::system::Packed::<2>::of(&whole).unwrap();
-    let code = packed.code();
-    assert_eq!(code.initial.first(), line::Program.code().initial.first());
-    let mut played = Player::<_, u8, 2, 1, 2>::start(code, Millis(0), &mut ());
-    assert!(matches!(played.offer(Millis(0), make(), 1, &mut ()), Offered::Fired(_)));
+    let packed = Packed::<2, 1, 2>::of(&whole).unwrap();
+    let program = packed.load(&whole);
+    assert_eq!(program.code().initial.first(), line::Program.code().initial.first());
+    let mut played = Player::<_, 2, 1, 2, u8>::start(program, Millis(0), &mut ());
+    assert!(played.offer_carrying(Millis(0), &MAKE.id(), 1, &mut ()).fired());
+}
+
+/// A system that is stored comes back with its clocks and all that waits.
+#[test]
+fn a_line_that_is_stored_goes_on_where_it_was() {
+    let mut line = Line::new();
+    let _ = line.offer_carrying(Millis(0), &MAKE, 1, &mut ());
+    let _ = line.round(Millis(0));
+    let _ = line.offer_carrying(Millis(30), &MAKE, 2, &mut ());
+    let mut flash = [0; 64];
+    let written = line.snapshot().write(&mut flash).unwrap().len();
+    let stored = Snapshot::read(&flash[..written]).unwrap();
+
+    let now = Millis(1_000);
+    let mut again = line::Checked::<u8>::restore(Default::default(), now, &stored).unwrap();
+    assert_eq!(line::state::worker(&again), worker::State::Busy);
+    assert_eq!(again.waiting(&PART), 1);
+    assert_eq!(again.advance(Millis(1_019)).fired, 0);
+    assert_eq!(again.advance(Millis(1_020)).fired, 2); // 50 ms after it began
+    let mut carried = Vec::new();
+    let mut see = |it: &cotama_core::player::Firing<'_, _, u8>| carried.push(it.carries);
+    let round = again.round_with(Millis(1_020), &mut see);
+    assert_eq!((round.fired, carried), (1, vec![2]));
 }

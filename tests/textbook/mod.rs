@@ -1,263 +1,438 @@
 //! The token game by the book: an independent second implementation that the player is compared
 //! with.
 //!
-//! Tokens are numbers in a list, clocks are instants, and every question is answered by looking at
-//! all transitions. It is slow, and short enough to be compared with the definitions by eye: those
-//! of [`Player`](cotama_core::player::Player) for one event after the other, of
-//! [`Stepped`](cotama_core::player::Stepped) for synchronous steps.
+//! Tokens are numbers in a list, clocks are instants, what is undone is kept as a copy, and every
+//! question is answered by looking at all transitions. It is slow, and short enough to be compared
+//! with the definitions by eye: those of [`cotama_core::player`] for events, time and rounds, those
+//! of [`Player::step`](cotama_core::player::Player::step) for synchronous steps.
 
+pub mod flat;
 pub mod nets;
 mod steps;
+pub mod systems;
 
-use cotama_core::net::{Arc, EventId, Ignored, Net, PlaceId, TransitionId, Within};
-use cotama_core::player::LARGEST;
-use cotama_core::player::{CATCH_UP, Outcome, SETTLE, Why};
-use std::cmp::Reverse;
+use cotama_core::net::{EventId, PlaceId, TransitionId};
+use cotama_core::player::{Outcome, Round, Why};
+use cotama_core::system::{Delivery, Of, System};
+use flat::{Book, Cell, weight};
+use std::collections::VecDeque;
+use std::rc::Rc;
 
-/// A net that is being played.
+/// The most transitions that fire in one call before the game is [endless](Game::endless): no more
+/// than the player lets fire.
+pub const ENDLESS: u32 = 1_000;
+
+/// A system that is being played. What events carry along is a number.
 #[derive(Clone, Debug)]
-pub struct Game<'n> {
-    /// The net.
-    pub net: &'n Net<'n>,
-    /// The tokens of each place.
-    pub tokens: Vec<u32>,
-    /// Since when the marking has enabled each transition, undisturbed.
-    pub since: Vec<Option<u64>>,
+pub struct Game<'s> {
+    /// The system.
+    pub system: System<'s>,
+    /// The system written out.
+    pub book: Rc<Book>,
+    /// What can be undone.
+    pub state: State,
     /// The time.
     pub now: u64,
-    /// What has fired so far, in this order.
-    pub fired: Vec<Fired>,
-    /// Whether it came to one of the limits: more than [`SETTLE`] or [`CATCH_UP`] transitions in a
-    /// row fired by themselves. What the game says is then not to be compared any more.
+    /// What happened so far, in this order.
+    pub told: Vec<Told>,
+    /// How many transitions have fired in this call.
+    pub fired: u32,
+    /// Whether a call had to be cut short. What the game says is then not to be compared any more.
     pub endless: bool,
-    /// All transitions: those of the highest priority first, then those of earlier lines.
-    order: Vec<TransitionId>,
 }
 
-/// A transition that fired.
+/// Tokens, mailboxes and clocks.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fired {
-    /// Which one.
-    pub transition: TransitionId,
-    /// The event that it used.
-    pub event: Option<EventId>,
-    /// When.
-    pub at: u64,
+pub struct State {
+    /// The tokens of each cell.
+    pub tokens: Vec<u32>,
+    /// What waits in each mailbox, the oldest first.
+    pub mail: Vec<VecDeque<u16>>,
+    /// Since when the marking has enabled each transition, undisturbed.
+    pub since: Vec<Option<u64>>,
 }
 
-impl<'n> Game<'n> {
-    /// The net as it starts, at this time, and settled.
-    pub fn start(net: &'n Net<'n>, now: u64) -> Self {
-        let tokens = net.places.iter().map(|place| place.initial).collect();
-        let since = vec![None; net.transitions.len()];
-        let mut order: Vec<_> =
-            (0..net.transitions.len()).map(|it| TransitionId(it as u32)).collect();
-        order.sort_by_key(|it| (Reverse(net.transitions[it.0 as usize].priority), it.0));
-        let mut game = Self { net, tokens, since, now, fired: Vec::new(), endless: false, order };
+/// Something that happened, with what is carried along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Told {
+    /// A transition fired, on this event or by itself, at this time.
+    Fired(Of<TransitionId>, Option<Of<EventId>>, u64, u16),
+    /// An event was ignored for good.
+    Ignored(Of<EventId>, u16),
+    /// Something was put into the mailbox of an event.
+    Mailed(Of<EventId>, u16),
+    /// Something was taken out of the mailbox of an event, which another one empties.
+    Cleared(Of<EventId>, u16),
+}
+
+/// The mailbox of this event is full.
+struct Full(Of<EventId>);
+
+impl<'s> Game<'s> {
+    /// The system as it starts, at this time, and settled.
+    pub fn start(system: &System<'s>, now: u64) -> Self {
+        let book = Rc::new(Book::of(system));
+        let state = State {
+            tokens: book.initial.clone(),
+            mail: vec![VecDeque::new(); book.mailboxes.len()],
+            since: vec![None; book.lines.len()],
+        };
+        let (told, fired, endless) = (Vec::new(), 0, false);
+        let mut game = Self { system: *system, book, state, now, told, fired, endless };
         game.start_clocks();
-        game.settle();
+        game.settle_all();
         game
     }
 
     /// Lets time pass, then offers an event, then settles.
-    pub fn offer(&mut self, now: u64, event: EventId) -> Outcome<TransitionId> {
+    pub fn offer(
+        &mut self,
+        now: u64,
+        event: Of<EventId>,
+        carries: u16,
+    ) -> Outcome<Of<TransitionId>> {
         self.advance(now);
-        let on_event = |it: &TransitionId| self.net.transitions[it.0 as usize].on == Some(event);
-        let candidates: Vec<TransitionId> = self.order.iter().copied().filter(on_event).collect();
-        if let Some(&transition) = candidates.iter().find(|&&it| self.can_fire(it)) {
-            self.fire(transition, Some(event));
-            return Outcome::Fired { transition, settled: self.settle() };
-        }
-        let on_purpose = |it: &Ignored| it.event == event && self.at(it.place) > 0;
-        let why = match candidates.into_iter().find(|&it| self.has_tokens(it)) {
-            Some(it) if self.waited(it) < u64::from(self.within(it).earliest) => Why::TooEarly(it),
-            Some(it) if !self.in_time(it) => Why::TooLate(it),
-            Some(it) => Why::Full(it),
-            None if self.net.ignored.iter().any(on_purpose) => Why::OnPurpose,
-            None => Why::NotEnabled,
-        };
-        Outcome::Ignored { why }
-    }
-
-    /// Lets time pass: transitions without event fire when they are due.
-    pub fn advance(&mut self, now: u64) {
-        let (now, already) = (now.max(self.now), self.fired.len());
-        self.settle();
-        while let Some((at, transition)) = self.next_due().filter(|&(at, _)| at <= now) {
-            if self.endless || self.fired.len() - already >= CATCH_UP as usize {
-                self.endless = true;
-                return;
+        let before = self.fired;
+        let answer = self.all_or_nothing(|game| {
+            let answer = game.hear(event, carries)?;
+            Ok(answer.ok_or_else(|| game.why(event)))
+        });
+        self.settle_all();
+        match answer {
+            Ok(Ok(line)) => {
+                let settled = (self.fired - before).saturating_sub(1);
+                Outcome::Fired { transition: self.book.lines[line].id, settled }
             }
-            self.now = at;
-            self.fire(transition, None);
-            self.settle();
+            Ok(Err(why)) => Outcome::Ignored { why },
+            Err(Full(full)) => Outcome::Refused { full },
         }
-        self.now = now;
     }
 
-    /// When the next transition is due by itself.
+    /// Lets time pass: transitions without event fire as soon as they can. Between the instants at
+    /// which an interval begins, or is over, nothing changes.
+    pub fn advance(&mut self, now: u64) {
+        self.fired = 0;
+        loop {
+            self.settle_all();
+            while self.fire_due() {
+                self.settle_all();
+            }
+            match self.next_change().filter(|&at| at <= now) {
+                Some(at) => self.now = at,
+                None => break,
+            }
+        }
+        self.now = self.now.max(now);
+    }
+
+    /// One round: every net takes its turn, then all settle.
+    pub fn round(&mut self, now: u64) -> Round {
+        self.advance(now);
+        let mut round = Round::default();
+        let mut mailboxes = (0..self.book.mailboxes.len()).peekable();
+        for component in 0..self.system.components.len() as u16 {
+            self.settle(component..component + 1);
+            let here = |it: &usize| self.book.clone().mailboxes[*it].component == component;
+            let mine: Vec<usize> = std::iter::from_fn(|| mailboxes.next_if(here)).collect();
+            for mailbox in mine {
+                self.read_all(mailbox, &mut round);
+            }
+        }
+        self.settle_all();
+        round
+    }
+
+    /// A net reads a mailbox, as far as it is filled now.
+    fn read_all(&mut self, mailbox: usize, round: &mut Round) {
+        let event = self.book.mailboxes[mailbox];
+        for _ in 0..self.state.mail[mailbox].len() {
+            if self.state.mail[mailbox].is_empty() {
+                return; // what was read has emptied it
+            }
+            let read = self.all_or_nothing(|game| {
+                let carries = game.take_out(mailbox);
+                game.hear(event, carries)
+            });
+            match read {
+                Ok(Some(_)) => round.fired += 1,
+                Ok(None) => round.ignored += 1,
+                Err(Full(_)) => {
+                    round.waiting += 1;
+                    return;
+                }
+            }
+        }
+    }
+
+    /// Whether something waits in a mailbox.
+    pub fn round_is_due(&self) -> bool {
+        self.state.mail.iter().any(|it| !it.is_empty())
+    }
+
+    /// When something can happen next, if nothing comes from outside.
     pub fn wake_at(&self) -> Option<u64> {
-        let at_once = self.next_at_once().map(|_| self.now);
-        at_once.or_else(|| self.next_due().map(|(at, _)| at))
-    }
-
-    /// Whether a transition can fire now, if the event that it needs comes.
-    pub fn can_fire(&self, transition: TransitionId) -> bool {
-        self.has_tokens(transition) && self.has_room(transition) && self.in_time(transition)
+        if self.round_is_due() || !self.is_settled() {
+            return Some(self.now);
+        }
+        let due = |&at: &usize| {
+            let (within, since) = (self.book.lines[at].within?, self.state.since[at]?);
+            Some((since + u64::from(within.earliest)).max(self.now))
+        };
+        let by_itself = self.book.order.iter().filter(|&&at| self.book.lines[at].on.is_none());
+        by_itself.filter(|&&at| self.can(at)).filter_map(due).min()
     }
 
     /// Whether nothing fires at once by itself.
     pub fn is_settled(&self) -> bool {
-        self.next_at_once().is_none()
+        (0..self.system.components.len()).all(|it| self.at_once(it as u16).next().is_none())
     }
 
-    /// Whether no place holds more than its bound.
-    pub fn is_within_bounds(&self) -> bool {
-        let bounds = self.net.places.iter().map(|place| place.bound.min(LARGEST));
-        self.tokens.iter().zip(bounds).all(|(&tokens, bound)| tokens <= bound)
-    }
-
-    /// Whether no order in which transitions can fire, whatever the time and the priorities,
-    /// exceeds a bound; `false` as well when the net has more than so many markings.
-    pub fn is_bounded(net: &'n Net<'n>, markings: usize) -> bool {
-        let start = Self::start(net, 0);
-        let initial: Vec<u32> = net.places.iter().map(|place| place.initial).collect();
-        let mut known = vec![initial];
-        let mut next = 0;
-        while let Some(tokens) = known.get(next).cloned() {
-            for &transition in &start.order {
-                let mut game = Self { tokens: tokens.clone(), ..start.clone() };
-                if !game.has_tokens(transition) {
-                    continue;
-                }
-                if !game.has_room(transition) || known.len() > markings {
-                    return false;
-                }
-                game.fire(transition, None);
-                if !known.contains(&game.tokens) {
-                    known.push(game.tokens);
-                }
-            }
-            next += 1;
+    /// Does all of it or nothing.
+    fn all_or_nothing<T>(
+        &mut self,
+        act: impl FnOnce(&mut Self) -> Result<T, Full>,
+    ) -> Result<T, Full> {
+        let before = (self.state.clone(), self.told.len(), self.fired);
+        let done = act(self);
+        if done.is_err() {
+            (self.state, self.fired) = (before.0, before.2);
+            self.told.truncate(before.1);
         }
-        true
+        done
     }
 
-    /// Fires transitions without event and interval until none is enabled; how many.
-    fn settle(&mut self) -> u32 {
-        let mut settled = 0;
-        while let Some(transition) = self.next_at_once() {
-            if settled == SETTLE {
-                self.endless = true;
-                break;
+    /// A net hears an event: which transition fires on it, if one does.
+    fn hear(&mut self, event: Of<EventId>, carries: u16) -> Result<Option<usize>, Full> {
+        for clear in self.system.clears.iter().filter(|it| it.on == event) {
+            let emptied = Of { component: event.component, id: clear.mailbox };
+            let mailbox = self.mailbox(emptied);
+            while !self.state.mail[mailbox].is_empty() {
+                let carried = self.take_out(mailbox);
+                self.told.push(Told::Cleared(emptied, carried));
             }
-            self.fire(transition, None);
-            settled += 1;
         }
-        settled
+        let answering = self.on(event).find(|&it| self.can(it) && self.in_time(it));
+        match answering {
+            Some(line) => self.fire(line, Some(event), carries)?,
+            None => self.told.push(Told::Ignored(event, carries)),
+        }
+        Ok(answering)
+    }
+
+    /// Fires a transition, with all that it causes, and its net settles.
+    fn fire(&mut self, line: usize, on: Option<Of<EventId>>, carries: u16) -> Result<(), Full> {
+        self.act(line, on, carries)?;
+        let component = self.book.lines[line].id.component;
+        loop {
+            let next = self.at_once(component).next();
+            match next {
+                Some(line) => self.act(line, None, carries)?,
+                None => return Ok(()),
+            }
+        }
+    }
+
+    /// Moves the tokens of a transition, and causes what it says.
+    fn act(&mut self, line: usize, on: Option<Of<EventId>>, carries: u16) -> Result<(), Full> {
+        let book = self.book.clone();
+        let it = &book.lines[line];
+        self.change(&it.take, &it.give, Some(line));
+        self.told.push(Told::Fired(it.id, on, self.now, carries));
+        self.fired += 1;
+        self.endless |= self.fired >= ENDLESS;
+        for &(event, delivery) in &it.says {
+            match delivery {
+                Delivery::Now => _ = self.hear(event, carries)?,
+                Delivery::Mail { .. } => self.put_in(event, carries)?,
+            }
+        }
+        Ok(())
+    }
+
+    fn put_in(&mut self, event: Of<EventId>, carries: u16) -> Result<(), Full> {
+        let cells = [Cell::Waiting(event), Cell::Room(event)].map(|it| self.book.find(it));
+        let [Some(waiting), Some(room)] = cells else { unreachable!("a mailbox has cells") };
+        if self.state.tokens[room] == 0 {
+            return Err(Full(event));
+        }
+        self.change(&[(room, 1)], &[(waiting, 1)], None);
+        let mailbox = self.mailbox(event);
+        self.state.mail[mailbox].push_back(carries);
+        self.told.push(Told::Mailed(event, carries));
+        Ok(())
+    }
+
+    fn take_out(&mut self, mailbox: usize) -> u16 {
+        let event = self.book.mailboxes[mailbox];
+        let cells = [Cell::Waiting(event), Cell::Room(event)].map(|it| self.book.find(it));
+        let [Some(waiting), Some(room)] = cells else { unreachable!("a mailbox has cells") };
+        self.change(&[(waiting, 1)], &[(room, 1)], None);
+        self.state.mail[mailbox].pop_front().expect("something waits")
+    }
+
+    /// The position of the mailbox of an event.
+    fn mailbox(&self, event: Of<EventId>) -> usize {
+        let is_it = |it: &Of<EventId>| *it == event;
+        self.book.mailboxes.iter().position(is_it).expect("it has a mailbox")
+    }
+
+    /// All nets settle, those of the first component first.
+    fn settle_all(&mut self) {
+        self.settle(0..self.system.components.len() as u16);
+    }
+
+    /// Transitions without event and interval of these nets fire until none can: one that mails to
+    /// a full mailbox cannot.
+    fn settle(&mut self, components: std::ops::Range<u16>) {
+        loop {
+            let next: Vec<usize> = components.clone().flat_map(|it| self.at_once(it)).collect();
+            if !next.into_iter().any(|line| self.fires(line)) {
+                return;
+            }
+        }
+    }
+
+    /// Fires the first transition that is due by itself and can: whether there was one.
+    fn fire_due(&mut self) -> bool {
+        let is_due = |&at: &usize| {
+            let it = &self.book.lines[at];
+            it.on.is_none() && it.within.is_some() && self.in_time(at) && self.can(at)
+        };
+        let due: Vec<usize> = self.book.order.iter().copied().filter(is_due).collect();
+        due.into_iter().any(|line| self.fires(line))
+    }
+
+    /// Fires a transition by itself, with all that it causes; `false` when a mailbox is full.
+    fn fires(&mut self, line: usize) -> bool {
+        self.all_or_nothing(|game| game.fire(line, None, 0)).is_ok()
+    }
+
+    /// The transitions without event and interval of a net that can fire, the first one first.
+    fn at_once(&self, component: u16) -> impl Iterator<Item = usize> {
+        let is_one = move |&at: &usize| {
+            let it = &self.book.lines[at];
+            it.id.component == component && it.on.is_none() && it.within.is_none() && self.can(at)
+        };
+        self.book.order.iter().copied().filter(is_one)
+    }
+
+    /// The transitions on an event, the first one first.
+    fn on(&self, event: Of<EventId>) -> impl Iterator<Item = usize> {
+        let is_on = move |at: &usize| self.book.lines[*at].on == Some(event);
+        self.book.order.iter().copied().filter(is_on)
+    }
+
+    /// Why no transition fires on an event.
+    fn why(&self, event: Of<EventId>) -> Why<Of<TransitionId>> {
+        let net = self.system.components[usize::from(event.component)].net;
+        let first = self.on(event).find(|&it| self.has_tokens(it));
+        let Some(first) = first else {
+            let mut here = net.ignored.iter().filter(|it| it.event == event.id);
+            let component = event.component;
+            let marked = here.any(|it| self.place(Of { component, id: it.place }) > 0);
+            return if marked { Why::OnPurpose } else { Why::NotEnabled };
+        };
+        let (line, waited) = (&self.book.lines[first], self.waited(first));
+        if line.within.is_some_and(|it| waited < u64::from(it.earliest)) {
+            Why::TooEarly(line.id)
+        } else if self.in_time(first) {
+            Why::Full(line.id)
+        } else {
+            Why::TooLate(line.id)
+        }
     }
 
     /// Moves tokens, and starts the clocks of what this disturbs anew.
-    fn fire(&mut self, transition: TransitionId, event: Option<EventId>) {
-        let it = &self.net.transitions[transition.0 as usize];
-        self.take(it.take);
+    fn change(&mut self, take: &[(usize, u32)], give: &[(usize, u32)], own: Option<usize>) {
+        for &(cell, weight) in take {
+            self.state.tokens[cell] -= weight;
+        }
         self.stop_clocks();
-        self.since[transition.0 as usize] = None;
-        self.give(it.give);
+        if let Some(own) = own {
+            self.state.since[own] = None;
+        }
+        for &(cell, weight) in give {
+            self.state.tokens[cell] += weight;
+        }
         self.start_clocks();
-        self.fired.push(Fired { transition, event, at: self.now });
-    }
-
-    fn take(&mut self, arcs: &[Arc]) {
-        for arc in arcs {
-            self.tokens[arc.place.0 as usize] -= arc.weight;
-        }
-    }
-
-    fn give(&mut self, arcs: &[Arc]) {
-        for arc in arcs {
-            self.tokens[arc.place.0 as usize] += arc.weight;
-        }
     }
 
     /// Of transitions that the marking does not enable.
     fn stop_clocks(&mut self) {
-        for transition in self.order.clone() {
-            if !self.has_tokens(transition) {
-                self.since[transition.0 as usize] = None;
+        for at in 0..self.state.since.len() {
+            if !self.has_tokens(at) {
+                self.state.since[at] = None;
             }
         }
     }
 
     /// Of transitions that the marking enables and whose clocks do not run yet.
     fn start_clocks(&mut self) {
-        for &transition in &self.order {
-            if self.has_tokens(transition) {
-                self.since[transition.0 as usize].get_or_insert(self.now);
+        for at in 0..self.state.since.len() {
+            if self.has_tokens(at) {
+                self.state.since[at].get_or_insert(self.now);
             }
         }
     }
 
-    /// The transition to fire next of those without event and interval.
-    fn next_at_once(&self) -> Option<TransitionId> {
-        let at_once = |it: &TransitionId| {
-            let it = &self.net.transitions[it.0 as usize];
-            it.on.is_none() && it.within.is_none()
-        };
-        self.order.iter().copied().filter(at_once).find(|&it| self.can_fire(it))
+    /// The next instant at which an interval of an enabled transition begins, or is over.
+    fn next_change(&self) -> Option<u64> {
+        let changes = self.book.lines.iter().zip(&self.state.since).flat_map(|(line, since)| {
+            let earliest = line.within.map(|it| u64::from(it.earliest));
+            let over = line.within.and_then(|it| Some(u64::from(it.latest?) + 1));
+            [earliest, over].map(|it| Some((*since)? + it?))
+        });
+        changes.flatten().filter(|&at| at > self.now).min()
     }
 
-    /// The transition to fire next of those without event but with an interval, and when. The last
-    /// instant of the interval does not matter: one that there was no room for fires as soon as
-    /// there is.
-    fn next_due(&self) -> Option<(u64, TransitionId)> {
-        let due = |id: TransitionId| {
-            let it = &self.net.transitions[id.0 as usize];
-            let waits = it.on.is_none() && self.has_tokens(id) && self.has_room(id);
-            let within = it.within.filter(|_| waits)?;
-            let since = self.since[id.0 as usize]?;
-            Some(((since + u64::from(within.earliest)).max(self.now), id))
-        };
-        self.order.iter().copied().filter_map(due).min_by_key(|&(at, _)| at)
+    /// The tokens of a place.
+    pub fn place(&self, place: Of<PlaceId>) -> u32 {
+        self.state.tokens[self.book.place(&self.system, place)]
     }
 
-    fn at(&self, place: PlaceId) -> u32 {
-        self.tokens[place.0 as usize]
+    /// Whether a transition can fire now, if the event that it needs comes.
+    pub fn can_fire(&self, line: usize) -> bool {
+        self.can(line) && self.in_time(line)
+    }
+
+    /// Whether tokens and room are there, in a game that goes on.
+    fn can(&self, line: usize) -> bool {
+        !self.endless && self.has_tokens(line) && self.has_room(line)
     }
 
     /// Whether the tokens that it takes and reads are there.
-    pub fn has_tokens(&self, transition: TransitionId) -> bool {
-        let it = &self.net.transitions[transition.0 as usize];
-        it.take.iter().chain(it.read).all(|arc| self.at(arc.place) >= arc.weight)
+    pub fn has_tokens(&self, line: usize) -> bool {
+        let it = &self.book.lines[line];
+        it.take.iter().chain(&it.read).all(|&(cell, weight)| self.state.tokens[cell] >= weight)
     }
 
-    /// Whether no place would hold more than its bound; of a transition that [has
+    /// Whether no cell would hold more than its bound; of a transition that [has
     /// tokens](Self::has_tokens).
-    fn has_room(&self, transition: TransitionId) -> bool {
-        let it = &self.net.transitions[transition.0 as usize];
-        it.give.iter().all(|given| {
-            let taken =
-                it.take.iter().find(|taken| taken.place == given.place).map_or(0, |arc| arc.weight);
-            let after = u64::from(self.at(given.place) - taken) + u64::from(given.weight);
-            after <= u64::from(self.net.places[given.place.0 as usize].bound.min(LARGEST))
+    fn has_room(&self, line: usize) -> bool {
+        let it = &self.book.lines[line];
+        it.give.iter().all(|&(cell, given)| {
+            let left = self.state.tokens[cell] - weight(&it.take, cell);
+            u64::from(left) + u64::from(given) <= u64::from(self.book.cells[cell].1)
         })
     }
 
-    fn within(&self, transition: TransitionId) -> Within {
-        let any_time = Within { earliest: 0, latest: None };
-        self.net.transitions[transition.0 as usize].within.unwrap_or(any_time)
+    /// Whether no cell holds more than its bound.
+    pub fn is_within_bounds(&self) -> bool {
+        self.state.tokens.iter().zip(&self.book.cells).all(|(&tokens, it)| tokens <= it.1)
     }
 
     /// How long the marking has enabled it.
-    fn waited(&self, transition: TransitionId) -> u64 {
-        self.since[transition.0 as usize].map_or(0, |since| self.now - since)
+    fn waited(&self, line: usize) -> u64 {
+        self.state.since[line].map_or(0, |since| self.now - since)
     }
 
     /// Whether its interval allows it to fire now. Only one on an event can be too late.
-    fn in_time(&self, transition: TransitionId) -> bool {
-        let (waited, within) = (self.waited(transition), self.within(transition));
-        let on_event = self.net.transitions[transition.0 as usize].on.is_some();
-        waited >= u64::from(within.earliest)
-            && (!on_event || within.latest.is_none_or(|latest| waited <= u64::from(latest)))
+    fn in_time(&self, line: usize) -> bool {
+        let it = &self.book.lines[line];
+        let waited = self.waited(line);
+        it.within.is_none_or(|within| {
+            let late = within.latest.is_some_and(|latest| waited > u64::from(latest));
+            waited >= u64::from(within.earliest) && (it.on.is_none() || !late)
+        })
     }
 }

@@ -1,6 +1,6 @@
 //! Random nets: of every shape that the player treats in a way of its own.
 
-use crate::instances::Draw;
+use crate::draw::Draw;
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, EventId, Ignored, OutputId, Place, PlaceId, Role, Within};
 
@@ -77,7 +77,7 @@ pub fn pick<'a, T>(draw: &mut Draw, from: &'a [T]) -> &'a T {
     &from[below(draw, from.len())]
 }
 
-fn below(draw: &mut Draw, length: usize) -> usize {
+pub(super) fn below(draw: &mut Draw, length: usize) -> usize {
     draw.between(0, length as u64 - 1) as usize
 }
 
@@ -228,7 +228,7 @@ fn trigger(
     it
 }
 
-fn interval(draw: &mut Draw) -> Within {
+pub(super) fn interval(draw: &mut Draw) -> Within {
     let earliest = if one_in(draw, 6) { 0 } else { draw.between(1, 20) as u32 };
     let latest = match draw.between(0, 2) {
         0 => Some(earliest),

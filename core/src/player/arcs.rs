@@ -2,7 +2,7 @@
 
 use super::code::Lists;
 use super::field::Field;
-use super::layout::{lacks_complement, made_complement};
+use super::layout::{complement, lacks_complement, made_complement};
 use crate::net::data::{Arc, PlaceId, Role, Transition};
 use crate::system::data::{Of, System, Target};
 
@@ -30,7 +30,7 @@ pub(super) const fn moved<const W: usize>(
     // Complements that the system makes follow their places, by what a transition changes in the
     // end.
     let mut arc = 0;
-    while lists.complements.len() > 0 && arc < it.take.len() + it.give.len() {
+    while system.bindings.len() > 0 && arc < it.take.len() + it.give.len() {
         let taken = arc < it.take.len();
         let place = if taken { it.take[arc].place } else { it.give[arc - it.take.len()].place };
         let owner = match system.target(Of { component: component as u16, id: place }) {
@@ -40,18 +40,21 @@ pub(super) const fn moved<const W: usize>(
         // Of a place that is taken and given the arc that takes counts for both.
         let counts = taken || weight(it.take, place) == 0;
         if counts
-            && lacks_complement(system, owner.component as usize, owner.id.0 as usize)
+            && let Some(field) = absence(system, lists, component, owner)
             && !mirrored(system, component, owner, it)
         {
-            let of = lists.places[owner.component as usize] + owner.id.0 as u16;
-            let field = made_complement(lists.complements, of);
             let word = field.word as usize;
             let (lost, gained) = (weight(it.take, place), weight(it.give, place));
             if lost > gained {
                 give[word] += field.tokens(lost - gained);
             } else {
-                need[word] += field.tokens(gained - lost);
                 take[word] += field.tokens(gained - lost);
+                // What it reads anyway is part of what it needs.
+                let read = match complement(system.components[component].net, place) {
+                    Some(complement) => weight(it.read, complement),
+                    None => 0,
+                };
+                need[word] += field.tokens((gained - lost).saturating_sub(read));
             }
         }
         arc += 1;
@@ -63,6 +66,27 @@ pub(super) const fn moved<const W: usize>(
         word += 1;
     }
     Moved { need, take, delta }
+}
+
+/// Where the complement of a place lies that does not follow it by arcs of this net: one that the
+/// system makes, or that the owner of the place has and another net, which shares it, may not know.
+const fn absence<const W: usize>(
+    system: &System<'_>,
+    lists: &Lists<'_, W>,
+    component: usize,
+    owner: Of<PlaceId>,
+) -> Option<Field> {
+    let first = lists.places[owner.component as usize];
+    if lacks_complement(system, owner.component as usize, owner.id.0 as usize) {
+        return Some(made_complement(lists.complements, first + owner.id.0 as u16));
+    }
+    if owner.component as usize == component {
+        return None;
+    }
+    match complement(system.components[owner.component as usize].net, owner.id) {
+        Some(complement) => Some(lists.fields[first as usize + complement.0 as usize]),
+        None => None,
+    }
 }
 
 /// Whether a transition of another net, which shares the place, moves the complement itself.

@@ -3,7 +3,7 @@
 use super::SETTLE;
 use super::code::{Entry, Mailbox, NONE, bounds, minus};
 use super::observer::{Firing, Observer};
-use super::outcome::{Outcome, Why};
+use super::outcome::Outcome;
 use super::player::Player;
 use super::program::Program;
 use crate::system::data::DEPTH;
@@ -103,20 +103,19 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     }
 
     /// The oldest in a mailbox is read and delivered; it stays where it is when that is refused.
+    /// `None` when it is empty.
     pub(super) fn read_and_deliver(
         &mut self,
         mailbox: usize,
         observer: &mut dyn Observer<P, M>,
-    ) -> Outcome<u16> {
+    ) -> Option<Outcome<u16>> {
         let before = (self.marking, self.clocks, self.slots);
-        let Some((event, carries)) = self.read(mailbox) else {
-            return Outcome::Ignored { why: Why::NoSuchEvent };
-        };
+        let (event, carries) = self.read(mailbox)?;
         let outcome = self.deliver(event, None, carries, observer);
         if let Outcome::Refused { .. } = outcome {
             (self.marking, self.clocks, self.slots) = before;
         }
-        outcome
+        Some(outcome)
     }
 
     /// Does all of it or nothing; the observer is told when it is clear that no mailbox is full.

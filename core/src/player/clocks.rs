@@ -86,4 +86,22 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
         first.map(|(waits, entry)| (waits, *entry))
     }
+
+    /// How long until an event may find another answer, because the interval of a transition on it
+    /// begins or is over: when within `left`, and something that could fire by itself waits for
+    /// room in a mailbox. Then it may do without.
+    pub(super) fn retry(&self, refused: &[bool; C], left: u64) -> Option<u32> {
+        let code = self.program.code();
+        if C == 0 || S == 0 || !refused.contains(&true) && self.settled(&code) {
+            return None;
+        }
+        let changes = self.clocks.iter().zip(code.clocks).filter_map(|(&elapsed, clock)| {
+            let runs = clock.event && code.holds(&self.marking, &clock.need);
+            let ends = [clock.earliest, clock.cap()].into_iter().filter(|&end| end > elapsed).min();
+            ends.filter(|_| runs).map(|end| end.saturating_sub(elapsed))
+        });
+        let first = changes.min()?;
+        let due = self.due(refused).map_or(u32::MAX, |it| it.0);
+        (first <= due && u64::from(first) <= left).then_some(first)
+    }
 }

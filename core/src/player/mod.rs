@@ -13,8 +13,8 @@
 //! 2. An event is *offered*: the first enabled transition on it fires (by priority, then by line),
 //!    and all nets settle; or the event is ignored, and the player says why.
 //! 3. In a *round* each net takes its turn, in the order of the system: it settles, then reads its
-//!    mailboxes in the order in which its events are listed, each as far as it was filled when the
-//!    turn began. What it reads makes a transition fire, or is ignored for good, or, when a mailbox
+//!    mailboxes in the order in which its events are listed, each as far as it is filled when the
+//!    net comes to it. What it reads makes a transition fire, or is ignored for good, or, when a mailbox
 //!    is full, goes on waiting. Then all nets settle. [`Player::round_is_due`] says whether
 //!    something waits; a net alone has no mailboxes.
 //!
@@ -58,6 +58,7 @@ mod pack;
 #[allow(clippy::module_inception, reason = "the door of the room is the player")]
 mod player;
 mod program;
+mod settle;
 mod snapshot;
 mod step;
 

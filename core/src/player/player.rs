@@ -109,10 +109,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
         let can = |it: &Entry<W>| self.can(&code, it) && self.open(&code, it);
         let Some(entry) = code.first(kind, &self.marking, can).copied() else {
+            observer.on_ignore(id, carries);
             return Outcome::Ignored { why: self.why(kind) };
         };
+        let at_once = code.first_urgent()..code.timed();
         self.fire_alone(&entry, Some(id), event, carries, observer);
-        Outcome::Fired { transition: entry.transition, settled: self.rest(observer) }
+        let settled = self.settle(at_once, carries, observer);
+        Outcome::Fired { transition: entry.transition, settled }
     }
 
     /// The same outcome, once all nets have settled.
@@ -146,6 +149,14 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let mut refused = [false; C];
         while !advanced.behind {
             let left = now.0.saturating_sub(self.now.0);
+            if let Some(wait) = self.retry(&refused, left) {
+                self.pass(u64::from(wait));
+                let fired = self.rest(observer);
+                advanced.fired = advanced.fired.saturating_add(fired);
+                advanced.behind = self.is_cut_short(fired);
+                refused = [false; C];
+                continue;
+            }
             let (wait, entry) = match self.due(&refused) {
                 Some((wait, entry)) if u64::from(wait) <= left => (wait, entry),
                 _ => {
@@ -158,7 +169,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 break;
             }
             self.pass(u64::from(wait));
-            if let Some(more) = self.fire_by_itself(&entry, observer) {
+            if let Some(more) = self.fire_by_itself(&entry, M::default(), observer) {
                 let settled = self.rest(observer);
                 advanced.fired =
                     advanced.fired.saturating_add(1).saturating_add(more).saturating_add(settled);
@@ -262,71 +273,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// Whether what an event does ends when its net has settled.
     #[inline]
-    fn is_alone(code: &Code<'_, W>) -> bool {
+    pub(super) fn is_alone(code: &Code<'_, W>) -> bool {
         P::ALONE || code.is_alone()
-    }
-
-    /// Whether nothing fires at once by itself.
-    pub(super) fn settled(&self, code: &Code<'_, W>) -> bool {
-        code.rests(&self.marking) || self.urgent(code, 0).is_none()
-    }
-
-    /// Whether settling stopped before its end, having let so many transitions fire.
-    fn is_cut_short(&self, fired: u32) -> bool {
-        let code = self.program.code();
-        !(P::ALONE && code.bounded) && fired >= code.settle && !self.settled(&code)
-    }
-
-    /// The position, at or after `from`, and the transition that fires next at once by itself.
-    #[inline]
-    fn urgent<'c>(&self, code: &Code<'c, W>, from: usize) -> Option<(usize, &'c Entry<W>)> {
-        let first = code.first_urgent();
-        if Self::is_alone(code) {
-            let entry = code.first(first, &self.marking, |it| self.can(code, it));
-            return entry.map(|it| (0, it));
-        }
-        let entries = code.kinds(first..code.timed()).iter().enumerate().skip(from);
-        let mut enabled = entries.filter(|it| self.can(code, it.1));
-        enabled.next()
-    }
-
-    /// Lets transitions without event and interval fire until none is enabled that is not waiting
-    /// for room in a mailbox; how many did.
-    #[inline]
-    pub(super) fn rest(&mut self, observer: &mut impl Observer<P, M>) -> u32 {
-        let (mut fired, mut from) = (0_u32, 0);
-        while fired < self.program.code().settle {
-            let code = self.program.code();
-            if code.rests(&self.marking) {
-                break;
-            }
-            let Some((at, &entry)) = self.urgent(&code, from) else { break };
-            match self.fire_by_itself(&entry, observer) {
-                Some(more) => (fired, from) = (fired.saturating_add(1).saturating_add(more), 0),
-                None => from = at.saturating_add(1),
-            }
-        }
-        fired
-    }
-
-    /// Fires a transition that can fire by itself, with what follows from it; how many more fired,
-    /// or `None` when a mailbox on the way is full and nothing has happened.
-    #[inline]
-    fn fire_by_itself(
-        &mut self,
-        entry: &Entry<W>,
-        observer: &mut impl Observer<P, M>,
-    ) -> Option<u32> {
-        if Self::is_alone(&self.program.code()) {
-            self.fire_alone(entry, None, None, M::default(), observer);
-            return Some(0);
-        }
-        self.fire_whole(entry, observer)
     }
 
     /// Fires a transition of a net alone.
     #[inline]
-    fn fire_alone(
+    pub(super) fn fire_alone(
         &mut self,
         entry: &Entry<W>,
         on: Option<Of<EventId>>,
@@ -374,33 +327,25 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// One net takes its turn.
     fn turn(&mut self, component: usize, round: &mut Round, observer: &mut impl Observer<P, M>) {
-        self.settle(component, observer);
+        let row = self.program.code().first_urgent().saturating_add(component);
+        self.settle(row..row.saturating_add(1), M::default(), observer);
         let (first, end) = bounds(self.program.code().turns, component);
         for at in first..end {
             let boxes = self.program.code().mailboxes;
             let waiting = boxes.get(at).map_or(0, |it| it.waiting.of(&self.marking));
             for _ in 0..waiting {
                 match self.read_and_deliver(at, observer) {
-                    Outcome::Fired { .. } => round.fired = round.fired.saturating_add(1),
-                    Outcome::Ignored { .. } => round.ignored = round.ignored.saturating_add(1),
-                    Outcome::Refused { .. } => {
+                    Some(Outcome::Fired { .. }) => round.fired = round.fired.saturating_add(1),
+                    Some(Outcome::Ignored { .. }) => {
+                        round.ignored = round.ignored.saturating_add(1);
+                    }
+                    Some(Outcome::Refused { .. }) => {
                         round.waiting = round.waiting.saturating_add(1);
                         break;
                     }
+                    // What was read has emptied it.
+                    None => break,
                 }
-            }
-        }
-    }
-
-    /// Lets a net settle; stops where a mailbox is full.
-    fn settle(&mut self, component: usize, observer: &mut impl Observer<P, M>) {
-        for _ in 0..super::SETTLE {
-            let code = self.program.code();
-            let row = code.first_urgent().saturating_add(component);
-            let entry = code.first(row, &self.marking, |it| self.can(&code, it)).copied();
-            let fired = entry.and_then(|it| self.fire_by_itself(&it, observer));
-            if fired.is_none() {
-                return;
             }
         }
     }

@@ -47,6 +47,19 @@ pub trait Names {
 ///
 /// `W` is the number of words of a marking, `C` that of transitions with an interval, and `S` that
 /// of all that can wait in mailboxes: a player of other sizes does not compile.
+///
+/// ```compile_fail,E0277
+/// cotama_core::net! {
+///     /// Rings after a while.
+///     pub mod bell {
+///         places { Quiet: 1, Loud }
+///         events { hush }
+///         transitions { ring: Quiet => Loud after 1 s; hush on hush: Loud => Quiet; }
+///     }
+/// }
+/// use cotama_core::player::Player;
+/// let bell = Player::<bell::Program, 1>::new(); // one word, and no clock: `bell::Player` has one
+/// ```
 pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names {
     /// Whether it is known to be a net alone: then a player carries no code for what connects nets.
     const ALONE: bool;
