@@ -30,6 +30,9 @@ pub(crate) const fn most_markings(places: usize) -> u64 {
 
 pub(super) type Checked<T> = Result<T, VerifyError>;
 
+/// A formula, and whether it holds.
+pub(super) type Claim<'a> = (&'a Formula, bool);
+
 pub(super) fn error(message: impl Display) -> VerifyError {
     VerifyError { at: String::new(), message: message.to_string() }
 }

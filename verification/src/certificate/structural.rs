@@ -1,6 +1,6 @@
 //! Evidence from proofs of the structural engine.
 
-use super::read::Numbered;
+use super::read::{Claim, Numbered};
 use super::sum::{ONE, Sum};
 use super::verify::Known;
 use super::{Case, Evidence, Fact, Formula, Linear, Refutation};
@@ -243,13 +243,13 @@ impl<'a> Draught<'a> {
     fn goal<'c>(
         &mut self,
         net: &Numbered<'_>,
-        (goal, holds): (&'c Formula, bool),
+        goal: Claim<'c>,
         known: &mut Known<'c>,
         split: usize,
         parts: &[(Vec<Sum>, &proof::Refutation)],
     ) -> Option<()> {
         let (sums, lists) = (known.sums.len(), known.lists.len());
-        net.assume(goal, holds, known).ok()?;
+        net.assume(goal, known).ok()?;
         let at = |it: &Sum| known.sums.iter().position(|known| known == it);
         let refuted = parts.iter().find_map(|(goal, by)| {
             let premises = goal.iter().map(at).collect::<Option<Vec<_>>>()?;
