@@ -24,6 +24,7 @@
 //! ```
 
 mod auto;
+mod budget;
 mod clauses;
 mod engine;
 mod engines;
@@ -36,7 +37,8 @@ mod report;
 mod timed;
 mod unused;
 
-pub use engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+pub use budget::Budget;
+pub use engine::{Engine, Extent, Finding, Found, Reason, Task};
 pub use engines::{Coverability, Explicit, Structural, Stubborn, Temporal};
 pub use known::Known;
 pub use laws::{laws, question};

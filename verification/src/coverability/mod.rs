@@ -54,11 +54,11 @@ mod set;
 mod tokens;
 mod word;
 
-pub use growth::{Bounded, Growth, bounded};
+pub use growth::{Bounded, bounded};
 pub use question::{Coverable, coverable, is_upward_closed, reaches};
 pub use set::CoverabilitySet;
 pub use tokens::Tokens;
-pub use word::Sequence;
+pub use word::{Growth, Sequence};
 
 use std::fmt;
 

@@ -2,7 +2,7 @@
 
 use super::text::change;
 use super::timeline::timeline;
-use super::words::{counted, printable};
+use super::words::{counted, escape, printable};
 use super::{Diagnosis, Step, Tokens};
 use std::fmt::Write as _;
 
@@ -237,25 +237,6 @@ pub(super) fn sentence(text: &str) -> String {
             let _ = write!(out, "<code>{}</code>", escape(part));
         } else {
             out.push_str(&escape(part));
-        }
-    }
-    out
-}
-
-/// Text for HTML and XML, in elements and in attributes. What XML has no way to write becomes
-/// U+FFFD.
-pub(super) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}' => {
-                out.push('\u{fffd}');
-            }
-            _ => out.push(c),
         }
     }
     out

@@ -1,8 +1,9 @@
 //! A diagnosis as a drawing of its own.
 
+use super::picture::Frame;
 use super::words::printable;
 use super::{Diagnosis, Unused};
-use crate::export::svg::{Part, STYLE, bold_width, escape, short, width};
+use crate::export::svg::{STYLE, bold_width, escape, short, width};
 use cotama_core::net::Net;
 use std::fmt::Write as _;
 
@@ -26,14 +27,6 @@ const MORE_STYLE: &str = "\
 .cotama .frame{fill:none;stroke:#d0d7de;stroke:var(--fill);stroke-width:2}
 .cotama .frame.last{stroke:#c2410c;stroke:var(--hot)}
 ";
-
-/// A drawing with a line above it.
-pub(super) struct Frame {
-    pub(super) caption: String,
-    pub(super) part: Part,
-    /// Whether it is what a run leads to.
-    pub(super) is_last: bool,
-}
 
 /// Lines and frames, one below the other.
 struct Sheet {

@@ -1,6 +1,6 @@
 //! How tokens come and go along a run, as bars.
 
-use super::html::escape;
+use super::words::escape;
 use super::{AtomTrack, Diagnosis, Track};
 use std::fmt::Write as _;
 

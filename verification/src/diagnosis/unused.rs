@@ -1,8 +1,8 @@
 //! What no run uses.
 
-use super::html::{code, escape, page, sentence};
+use super::html::{code, page, sentence};
 use super::picture::Picture;
-use super::words::{name, printable, short_list};
+use super::words::{escape, name, printable, short_list};
 use crate::pt::Pt;
 use cotama_core::net::{Net, PlaceId, TransitionId};
 use serde::Serialize;

@@ -41,6 +41,7 @@ mod implied;
 mod layout;
 mod liveness;
 mod markings;
+mod plan;
 mod reach;
 mod space;
 mod statespace;

@@ -2,20 +2,9 @@
 
 use super::document::Text;
 use super::error::{Finding, Span, Spanned, quoted};
-use super::parser::{Context, Parser};
+use super::state::{Context, Label, Parser};
 use super::xml::WHITESPACE;
 use cotama_core::net::Within;
-
-/// An element whose text counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Label {
-    Name,
-    InitialMarking,
-    Inscription,
-    ArcType,
-    Capacity,
-    Timed,
-}
 
 impl<'a> Parser<'a> {
     /// Takes the text of a label to the object that is open.

@@ -81,6 +81,7 @@ mod nodes;
 mod own;
 mod parser;
 mod resolve;
+mod state;
 mod write;
 mod xml;
 

@@ -32,16 +32,20 @@
 mod agglomerate;
 mod components;
 mod draft;
+mod filled;
 mod implied;
+mod lift;
 mod places;
+mod record;
 mod rule;
 mod slice;
 mod supply;
 mod trail;
 mod transitions;
 
+pub use lift::LiftError;
 pub use rule::Rule;
-pub use trail::{LiftError, Tokens, Trail};
+pub use trail::{Tokens, Trail};
 
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
@@ -172,8 +176,8 @@ fn apply(rule: Rule, draft: &mut Draft, names: &mut Vec<String>) -> usize {
         Rule::Slice => slice::slice(draft),
         Rule::Suffix => slice::suffix(draft),
         Rule::AlwaysEnabled => transitions::always_enabled(draft),
-        Rule::Source => supply::sources(draft, names),
-        Rule::FreeCycle => supply::free_cycles(draft, names),
+        Rule::Source => filled::sources(draft, names),
+        Rule::FreeCycle => filled::free_cycles(draft, names),
         Rule::PostAgglomeration | Rule::PreAgglomeration | Rule::FreeAgglomeration => {
             agglomerate::agglomerate(draft, rule)
         }

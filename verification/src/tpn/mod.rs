@@ -17,6 +17,7 @@ mod bound;
 mod classes;
 mod convert;
 mod domain;
+mod explore;
 mod growth;
 mod index;
 mod markings;
@@ -25,8 +26,9 @@ mod response;
 mod schedule;
 mod untimed;
 
-pub use classes::{ClassId, Classes, classes};
+pub use classes::{ClassId, Classes};
 pub use convert::{Converted, Difference, NotANet, from_net, to_net};
+pub use explore::classes;
 pub use net::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
 pub(crate) use response::measured;
 pub use response::{Response, Time, bound, bound_from_start};

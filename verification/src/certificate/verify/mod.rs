@@ -8,8 +8,9 @@
 mod refutation;
 mod truth;
 
-use super::read::{self, Checked, Claim, Numbered, at, each, ensure, error, marking_bytes};
+use super::read::{self, Claim, Numbered, marking_bytes};
 use super::sum::Marking;
+use super::verified::{Checked, at, each, ensure, error};
 use super::{Evidence, Formula, Question, Verified, VerifyError};
 use Evidence::{Each, Graph, Growth, Lasso, One, Refutation, State, Trace};
 use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};
