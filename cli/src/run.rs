@@ -44,7 +44,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
         Err(error) => return Err(refused(error)),
     };
     let mut body = body(&trace, &run, &loaded.mission.name);
-    if run.outcome == cotama_sim::trace::Outcome::Safe
+    if run.outcome == cotama_sim::run::Outcome::Safe
         && run.x_mm == 0
         && !args.planning.lost.is_empty()
     {
@@ -68,7 +68,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
 /// The exit code of a run.
 pub(crate) fn ended(run: &Run) -> Exit {
     match (run.outcome, run.reason) {
-        (cotama_sim::trace::Outcome::Completed, _) => Exit::Success,
+        (cotama_sim::run::Outcome::Completed, _) => Exit::Success,
         (_, Some(Reason::NoPlan(NoPlan::Unknown { .. }))) => Exit::Unknown,
         _ => Exit::Violated,
     }

@@ -6,7 +6,7 @@ mod common;
 
 use common::{labels, patrol, run, with_period};
 use cotama_sim::options::Options;
-use cotama_sim::trace::Outcome;
+use cotama_sim::run::Outcome;
 
 /// Margins after the start move with the monitor period and the order of rounding by up to so much.
 const TOLERANCE_MS: u64 = 500;

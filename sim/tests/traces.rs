@@ -31,17 +31,7 @@ fn digest(text: &str) -> u64 {
 }
 
 fn golden(name: &str, found: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, found).unwrap();
-    }
-    let expected = std::fs::read_to_string(&path).unwrap_or_default();
-    let line = expected.lines().zip(found.lines()).position(|(a, b)| a != b);
-    assert!(
-        expected == found,
-        "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it"
-    );
+    cotama_golden::compare(Path::new("tests/golden").join(name), found);
 }
 
 /// Debug and release builds, and all platforms, agree on these bytes.

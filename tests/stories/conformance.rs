@@ -13,9 +13,9 @@ use cotama_models::cotama::{
     Configuration, FailureMode, Module, Told, delivery, faults, local, recovering,
 };
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
-use cotama_sim::trace::Outcome;
 use cotama_verification::check::{Model, Options, Verdict, check};
 use cotama_verification::flat::{Rounds, rounds};
 use cotama_verification::property;

@@ -19,19 +19,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use xml::Element;
 
-/// Compares with a file of `tests/golden/drawings`, or writes it.
+/// Compares with a file of `tests/golden/drawings`.
 fn golden(file: &str, text: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/drawings").join(file);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(&path, text).unwrap();
-    }
-    let expected = std::fs::read_to_string(&path)
-        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    assert!(
-        text == expected,
-        "{} is out of date: set UPDATE_GOLDEN=1 and look at the difference",
-        path.display()
-    );
+    cotama_golden::compare(Path::new("tests/golden/drawings").join(file), text);
 }
 
 fn all_formats(name: &str, net: &OwnedNet, style: Style) {

@@ -283,11 +283,7 @@ fn broken_files_say_what_is_wrong_where_and_what_to_do() {
     for (name, bytes) in cases {
         writeln!(said, "{}\n", refusal(name, bytes)).unwrap();
     }
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/broken.txt");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, &said).unwrap();
-    }
-    assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said);
+    cotama_golden::compare("tests/golden/pnml/broken.txt", &said);
 }
 
 #[test]

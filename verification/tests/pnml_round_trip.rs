@@ -324,11 +324,7 @@ fn the_written_text_of_a_small_net() {
         .unwrap();
     net.laws.push(OwnedLaw::NeverBoth(shut, open));
     let text = pnml::write(&net.view().net());
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, &text).unwrap();
-    }
-    assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), text);
+    cotama_golden::compare("tests/golden/pnml/door.pnml", &text);
     is_valid(&text);
     comes_back(&net);
 }

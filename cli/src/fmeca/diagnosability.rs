@@ -1,6 +1,6 @@
 //! Which failure modes cannot be told apart in which status, why, and which probes would tell them.
 
-use super::rows::{flags, modes, modules};
+use super::names::{flags, modes, modules, probes};
 use crate::answers::fmeca::{
     AmbiguousCase, Diagnosability, GroupRow, PairRow, ProbeRow, StatusRow, UndetectableRow,
 };
@@ -183,8 +183,4 @@ fn and(items: &[impl AsRef<str>]) -> String {
             format!("{} and {}", first.join(", "), last.as_ref())
         }
     }
-}
-
-fn probes(set: Probes) -> Vec<&'static str> {
-    set.iter().map(Probe::name).collect()
 }

@@ -118,7 +118,7 @@ fn margins(view: &View<'_>, value: fn(&Margins) -> i64) -> Vec<Measured> {
         })
         // What was not planned to the end has no margin at the end.
         .filter(|(record, _)| match record {
-            Record::End(it) => it.outcome != crate::trace::Outcome::Safe,
+            Record::End(it) => it.outcome != crate::run::Outcome::Safe,
             _ => true,
         })
         .map(|(record, margins)| (record.x_mm(), record.t_us(), value(margins)))

@@ -3,7 +3,8 @@
 use super::format::{clock, count, grouped, joules, metres, milli, percent, seconds, watt_hours};
 use super::svg::{escape, fixed};
 use super::view::View;
-use crate::trace::{Header, Margins, Outcome, RunFaults, Used};
+use crate::run::Outcome;
+use crate::trace::{Header, Margins, RunFaults, Used};
 use std::fmt::Write;
 
 /// The name of the mission, or of its source.

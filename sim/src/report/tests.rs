@@ -1,6 +1,7 @@
 use super::html;
 use crate::options::{FaultChoice, Options};
-use crate::trace::{Outcome, Record, Trace};
+use crate::run::Outcome;
+use crate::trace::{Record, Trace};
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};

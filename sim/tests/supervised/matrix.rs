@@ -4,8 +4,8 @@ use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
-use cotama_sim::trace::Outcome;
 use std::fmt::Write;
 
 const PLACES: [local::State; 5] = [

@@ -4,11 +4,11 @@ use super::delivery;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{
     Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect,
 };
-use cotama_sim::trace::Outcome;
 use std::collections::BTreeMap;
 
 fn one<T: Copy>(stream: &mut Stream, of: &[T]) -> T {

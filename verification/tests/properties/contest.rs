@@ -194,11 +194,7 @@ fn broken_files_are_refused_with_their_place_and_what_to_do() {
     let not_text =
         mcc::read("file.xml", b"<property-set>\n\xff", &net(), Ids::default()).unwrap_err();
     writeln!(said, "{not_text}").unwrap();
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/properties/files.txt");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, &said).unwrap();
-    }
-    assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said);
+    cotama_golden::compare("tests/golden/properties/files.txt", &said);
 }
 
 #[test]
