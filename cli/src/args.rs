@@ -92,10 +92,12 @@ Instance:
    \"activities\":[[[quality,duration_ms,energy_mj],...],...]}
 
 Examples:
-  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[3,5,8],[1,4,2]]]}' > small.json
+  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[3,5,8],[1,4,2]]]}' > \
+  small.json
   $ cotama allocate small.json --objective quality
   $ cotama allocate small.json --objective min-energy --json
-  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[1,2,3]]]}' | cotama allocate -")]
+  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[1,2,3]]]}' | cotama \
+  allocate -")]
     Allocate(AllocateArgs),
     /// Runs a stored trace or fault scenario again and compares
     ///

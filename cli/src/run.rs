@@ -30,10 +30,12 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {
         (_, 0) => {}
         (None, number) => screen.note(&format!(
-            "{number} failures and answers of the operator are not simulated: the mission is run by its plans alone"
+            "{number} failures and answers of the operator are not simulated: the mission is run \
+             by its plans alone"
         )),
         (Some(_), number) => screen.note(&format!(
-            "{number} faults that only plans know are not simulated: the mission is run by its supervisors"
+            "{number} faults that only plans know are not simulated: the mission is run by its \
+             supervisors"
         )),
     }
     let (trace, run) = match Trace::record(&loaded.source, &loaded.text, &options) {

@@ -16,7 +16,8 @@ fn allocate(name: &str, instance: &str, arguments: &[&str], code: i32) -> Value 
 fn the_most_quality_is_found_and_proven() {
     let instance = r#"{"limits":{"duration_ms":10,"energy_mj":10},"activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
     let answer = allocate("quality", instance, &["--objective", "quality"], 0);
-    let expected = json!({ "schema": "cotama/allocate/1", "status": "optimal", "quality": 9, "duration_ms": 10,
+    let expected = json!({ "schema": "cotama/allocate/\
+        1", "status": "optimal", "quality": 9, "duration_ms": 10,
         "energy_mj": 10, "choice": [0, 1], "bound": 9, "steps": answer["steps"] });
     assert_eq!(answer, expected);
     let least = allocate("energy", instance, &["--objective", "min-energy"], 0);

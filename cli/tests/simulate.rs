@@ -66,7 +66,8 @@ fn lamp() -> Value {
             "give": give, "emits": [], "within": within, "priority": 0 })
     };
     let place = |name: &str, initial: u32, bound: u32| json!({ "name": name, "doc": "", "initial": initial, "bound": bound, "role": "state" });
-    json!({ "schema": "cotama/net/1", "name": "lamp", "doc": "", "outputs": [], "ignored": [], "laws": [],
+    json!({ "schema": "cotama/net/\
+        1", "name": "lamp", "doc": "", "outputs": [], "ignored": [], "laws": [],
         "places": [place("dark", 1, 1), place("lit", 0, 1), place("count", 0, 3)],
         "events": [{ "name": "on", "doc": "" }, { "name": "off", "doc": "" }],
         "transitions": [

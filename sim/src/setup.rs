@@ -77,7 +77,8 @@ impl std::fmt::Display for SetupError {
             Self::ZeroPeriod => f.write_str("the monitor period is 0 ms; it must be at least 1 ms"),
             Self::TooManyDraws { draws } => write!(
                 f,
-                "the random events need {draws} draws, at most {MAX_DRAWS} are made; name fewer of them"
+                "the random events need {draws} draws, at most {MAX_DRAWS} are made; name fewer of \
+                 them"
             ),
             Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
             Self::ForeignFaults => {

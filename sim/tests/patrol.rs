@@ -22,7 +22,8 @@ fn near(found: [i64; 2], reference: [i64; 2]) -> bool {
 const RAS: [(&str, &str); 4] = [
     (
         "A1",
-        "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M3 L1",
+        "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 \
+         L2,M3 L1",
     ),
     ("A8", "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M1 L2,M1 L1"),
     ("A14", "M3 L2,M3 L2,M1 L2,M3 L2"),

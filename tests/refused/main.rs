@@ -74,7 +74,8 @@ fn package(here: &Path, names: &[String]) -> PathBuf {
     let core = here.join("../../core");
     let core = core.display();
     let mut manifest = vec![format!(
-        "[workspace]\n[package]\nname = \"refused\"\nversion = \"0.0.0\"\nedition = \"2024\"\nautoexamples = false\n\
+        "[workspace]\n[package]\nname = \"refused\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+         autoexamples = false\n\
          [lib]\npath = \"lib.rs\"\n[dev-dependencies]\ncotama-core = {{ path = '{core}' }}\n"
     )];
     for name in names {

@@ -133,7 +133,8 @@ fn counters_read_as_comparisons() {
     add(&mut it, |step, tries, left| step.read(tries, 1).read(left, 1));
     add(&mut it, |step, tries, left| step.take(left, 1).give(tries, 1));
     add(&mut it, |step, tries, left| step.take(tries, 2).give(left, 2));
-    let labels = "[tries ≥ 2]\\n[tries ≤ 0]\\n[tries = 2]\\n[1 ≤ tries ≤ 2]\\n[tries ≤ 2] / tries += 1\\n\
+    let labels = "[tries ≥ 2]\\n[tries ≤ 0]\\n[tries = 2]\\n[1 ≤ tries ≤ 2]\\n[tries ≤ 2] / tries \
+        += 1\\n\
                   [tries ≥ 2] / tries -= 2";
     assert_eq!(
         dot_edges(&it.net),

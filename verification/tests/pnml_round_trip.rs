@@ -110,7 +110,8 @@ fn in_order(element: &str, children: &str) -> bool {
 }
 
 fn weird_text() -> impl Strategy<Value = String> {
-    let palette = "ab  \t\n\r<>&\"'\\{}u;#]]>\u{0}\u{1b}\u{7f}\u{85}\u{a0}é→🤖\u{2028}\u{fffd}\u{fffe}\u{ffff}";
+    let palette = "ab  \t\n\r<>&\"'\\{}u;#]]>\
+        \u{0}\u{1b}\u{7f}\u{85}\u{a0}é→🤖\u{2028}\u{fffd}\u{fffe}\u{ffff}";
     let character =
         prop_oneof![4 => select(palette.chars().collect::<Vec<_>>()), 1 => any::<char>()];
     proptest::collection::vec(character, 0..8).prop_map(|text| text.into_iter().collect())

@@ -55,7 +55,8 @@ Examples:
   $ cotama check decision --semantics rounds --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
-What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an unbounded
+What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an \
+unbounded
 net, it is shown which firings can be repeated to add tokens for ever.
 
 Examples:
@@ -66,7 +67,8 @@ Examples:
   $ cotama export philosophers:4 --output four.pnml && cotama statespace four.pnml --jobs 2";
 
 pub(crate) const VERIFY_EXAMPLES: &str = "\
-A certificate that is refused does not show that its verdict is wrong; one that is accepted shows that
+A certificate that is refused does not show that its verdict is wrong; one that is accepted shows \
+that
 it is right, whatever engine found it.
 
 Exit codes: 0 it shows its verdict, 1 it does not, 2 it is no certificate.

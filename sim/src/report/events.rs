@@ -64,7 +64,8 @@ struct Row {
 fn row(record: &Record, plans: &mut u64) -> Option<Row> {
     let mark = |kind: &str| {
         format!(
-            "<svg class=\"glyph\" viewBox=\"0 0 14 14\" aria-hidden=\"true\"><path class=\"mark {kind}\" d=\"{}\"/></svg>",
+            "<svg class=\"glyph\" viewBox=\"0 0 14 14\" aria-hidden=\"true\">\
+             <path class=\"mark {kind}\" d=\"{}\"/></svg>",
             glyph(kind, 7.0, 7.0)
         )
     };
@@ -131,8 +132,10 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
 /// The list of events, with the plans between them.
 pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from(
-        "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr><th></th>\
-         <th class=\"n\">Time</th><th class=\"n\">Place</th><th>What</th><th class=\"n\">Time lost</th>\
+        "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr><th>\
+         </th>\
+         <th class=\"n\">Time</th><th class=\"n\">Place</th><th>What</th><th class=\"n\">Time lost\
+         </th>\
          <th></th></tr></thead>\n<tbody>\n",
     );
     let mut plans = 0;

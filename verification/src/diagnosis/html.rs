@@ -74,7 +74,8 @@ impl Diagnosis {
         let about = format!("{}{space}{}", printable(&self.net), printable(&self.doc));
         let _ = write!(
             out,
-            "<section class=\"diagnosis\">\n<div class=\"{class}\">\n<p class=\"net\">{}</p>\n<h1>{}</h1>\n",
+            "<section class=\"diagnosis\">\n<div class=\"{class}\">\n<p class=\"net\">{}</p>\n\
+             <h1>{}</h1>\n",
             escape(&about),
             sentence(&self.summary)
         );
@@ -208,7 +209,8 @@ impl Diagnosis {
 pub(super) fn page(title: &str, section: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}\
+         </title>\n\
          <style>\n{STYLE}</style>\n</head>\n<body>\n{section}</body>\n</html>\n",
         escape(title)
     )

@@ -180,7 +180,8 @@ impl Sheet {
                 let _ = write!(
                     self.out,
                     "<text class=\"caption\" x=\"{x}\" y=\"{}\">{}</text>\n\
-                     <rect class=\"frame{last}\" x=\"{x}\" y=\"{}\" width=\"{widest}\" height=\"{height}\" rx=\"6\"/>\n\
+                     <rect class=\"frame{last}\" x=\"{x}\" y=\"{}\" width=\"{widest}\" \
+                     height=\"{height}\" rx=\"6\"/>\n\
                      <g transform=\"translate({} {})\">\n{}</g>\n",
                     top + 12,
                     escape(&caption),
@@ -199,8 +200,9 @@ impl Sheet {
         let Self { out, y, width } = self;
         let height = y + MARGIN;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title\">\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" \
+             height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-labelledby=\"title\">\n\
              <title id=\"title\">{}</title>\n<style>\n{STYLE}{MORE_STYLE}</style>\n\
              <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{out}</svg>\n",
             escape(title)

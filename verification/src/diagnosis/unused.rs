@@ -116,7 +116,8 @@ impl<'n> Unused<'n> {
         let heads: Vec<_> = lines.lines().filter(|it| !it.starts_with(' ')).collect();
         let heads = heads.join(" ").replace(':', ".");
         let mut out = format!(
-            "<section class=\"diagnosis\">\n<div class=\"fails\">\n<p class=\"net\">{}</p>\n<h1>{}</h1>\n</div>\n",
+            "<section class=\"diagnosis\">\n<div class=\"fails\">\n<p class=\"net\">{}</p>\n<h1>{}\
+             </h1>\n</div>\n",
             escape(&printable(&self.pt.name)),
             sentence(&heads)
         );

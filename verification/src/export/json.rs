@@ -160,13 +160,15 @@ fn fault(defect: Defect) -> &'static str {
         Defect::TooLong => "has more entries than ids can count",
         Defect::UnknownId { .. } => "names something that the net does not have",
         Defect::Arcs { .. } => {
-            "has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` together"
+            "has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` \
+             together"
         }
         Defect::Interval { .. } => {
             "has an interval that ends before it begins, or after 4294967294 ms"
         }
         Defect::Place { .. } => {
-            "has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
+            "has more tokens at the start than its bound, or does not sum to the bound with the \
+             place that it complements"
         }
         Defect::Law => "has an arc of weight 0 in an invariant, or a place twice in one",
     }

@@ -32,8 +32,8 @@ impl<'a> Parser<'a> {
                 _ => self.document.name = Some(text.value),
             },
             Label::InitialMarking => {
-                let tokens =
-                    number(&text).and_then(|tokens| u32::try_from(tokens).map_err(|_| too_large(&text)));
+                let tokens = number(&text)
+                    .and_then(|tokens| u32::try_from(tokens).map_err(|_| too_large(&text)));
                 if let (Some(tokens), Some(place)) =
                     (self.findings.keep(tokens), self.document.places.last_mut())
                 {
@@ -43,11 +43,13 @@ impl<'a> Parser<'a> {
             Label::Inscription => {
                 let weight = number(&text).and_then(|weight| match weight {
                     0 => Err(Finding::new(text.span, "an arc of weight 0").help(
-                        "remove the arc; if it is meant to forbid tokens, it is not an arc of a P/T net",
+                        "remove the arc; if it is meant to forbid tokens, it is not an arc of a \
+                         P/T net",
                     )),
                     weight => Ok(weight),
                 });
-                if let (Some(value), Some(arc)) = (self.findings.keep(weight), self.document.arcs.last_mut())
+                if let (Some(value), Some(arc)) =
+                    (self.findings.keep(weight), self.document.arcs.last_mut())
                 {
                     arc.weight = Some(Spanned { value, span: text.span });
                 }
@@ -58,8 +60,15 @@ impl<'a> Parser<'a> {
             }
             Label::Capacity if number(&text).is_ok_and(|capacity| capacity == 0) => {} // PIPE: no limit
             Label::Capacity => self.findings.push(
-                Finding::new(text.span, "a place with a capacity, which a P/T net of PNML does not have")
-                    .help("add a complement place that holds the room that is left, and remove the capacity"),
+                Finding::new(
+                    text.span,
+                    "a place with a capacity, which a P/T net of PNML does not \
+                    have",
+                )
+                .help(
+                    "add a complement place that holds the room that is left, and remove the \
+                        capacity",
+                ),
             ),
             Label::Timed if text.value == "true" => self.findings.push(
                 Finding::new(text.span, "a transition with a random delay, which is not read")
@@ -105,7 +114,8 @@ impl<'a> Parser<'a> {
                     format!("an interval with an open end: {}", quoted(&self.closure)),
                 )
                 .help(
-                    "only closed intervals are read: give the first and the last moment that belong to it",
+                    "only closed intervals are read: give the first and the last moment that \
+                     belong to it",
                 ));
             }
         }

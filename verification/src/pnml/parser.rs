@@ -373,7 +373,8 @@ fn is_coloured(of: &str) -> bool {
 
 fn coloured(span: Span) -> Finding {
     Finding::new(span, "a coloured (high-level) net").help(
-        "unfold it into a P/T net first; the Model Checking Contest gives most of its nets in both forms",
+        "unfold it into a P/T net first; the Model Checking Contest gives most of its nets in both \
+         forms",
     )
 }
 

@@ -346,8 +346,10 @@ fn reference(name: &str, span: Span) -> Result<char, Finding> {
         if name.starts_with('#') {
             Finding::new(span, format!("{shown} is not a character of XML")).help("remove it")
         } else if is_name(name) {
-            Finding::new(span, format!("the entity {shown} is not known"))
-                .help("only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such as `&#228;` are")
+            Finding::new(span, format!("the entity {shown} is not known")).help(
+                "only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such as \
+                    `&#228;` are",
+            )
         } else {
             bare_ampersand(span.start)
         }

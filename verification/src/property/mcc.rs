@@ -105,8 +105,18 @@ impl<'a> File<'a> {
         match self.xml.child()? {
             Some(set) if set.name == "property-set" => {}
             Some(other) => {
-                return Err(Fault::new(other.span.clone(), format!("the file is one of {}", other.shown()))
-                    .help("a property file of the Model Checking Contest has one `<property-set>` element"));
+                return Err(Fault::new(
+                    other.span.clone(),
+                    format!(
+                        "the file is one of \
+                    {}",
+                        other.shown()
+                    ),
+                )
+                .help(
+                    "a property file of the Model Checking Contest has one `<property-set>` \
+                        element",
+                ));
             }
             None => return Ok(Vec::new()),
         }

@@ -40,8 +40,10 @@ pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
 fn of_ctl(formula: Formula, span: Range<usize>) -> Result<Formula, Fault> {
     match Ctl::new(&formula) {
         Some(_) => Ok(formula),
-        None => Err(Fault::new(span, "assumptions are made for formulas of CTL only")
-            .help("put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, and leave out limits of time")),
+        None => Err(Fault::new(span, "assumptions are made for formulas of CTL only").help(
+            "put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, and \
+                leave out limits of time",
+        )),
     }
 }
 
@@ -119,8 +121,15 @@ impl Value {
     pub(super) fn sum(self) -> Result<Sum, Fault> {
         match self.what {
             What::Sum(sum) => Ok(sum),
-            What::Formula(_) => Err(Fault::new(self.span, "this is a statement, and a number is expected")
-                .help("`+`, `-`, `*` and comparisons are for numbers of tokens; join statements with `&`, `|`, `->` or `<->`")),
+            What::Formula(_) => Err(Fault::new(
+                self.span,
+                "this is a statement, and a number is \
+                expected",
+            )
+            .help(
+                "`+`, `-`, `*` and comparisons are for numbers of tokens; join statements \
+                    with `&`, `|`, `->` or `<->`",
+            )),
         }
     }
 }

@@ -154,7 +154,8 @@ impl<'a> Xml<'a> {
                     let Some(character) = character else {
                         let shown = quoted(&format!("&{};", &*reference));
                         return Err(Fault::new(span, format!("{shown} is not known")).help(
-                            "only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such as `&#228;` are",
+                            "only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such \
+                             as `&#228;` are",
                         ));
                     };
                     return self.content(character.encode_utf8(&mut [0; 4]), span);

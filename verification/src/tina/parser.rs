@@ -362,8 +362,10 @@ impl<'t> Parser<'t> {
             };
             self.take()?;
             if read && self.token == Token::Sign('-') {
-                return Err(Finding::new(sign, "inhibitor arcs are not read")
-                    .help("for a place with a bound, read the place that holds what it lacks to its bound"));
+                return Err(Finding::new(sign, "inhibitor arcs are not read").help(
+                    "for a place with a bound, read the place that holds what it lacks to \
+                        its bound",
+                ));
             }
             let weight = self.number("the weight of the arc")?;
             self.arc(transition, at, inputs, read, Arc { place, weight })?;

@@ -22,7 +22,8 @@ fn the_battery_can_break() {
     assert_eq!(breaks().evidence, Evidence::Graph(4));
     assert_eq!(
         shown(&breaks()),
-        "net battery (3 places, 3 transitions): E(F(1 <= broken)) is true\n  by passing through 4 markings"
+        "net battery (3 places, 3 transitions): E(F(1 <= broken)) is true\n  by passing through 4 \
+         markings"
     );
 }
 
@@ -124,6 +125,7 @@ fn the_questions_about_the_whole_net_have_answers() {
     }
     assert_eq!(
         shown(&bound(2, true)),
-        "net battery (3 places, 3 transitions): bounds(full + broken) = 2 is true\n  by passing through 4 markings"
+        "net battery (3 places, 3 transitions): bounds(full + broken) = 2 is true\n  by passing \
+         through 4 markings"
     );
 }

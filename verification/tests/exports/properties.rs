@@ -251,8 +251,10 @@ proptest! {
                 seen += 1;
                 let id: usize = attribute(tag, "cotama:name").unwrap()[1..].parse().unwrap();
                 let cond = attribute(tag, "cond").unwrap_or("true");
-                let open = source == ["a", "b"][state] && cond.split(" &amp;&amp; ").all(|it| term(it, &variables) != 0);
-                prop_assert_eq!(open, is_enabled(&view.net(), &marking, id), "{} at {:?}", tag, marking);
+                let open = source == ["a", "b"][state] && cond.split(" \
+                    &amp;&amp; ").all(|it| term(it, &variables) != 0);
+                prop_assert_eq!(open, is_enabled(&view.net(), &marking, id), "{} at \
+                    {:?}", tag, marking);
                 if open {
                     let mut after = variables.clone();
                     for assign in tags[at + 1..].iter().take_while(|it| it.starts_with("assign ")) {

@@ -328,7 +328,8 @@ fn a_text_may_be_long_and_no_longer() {
     let error = parse(&"p".repeat(MAX_TEXT + 1), &net()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "property:1:1: the text has 1048577 bytes, more than 1048576\n  help: ask for its parts one by one"
+        "property:1:1: the text has 1048577 bytes, more than 1048576\n  help: ask for its parts \
+         one by one"
     );
 }
 
