@@ -4,7 +4,8 @@ use crate::common::Folder;
 use serde_json::{Value, json};
 
 /// The paper's rule finds no plan here, in this order of the limits, but there is one.
-const MISSED: &str = r#"{"limits": {"duration_ms": 6, "energy_mj": 3}, "activities": [[[0,5,1],[2,1,2]], [[3,5,1],[0,1,10]]]}"#;
+const MISSED: &str = r#"{"limits": {"duration_ms": 6, "energy_mj": 3},
+    "activities": [[[0,5,1],[2,1,2]], [[3,5,1],[0,1,10]]]}"#;
 
 fn allocate(name: &str, instance: &str, arguments: &[&str], code: i32) -> Value {
     let folder = Folder::new(&format!("allocate_{name}"));
@@ -14,7 +15,8 @@ fn allocate(name: &str, instance: &str, arguments: &[&str], code: i32) -> Value 
 
 #[test]
 fn the_most_quality_is_found_and_proven() {
-    let instance = r#"{"limits":{"duration_ms":10,"energy_mj":10},"activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
+    let instance = r#"{"limits":{"duration_ms":10,"energy_mj":10},
+        "activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
     let answer = allocate("quality", instance, &["--objective", "quality"], 0);
     let expected = json!({ "schema": "cotama/allocate/\
         1", "status": "optimal", "quality": 9, "duration_ms": 10,
@@ -52,7 +54,8 @@ fn the_rule_proves_nothing() {
 
 #[test]
 fn infeasible_says_which_limit_and_by_how_much() {
-    let instance = r#"{"limits":{"duration_ms":6,"energy_mj":2},"activities":[[[0,5,1],[2,1,2]],[[3,5,1],[0,1,10]]]}"#;
+    let instance = r#"{"limits":{"duration_ms":6,"energy_mj":2},
+        "activities":[[[0,5,1],[2,1,2]],[[3,5,1],[0,1,10]]]}"#;
     for allocator in ["exact", "panorama"] {
         let answer =
             allocate(&format!("infeasible_{allocator}"), instance, &["--allocator", allocator], 1);

@@ -75,13 +75,17 @@ fn the_delivery_is_driven_in_seven_points() {
         "mode": "SON1", "t_ms": 118_300, "x_mm": 26_040, "during": "Following",
         "detected_ms": 123_200, "flags": ["sonar \
             far"], "diagnosis": "unique", "candidates": ["SON1"],
-        "report": "sonar", "severity": "medium", "by_severity": "adapter", "by_availability": "adapter",
-        "decided_ms": 123_300, "decision": "adapter", "event": "adapt_sonar", "transition": "sonar1",
+        "report": "sonar", "severity": "medium", "by_severity": "adapter",
+        "by_availability": "adapter",
+        "decided_ms": 123_300, "decision": "adapter", "event": "adapt_sonar",
+        "transition": "sonar1",
         "answered_ms": 123_400, "exposed_ms": 5_200,
     });
     assert_eq!(supervised["failures"][2], sonar);
     assert_eq!(supervised["told"][0], json!({ "round": 1, "event": "gs.mission_received" }));
-    let fired = json!({ "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3 });
+    let fired = json!({
+        "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3
+    });
     assert!(supervised["fired"].as_array().unwrap().contains(&fired));
     let runs: Vec<_> = supervised["configurations"]
         .as_array()

@@ -162,7 +162,11 @@ proptest! {
 
     /// Whatever is changed in a good trace, reading and replaying it ends with an answer.
     #[test]
-    fn damaged_traces_are_survived(at in 0usize..60_000, byte in any::<u8>(), cut in any::<bool>()) {
+    fn damaged_traces_are_survived(
+        at in 0usize..60_000,
+        byte in any::<u8>(),
+        cut in any::<bool>(),
+    ) {
         let mut bytes = SECONDS_30.clone().into_bytes();
         let at = at % bytes.len();
         if cut { bytes.truncate(at) } else { bytes[at] = byte }
@@ -170,7 +174,11 @@ proptest! {
         if let Ok(trace) = Trace::parse("damaged", &text)
             && let Ok(replayed) = replay(&trace)
         {
-            prop_assert!(!replayed.identical || text == *SECONDS_30 || trace.header != Trace::parse("", &SECONDS_30).unwrap().header);
+            prop_assert!(
+                !replayed.identical
+                    || text == *SECONDS_30
+                    || trace.header != Trace::parse("", &SECONDS_30).unwrap().header
+            );
         }
     }
 }

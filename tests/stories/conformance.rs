@@ -192,7 +192,8 @@ impl Game {
 /// An event as the net of rounds calls it.
 fn name(told: Told) -> String {
     let event = told.event();
-    let component = &recovering::SYSTEM.components[usize::from(event.component)]; // and those of delivery before
+    // and those of delivery before
+    let component = &recovering::SYSTEM.components[usize::from(event.component)];
     format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
 }
 

@@ -31,8 +31,9 @@ pub struct Pt {
     pub bounds: Bounds,
 }
 
-/// What [`bounds`](crate::bounds::bounds) found of a net, so that it is looked for once. A copy of the net may be changed,
-/// so it knows nothing yet; and what is known of two nets is no difference between them.
+/// What [`bounds`](crate::bounds::bounds) found of a net, so that it is looked for once. A copy of
+/// the net may be changed, so it knows nothing yet; and what is known of two nets is no difference
+/// between them.
 #[derive(Debug, Default)]
 pub struct Bounds(pub(crate) OnceLock<Vec<Option<u32>>>);
 

@@ -292,7 +292,11 @@ fn any_states(size: u32) -> impl Strategy<Value = OwnedNet> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 200,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn any_net_gives_a_sound_drawing_and_the_same_one_twice(net in any_net(14)) {
@@ -303,7 +307,10 @@ proptest! {
             check_svg(&text);
             prop_assert_eq!(text, svg::write(&again.net(), style));
             prop_assert_eq!(dot::write(&view.net(), style), dot::write(&again.net(), style));
-            prop_assert_eq!(mermaid::write(&view.net(), style), mermaid::write(&again.net(), style));
+            prop_assert_eq!(
+                mermaid::write(&view.net(), style),
+                mermaid::write(&again.net(), style)
+            );
         }
     }
 

@@ -180,7 +180,10 @@ fn broken_files_say_what_is_wrong_where_and_what_to_do() {
                  <text>2</text></initialMarking></place>",
             ),
         ),
-        ("marking_of_tapaal", file("<place id=\"p\" initialMarking=\"1\" invariant=\"&lt; inf\"/>")),
+        (
+            "marking_of_tapaal",
+            file("<place id=\"p\" initialMarking=\"1\" invariant=\"&lt; inf\"/>"),
+        ),
         ("capacity", file("<place id=\"p\"><capacity><value>3</value></capacity></place>")),
         ("random_delay", file("<transition id=\"t\"><timed><value>true</value></timed>\
             </transition>")),
@@ -304,7 +307,10 @@ fn broken_files_say_what_is_wrong_where_and_what_to_do() {
                           </text></inscription></arc>",
             ),
         ),
-        ("very_long_name", file(&format!("<arc source=\"{0}\" target=\"\u{202e}{0}\"/>", "long".repeat(30)))),
+        (
+            "very_long_name",
+            file(&format!("<arc source=\"{0}\" target=\"\u{202e}{0}\"/>", "long".repeat(30))),
+        ),
     ];
     let mut said = String::new();
     for (name, bytes) in cases {

@@ -126,7 +126,9 @@ impl Instance {
             let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
             Failure::new(format!("{name}:{}:{}: {what}", error.line(), error.column().max(1))).help(
                 "an instance is \
-                 {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\"activities\":[[[quality,duration_ms,energy_mj],...],...]}, in whole numbers from 0; those of a candidate are below 2^32",
+                 {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\
+                 \"activities\":[[[quality,duration_ms,energy_mj],...],...]}, \
+                 in whole numbers from 0; those of a candidate are below 2^32",
             )
         })?;
         let candidate = |(id, &Triple(quality, duration, energy)): (u16, &Triple)| Candidate {

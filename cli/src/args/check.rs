@@ -83,13 +83,15 @@ Examples:
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct BudgetArgs {
     /// On how many threads
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1024))]
     pub(crate) jobs: u64,
     /// The most markings, or state classes of a time net [default: no limit]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_states: Option<u64>,
     /// The most memory of a search, in MiB
-    #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    #[arg(long, value_name = "MIB", default_value_t = 4096)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
     pub(crate) max_memory: u64,
     /// The most time of all work together, in seconds [default: no limit]
     #[arg(long, value_name = "S", value_parser = seconds)]

@@ -213,7 +213,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it.when));
         self.waiting = wait;
         for failure in &mut self.failures {
-            let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
+            let past = |time: Millis| now.0 >= failure.since.0 + time.0;
+            let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if past(time));
             failure.over |= by_itself || failure.until.is_some_and(due);
         }
         for Injection { mode, part, until, .. } in fail {

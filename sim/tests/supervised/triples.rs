@@ -48,13 +48,15 @@ fn judge(run: &Run, script: &Script) -> bool {
     // Each loss alone: detected, two rounds, and standing still; they may follow each other.
     let each =
         script.injections.iter().map(|it| u64::from(it.mode.rule().latency_ms).max(2_000) + 1_200);
-    run.exposed.0 <= each.sum()
-        || {
-            // But for what several failures at once hide: no diagnosis, or not of this one alone.
-            let found = |it: &Conduct| matches!(it.detected, Some((_, Diagnosis::Unique(mode))) if mode == it.mode);
-            assert!(!run.conduct.iter().all(found), "AS2: {} after {script:?}", run.exposed);
-            false
-        }
+    run.exposed.0 <= each.sum() || {
+        // But for what several failures at once hide: no diagnosis, or not of this one alone.
+        let found = |it: &Conduct| match it.detected {
+            Some((_, Diagnosis::Unique(mode))) => mode == it.mode,
+            _ => false,
+        };
+        assert!(!run.conduct.iter().all(found), "AS2: {} after {script:?}", run.exposed);
+        false
+    }
 }
 
 fn campaign(mission: &Mission, runs: u64) -> BTreeMap<(Outcome, bool), u64> {

@@ -71,13 +71,20 @@ impl Evidence {
     /// lamp.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
     /// let lamp = Pt::from(&lamp.view().net());
     /// let both = property::parse("EF on + off >= 2", &lamp).unwrap();
-    /// let Question::Formula(Formula::Exists(path)) = &both.question else { panic!("not of that form") };
+    /// let Question::Formula(Formula::Exists(path)) = &both.question else {
+    ///     panic!("not of that form")
+    /// };
     /// let Formula::Finally(goal) = &**path else { panic!("not of that form") };
     ///
     /// let structure = Structure::new(&lamp, structural::Limits::default());
     /// let inequality = property::Linear { constant: 2, weights: vec![(off, -1), (on, -1)] };
-    /// let structural::Answer::Impossible(refutation) = structure.reach(&[inequality.clone()]) else { panic!() };
-    /// let evidence = Evidence::never(&lamp, structure.dead(), goal, &[(vec![inequality], refutation)]).unwrap();
+    /// let structural::Answer::Impossible(refutation) = structure.reach(&[inequality.clone()])
+    /// else {
+    ///     panic!()
+    /// };
+    /// let evidence =
+    ///     Evidence::never(&lamp, structure.dead(), goal, &[(vec![inequality], refutation)])
+    ///         .unwrap();
     /// let certificate = Certificate::new(&lamp, &both, Answer::Holds(false), evidence).unwrap();
     /// assert!(verify(&certificate.text()).is_ok());
     /// ```

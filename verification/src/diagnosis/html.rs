@@ -13,27 +13,33 @@ const TAIL: usize = 200;
 const STYLE: &str = "\
 :root{color-scheme:light dark}
 body{margin:0;background:#fff}
-.diagnosis{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#d0d7de;--fill:#eef3f9;--bar:#3b6ea5;--count:#fff;\
+.diagnosis{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#d0d7de;--fill:#eef3f9;--bar:#3b6ea5;\
+--count:#fff;\
 --hot:#c2410c;--good:#1a7f4b;--glow:#fff3e6;\
-background:var(--paper);color:var(--ink);font:15px/1.5 Helvetica,Arial,'Liberation Sans',system-ui,sans-serif;\
+background:var(--paper);color:var(--ink);font:15px/1.5 Helvetica,Arial,'Liberation Sans',system-ui,\
+sans-serif;\
 max-width:1100px;margin:0 auto;padding:24px}
 @media screen and (prefers-color-scheme:dark){body{background:#14181d}
-.diagnosis{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#343c46;--fill:#222b36;--bar:#6ea8e0;--count:#10151b;\
+.diagnosis{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#343c46;--fill:#222b36;\
+--bar:#6ea8e0;--count:#10151b;\
 --hot:#fb923c;--good:#4ac27f;--glow:#33230f}}
 .diagnosis h1{font-size:20px;line-height:1.35;margin:0 0 12px;overflow-wrap:anywhere}
 .diagnosis h2{font-size:15px;margin:28px 0 8px}
 .diagnosis .net{color:var(--quiet);margin:0 0 4px}
-.diagnosis code{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:.9em;background:var(--fill);\
+.diagnosis code{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:.9em;\
+background:var(--fill);\
 border-radius:4px;padding:1px 4px;overflow-wrap:anywhere}
 .diagnosis .cause{border-left:4px solid var(--hot);background:var(--glow);padding:8px 14px;margin:0}
 .diagnosis .holds .cause{border-color:var(--good);background:var(--fill)}
 .diagnosis .cause p{margin:2px 0}
 .diagnosis .scroll{overflow-x:auto}
 .diagnosis table{border-collapse:collapse;width:100%}
-.diagnosis th{text-align:left;font-weight:600;color:var(--quiet);border-bottom:1px solid var(--line)}
+.diagnosis th{text-align:left;font-weight:600;color:var(--quiet);\
+border-bottom:1px solid var(--line)}
 .diagnosis th,.diagnosis td{padding:4px 12px 4px 0;vertical-align:top}
 .diagnosis td{border-bottom:1px solid var(--line)}
-.diagnosis td.number{color:var(--quiet);text-align:right;width:3em;font-variant-numeric:tabular-nums}
+.diagnosis td.number{color:var(--quiet);text-align:right;width:3em;\
+font-variant-numeric:tabular-nums}
 .diagnosis tr.last td{background:var(--glow)}
 .diagnosis tr.note td{color:var(--quiet);font-style:italic}
 .diagnosis .more{color:var(--good)}

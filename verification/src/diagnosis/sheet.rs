@@ -22,7 +22,8 @@ const FRAMES: usize = 9;
 const MORE_STYLE: &str = "\
 .cotama .heading{font-size:17px;font-weight:600}
 .cotama .said{font-size:13px}
-.cotama .mono{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:12px;white-space:pre}
+.cotama .mono{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:12px;\
+white-space:pre}
 .cotama .caption{font-size:12px;font-weight:600}
 .cotama .frame{fill:none;stroke:#d0d7de;stroke:var(--fill);stroke-width:2}
 .cotama .frame.last{stroke:#c2410c;stroke:var(--hot)}

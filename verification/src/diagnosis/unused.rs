@@ -44,7 +44,8 @@ impl<'n> Unused<'n> {
     /// net.transition(OwnedTransition::new("ring").take(smoke, 1)).unwrap();
     /// let pt = Pt::from(&net.view().net());
     /// let unused = Unused::new(&pt, &[false], &[false]);
-    /// let text = "1 of 1 transition never fires:\n  `ring`  needs `smoke`, which is never marked\n\
+    /// let text = "1 of 1 transition never fires:\n  \
+    ///             `ring`  needs `smoke`, which is never marked\n\
     ///             1 of 1 place is never marked:\n  `smoke`  no transition marks it\n";
     /// assert_eq!(unused.to_string(), text);
     /// ```

@@ -22,7 +22,8 @@ pub const MAX_ARCS: usize = 1000;
 ///   "places": [{ "name": "off", "doc": "", "initial": 1, "bound": 1, "role": "state" }],
 ///   "events": [{ "name": "press", "doc": "" }], "outputs": [],
 ///   "transitions": [{ "name": "t", "doc": "", "line": 0, "on": "press",
-///     "take": [{ "place": "off", "weight": 1 }], "read": [], "give": [{ "place": "off", "weight": 1 }],
+///     "take": [{ "place": "off", "weight": 1 }], "read": [],
+///     "give": [{ "place": "off", "weight": 1 }],
 ///     "emits": [], "within": { "earliest": 0, "latest": null }, "priority": 0 }],
 ///   "ignored": [{ "event": "press", "place": "off" }],
 ///   "laws": [{ "reachable": "off" }, "settles"] }
@@ -39,7 +40,8 @@ pub const MAX_ARCS: usize = 1000;
 /// has a [defect](Net::defect), or the text is beyond the limits: it then refuses the text. An id
 /// that the net does not have is written as a number.
 pub fn write(net: &Net<'_>) -> String {
-    let mut text = serde_json::to_string_pretty(&Document::of(net)).unwrap_or_default(); // strings and numbers: no error
+    // strings and numbers: no error
+    let mut text = serde_json::to_string_pretty(&Document::of(net)).unwrap_or_default();
     text.push('\n');
     text
 }
@@ -60,7 +62,10 @@ pub fn write(net: &Net<'_>) -> String {
 /// assert_eq!(json::read(&text), Ok(net));
 ///
 /// let error = json::read(&text.replace(r#""place": "off""#, r#""place": "of""#)).unwrap_err();
-/// assert_eq!(error.to_string(), "transition `burn out` names the place `of`, which the net does not have");
+/// assert_eq!(
+///     error.to_string(),
+///     "transition `burn out` names the place `of`, which the net does not have"
+/// );
 /// ```
 ///
 /// # Errors

@@ -1,6 +1,7 @@
 //! From the bytes of a file to its text.
 
-use super::error::{Finding, Span, quoted};
+use super::error::{Finding, Span};
+use crate::source::quoted;
 use std::borrow::Cow;
 
 /// The text of a file without its byte order mark; or as much of it as could be decoded, and why

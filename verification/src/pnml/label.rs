@@ -1,9 +1,10 @@
 //! What the labels of nodes and arcs say: numbers, kinds of arcs, intervals.
 
 use super::document::Text;
-use super::error::{Finding, Span, Spanned, quoted};
+use super::error::{Finding, Span, Spanned};
 use super::state::{Context, Label, Parser};
 use super::xml::WHITESPACE;
+use crate::source::quoted;
 use cotama_core::net::Within;
 
 impl<'a> Parser<'a> {
@@ -58,7 +59,8 @@ impl<'a> Parser<'a> {
                 let test = self.is_test(&text);
                 self.document.arcs.last_mut().map(|arc| std::mem::replace(&mut arc.test, test));
             }
-            Label::Capacity if number(&text).is_ok_and(|capacity| capacity == 0) => {} // PIPE: no limit
+            // PIPE: no limit
+            Label::Capacity if number(&text).is_ok_and(|capacity| capacity == 0) => {}
             Label::Capacity => self.findings.push(
                 Finding::new(
                     text.span,

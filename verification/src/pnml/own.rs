@@ -1,10 +1,11 @@
 //! What the elements `<toolspecific tool="cotama">` say, read from their tags.
 
 use super::document::{OwnArc, OwnNet, OwnPlace, OwnTransition, RawLaw, RawRole, Text};
-use super::error::{Finding, Findings, Spanned, quoted};
+use super::error::{Finding, Findings, Spanned};
 use super::escape::unescape;
 use super::state::{Context, Parser};
 use super::xml::{Attribute, Tag, tag as shown};
+use crate::source::quoted;
 use cotama_core::net::Within;
 use cotama_core::net::owned::OwnedSignal;
 use std::str::FromStr;

@@ -2,11 +2,12 @@
 
 use super::Limits;
 use super::document::{Document, Object, OwnArc, RawArc, RawPlace, RawTransition, Reference, Text};
-use super::error::{Finding, Findings, Span, Spanned, quoted};
+use super::error::{Finding, Findings, Span, Spanned};
 use super::escape::trimmed;
 use super::own::missing;
 use super::state::{Context, Label, Parser};
 use super::xml::{Tag, Token, Xml, tag as shown, too_long};
+use crate::source::quoted;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;

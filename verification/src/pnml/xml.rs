@@ -8,7 +8,8 @@
 
 use super::Limits;
 use super::encoding::is_xml;
-use super::error::{Finding, Span, Spanned, quoted};
+use super::error::{Finding, Span, Spanned};
+use crate::source::quoted;
 use quick_xml::errors::{Error, IllFormedError, SyntaxError};
 use quick_xml::events::Event;
 use quick_xml::events::attributes::{AttrError, Attributes};

@@ -17,13 +17,14 @@
 //! assert_eq!(line, "FORMULA never-two TRUE TECHNIQUES EXPLICIT");
 //! ```
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::linear::{Comparison, Sum};
 use super::names::{Ids, Names};
 use super::operand::too_large;
 use super::xml::{Element, Xml, decode};
 use super::{Atom, Formula, MAX_DEPTH, Property, PropertyError, Question};
 use crate::pt::Pt;
+use crate::source::quoted;
 use cotama_core::net::PlaceId;
 use std::collections::HashSet;
 use std::ops::Range;

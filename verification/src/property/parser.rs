@@ -1,11 +1,12 @@
 //! From a text of the language to a property.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::lexer::{Lexeme, Token, is_reserved, lexemes};
 use super::linear::Sum;
 use super::names::{Ids, Names};
 use super::{Assumptions, Atom, Ctl, Formula, Linear, Property, PropertyError, Question};
 use crate::pt::Pt;
+use crate::source::quoted;
 use std::ops::Range;
 
 /// The longest text, in bytes.

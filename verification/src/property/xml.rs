@@ -1,7 +1,8 @@
 //! The elements and texts of an XML file, bounded, each with its place in the file. Entities other
 //! than the five of XML are refused, so nothing grows. Attributes and namespaces mean nothing here.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
+use crate::source::quoted;
 use quick_xml::errors::{Error, IllFormedError};
 use quick_xml::events::Event;
 use quick_xml::reader::Reader;

@@ -10,7 +10,8 @@
 //! use cotama_verification::{pt::Pt, reductions::{Goal, Keep, reduce}};
 //!
 //! let mut net = OwnedNet::new("fall", "");
-//! let [a, b, c] = ["a", "b", "c"].map(|it| net.place(OwnedPlace::new(it, (it == "a").into())).unwrap());
+//! let [a, b, c] =
+//!     ["a", "b", "c"].map(|it| net.place(OwnedPlace::new(it, (it == "a").into())).unwrap());
 //! net.transition(OwnedTransition::new("slip").take(a, 1).give(b, 1)).unwrap();
 //! net.transition(OwnedTransition::new("fall").take(b, 1).give(c, 1)).unwrap();
 //! let net = Pt::from(&net.view().net());
@@ -18,7 +19,10 @@
 //! let reduced = reduce(&net, &Keep::new(Goal::Deadlock));
 //! assert!(reduced.net.transitions.is_empty());
 //! let dead = reduced.trail.lift(&net, &[]).unwrap();
-//! assert_eq!(dead.iter().map(|it| net.transitions[it.0 as usize].as_str()).collect::<Vec<_>>(), ["slip", "fall"]);
+//! assert_eq!(
+//!     dead.iter().map(|it| net.transitions[it.0 as usize].as_str()).collect::<Vec<_>>(),
+//!     ["slip", "fall"]
+//! );
 //! ```
 //!
 //! Every rule with its conditions and source is described at [`Rule`]. The sources:

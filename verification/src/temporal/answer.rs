@@ -30,7 +30,8 @@ use std::rc::Rc;
 /// let whole = fuse.place(OwnedPlace::new("whole", 1)).unwrap();
 /// fuse.transition(OwnedTransition::new("blow").take(whole, 1)).unwrap();
 /// let fuse = Pt::from(&fuse.view().net());
-/// let Question::Formula(formula) = parse("AF deadlock & EX !whole", &fuse).unwrap().question else {
+/// let Question::Formula(formula) = parse("AF deadlock & EX !whole", &fuse).unwrap().question
+/// else {
 ///     panic!("not a formula")
 /// };
 /// let verdict = answer(&fuse, &formula, &Limits::default(), &|_| ());

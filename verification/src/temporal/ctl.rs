@@ -38,7 +38,9 @@ pub struct CtlAnswer {
 /// lamp.transition(OwnedTransition::new("light").take(off, 1).give(on, 1)).unwrap();
 /// let lamp = Pt::from(&lamp.view().net());
 /// let graph = Graph::new(&lamp, &Limits::default(), &|_| ()).unwrap();
-/// let Question::Formula(formula) = parse("AF on", &lamp).unwrap().question else { panic!("not a formula") };
+/// let Question::Formula(formula) = parse("AF on", &lamp).unwrap().question else {
+///     panic!("not a formula")
+/// };
 /// let formula = Ctl::new(&formula).unwrap();
 ///
 /// let answer = ctl(&graph, &formula, &Fairness::default());

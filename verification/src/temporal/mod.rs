@@ -3,7 +3,7 @@
 //! | item | what it answers |
 //! | --- | --- |
 //! | [`answer`] | any formula of CTL or LTL, by the engine that suits it |
-//! | [`ctl`] | where a formula of CTL holds, of all runs or of fair ones, with ranks and a run as evidence |
+//! | [`ctl`] | where a formula of CTL holds, on all or on fair runs, with a run as evidence |
 //! | [`all_runs`], [`some_runs`] | formulas of LTL, with a lasso as evidence |
 //!
 //! Runs are maximal: they go on for ever, or end in a deadlock, whose marking lasts.

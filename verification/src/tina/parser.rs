@@ -1,8 +1,9 @@
 //! Declarations, put on top of each other.
 
 use super::Limits;
-use super::error::{Finding, quoted};
+use super::error::Finding;
 use super::token::{Token, Tokens};
+use crate::source::quoted;
 use crate::tpn::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use std::collections::HashMap;

@@ -1,6 +1,7 @@
 //! The words and signs of a file.
 
-use super::error::{Finding, quoted};
+use super::error::Finding;
+use crate::source::quoted;
 use std::borrow::Cow;
 
 /// A word or a sign.

@@ -15,9 +15,14 @@ use cotama_core::net::TransitionId;
 /// ```
 /// use cotama_verification::{tina, tpn};
 ///
-/// let net = tina::read("race.net", b"tr fast [1,2] idle -> won  tr slow ]2,3] idle -> lost  pl idle (1)").unwrap();
+/// let net = tina::read(
+///     "race.net",
+///     b"tr fast [1,2] idle -> won  tr slow ]2,3] idle -> lost  pl idle (1)",
+/// )
+/// .unwrap();
 /// let classes = tpn::classes(&net, &tpn::Limits::default());
-/// assert_eq!((classes.classes(), classes.edges(), classes.markings()), (2, 1, 2)); // slow never fires
+/// // slow never fires
+/// assert_eq!((classes.classes(), classes.edges(), classes.markings()), (2, 1, 2));
 /// assert_eq!((classes.bounded(), classes.dead_markings()), (Some(true), 1));
 /// ```
 pub fn classes(net: &TimeNet, limits: &Limits<'_>) -> Classes {

@@ -48,7 +48,9 @@ fn another_net_another_question_or_another_number_is_refused() {
             ),
             (
                 "/question",
-                json!({"formula": {"A": {"F": {"at_most": {"constant": 1, "weights": [["broken", -1]]}}}}}),
+                json!({"formula":
+                    {"A": {"F": {"at_most": {"constant": 1, "weights": [["broken", -1]]}}}}
+                }),
                 opposite,
             ),
             (

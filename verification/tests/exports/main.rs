@@ -5,6 +5,7 @@
 
 mod nets;
 mod properties;
+mod random;
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Defect, Role, TransitionId};
