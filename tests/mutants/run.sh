@@ -3,13 +3,16 @@
 # time.
 #
 #   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list
-#   next to this script tests/mutants/run.sh --table         writes README.md anew from the lists
+#                                        next to this script
+#   tests/mutants/run.sh --table         writes README.md anew from the lists
 #
 # A list has paragraphs:
 #
-#   mutant: what is wrong, in plain words file: path below verification/src test: the target that
-#   kills it, where it is not the one of the engine by: the test that kills it, tried first; the
-#   whole test target is run only when it does not; `time` when the target hangs
+#   mutant: what is wrong, in plain words
+#   file: path below verification/src
+#   test: the target that kills it, where it is not the one of the engine
+#   by: the test that kills it, tried first; the whole test target is run only when it does not;
+#       `time` when the target hangs
 #   - text that occurs exactly once in the file, of one or more lines
 #   + text in its place
 #   equivalent: why no test can tell the difference; then it is not run
