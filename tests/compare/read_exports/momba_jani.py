@@ -4,8 +4,8 @@
     python3 -m venv venv && venv/bin/pip install momba==0.6.12
     venv/bin/python tests/compare/read_exports/momba_jani.py [DEPTH]
 
-For each `NAME.jani` of the golden exports, the states that Momba reaches in at most DEPTH steps (12)
-and the number of edges out of them are compared with those of a token game on `NAME.json`.
+For each `NAME.jani` of the golden exports, the states that Momba reaches in at most DEPTH steps
+(12) and the number of edges out of them are compared with those of a token game on `NAME.json`.
 
 Exit status: 0 when all agree, 1 when one differs, 77 when Momba is not installed.
 """

@@ -176,6 +176,8 @@ fn fault(defect: Defect) -> &'static str {
              place that it complements"
         }
         Defect::Law => "has an arc of weight 0 in an invariant, or a place twice in one",
+        Defect::Twice { .. } => "have one name twice",
+        _ => "does not fit together",
     }
 }
 
@@ -194,6 +196,8 @@ fn place_of(defect: Defect, net: &OwnedNet) -> String {
             None => format!("transition {transition}"),
         },
         Defect::Law => "a law".to_owned(),
+        Defect::Twice { list, .. } => list.to_owned(),
+        _ => "the net".to_owned(),
     }
 }
 
