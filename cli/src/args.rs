@@ -14,7 +14,13 @@ use std::path::PathBuf;
 
 /// Robot missions: split into activities, planned within their limits, run under faults, explained.
 #[derive(Debug, Parser)]
-#[command(name = "cotama", version, max_term_width = 100, after_help = AFTER, after_long_help = AFTER_LONG)]
+#[command(
+    name = "cotama",
+    version,
+    max_term_width = 100,
+    after_help = AFTER,
+    after_long_help = AFTER_LONG
+)]
 pub(crate) struct Cli {
     /// Whether to use colours
     #[arg(long, global = true, value_enum, default_value_t = Color::Auto, value_name = "WHEN")]
@@ -92,10 +98,12 @@ Instance:
    \"activities\":[[[quality,duration_ms,energy_mj],...],...]}
 
 Examples:
-  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[3,5,8],[1,4,2]]]}' > small.json
+  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[3,5,8],[1,4,2]]]}' > \
+  small.json
   $ cotama allocate small.json --objective quality
   $ cotama allocate small.json --objective min-energy --json
-  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[1,2,3]]]}' | cotama allocate -")]
+  $ echo '{\"limits\":{\"duration_ms\":9,\"energy_mj\":9},\"activities\":[[[1,2,3]]]}' | cotama \
+  allocate -")]
     Allocate(AllocateArgs),
     /// Runs a stored trace or fault scenario again and compares
     ///
@@ -206,7 +214,8 @@ pub(crate) struct Planning {
     #[arg(long, value_enum, value_name = "WHO", hide_possible_values = false)]
     pub(crate) allocator: Option<AllocatorName>,
     /// The most steps of a complete search
-    #[arg(long, value_name = "N", default_value_t = 50_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 50_000_000)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) steps: u64,
     /// Hardware lost from the start, as `laser:1`; all units of the kind when no number is given
     #[arg(long, value_name = "KIND[:UNITS]", value_parser = lost)]
@@ -229,7 +238,8 @@ pub(crate) struct PlanArgs {
     /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all
     /// plans of which none is better in duration, energy and quality [default: paper; quality for a
     /// supervised mission]
-    #[arg(long, value_name = "WHAT", value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
+    #[arg(long, value_name = "WHAT")]
+    #[arg(value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
     pub(crate) objective: Option<Objective>,
     #[command(flatten)]
     pub(crate) planning: Planning,
@@ -243,7 +253,8 @@ pub(crate) struct RunArgs {
     pub(crate) mission: MissionArg,
     /// What a plan is chosen for: the paper's rule, the most quality, or the least energy [default:
     /// paper; quality for a supervised mission]
-    #[arg(long, value_name = "WHAT", value_parser = objectives(&["paper", "quality", "min-energy"]))]
+    #[arg(long, value_name = "WHAT")]
+    #[arg(value_parser = objectives(&["paper", "quality", "min-energy"]))]
     pub(crate) objective: Option<Objective>,
     #[command(flatten)]
     pub(crate) planning: Planning,
@@ -285,7 +296,8 @@ pub(crate) struct AllocateArgs {
     #[arg(long, value_enum, value_name = "WHO", default_value_t = AllocatorName::Exact)]
     pub(crate) allocator: AllocatorName,
     /// The most steps of a complete search
-    #[arg(long, value_name = "N", default_value_t = 50_000_000, value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 50_000_000)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) steps: u64,
     #[command(flatten)]
     pub(crate) json: Json,

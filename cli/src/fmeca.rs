@@ -3,6 +3,7 @@
 mod diagnosability;
 mod ishikawa;
 mod markdown;
+mod names;
 mod page;
 mod rows;
 mod scene;

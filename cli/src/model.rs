@@ -71,7 +71,8 @@ fn unknown(name: &str, family: &str) -> Failure {
     let guess = near(family, entries.iter().map(|it| it.name))
         .map_or_else(String::new, |near| format!("; did you mean `{near}{number}`?"));
     Failure::new(format!("there is no model `{name}`, and no file of this name{guess}")).help(
-        "`cotama models` lists those that come with the program; or give the path of a PNML or JSON file",
+        "`cotama models` lists those that come with the program; or give the path of a PNML or \
+         JSON file",
     )
 }
 

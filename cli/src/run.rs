@@ -30,10 +30,12 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {
         (_, 0) => {}
         (None, number) => screen.note(&format!(
-            "{number} failures and answers of the operator are not simulated: the mission is run by its plans alone"
+            "{number} failures and answers of the operator are not simulated: the mission is run \
+             by its plans alone"
         )),
         (Some(_), number) => screen.note(&format!(
-            "{number} faults that only plans know are not simulated: the mission is run by its supervisors"
+            "{number} faults that only plans know are not simulated: the mission is run by its \
+             supervisors"
         )),
     }
     let (trace, run) = match Trace::record(&loaded.source, &loaded.text, &options) {
@@ -44,7 +46,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
         Err(error) => return Err(refused(error)),
     };
     let mut body = body(&trace, &run, &loaded.mission.name);
-    if run.outcome == cotama_sim::trace::Outcome::Safe
+    if run.outcome == cotama_sim::run::Outcome::Safe
         && run.x_mm == 0
         && !args.planning.lost.is_empty()
     {
@@ -68,7 +70,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
 /// The exit code of a run.
 pub(crate) fn ended(run: &Run) -> Exit {
     match (run.outcome, run.reason) {
-        (cotama_sim::trace::Outcome::Completed, _) => Exit::Success,
+        (cotama_sim::run::Outcome::Completed, _) => Exit::Success,
         (_, Some(Reason::NoPlan(NoPlan::Unknown { .. }))) => Exit::Unknown,
         _ => Exit::Violated,
     }

@@ -65,7 +65,8 @@ impl Subject {
                 let note = "nets of a system act in rounds, as they are executed";
                 (rounds.net().map_err(refused)?, Some(rounds), note)
             } else {
-                let note = "nets of a system are checked in every interleaving, rounds among them, at any time";
+                let note = "nets of a system are checked in every interleaving, rounds among them, \
+                    at any time";
                 (flat(system).map_err(refused)?, None, note)
             };
             let subject = Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note);

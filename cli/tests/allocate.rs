@@ -4,7 +4,8 @@ use crate::common::Folder;
 use serde_json::{Value, json};
 
 /// The paper's rule finds no plan here, in this order of the limits, but there is one.
-const MISSED: &str = r#"{"limits": {"duration_ms": 6, "energy_mj": 3}, "activities": [[[0,5,1],[2,1,2]], [[3,5,1],[0,1,10]]]}"#;
+const MISSED: &str = r#"{"limits": {"duration_ms": 6, "energy_mj": 3},
+    "activities": [[[0,5,1],[2,1,2]], [[3,5,1],[0,1,10]]]}"#;
 
 fn allocate(name: &str, instance: &str, arguments: &[&str], code: i32) -> Value {
     let folder = Folder::new(&format!("allocate_{name}"));
@@ -14,9 +15,11 @@ fn allocate(name: &str, instance: &str, arguments: &[&str], code: i32) -> Value 
 
 #[test]
 fn the_most_quality_is_found_and_proven() {
-    let instance = r#"{"limits":{"duration_ms":10,"energy_mj":10},"activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
+    let instance = r#"{"limits":{"duration_ms":10,"energy_mj":10},
+        "activities":[[[5,6,6],[3,4,4]],[[5,6,6],[4,4,4]]]}"#;
     let answer = allocate("quality", instance, &["--objective", "quality"], 0);
-    let expected = json!({ "schema": "cotama/allocate/1", "status": "optimal", "quality": 9, "duration_ms": 10,
+    let expected = json!({ "schema": "cotama/allocate/\
+        1", "status": "optimal", "quality": 9, "duration_ms": 10,
         "energy_mj": 10, "choice": [0, 1], "bound": 9, "steps": answer["steps"] });
     assert_eq!(answer, expected);
     let least = allocate("energy", instance, &["--objective", "min-energy"], 0);
@@ -51,7 +54,8 @@ fn the_rule_proves_nothing() {
 
 #[test]
 fn infeasible_says_which_limit_and_by_how_much() {
-    let instance = r#"{"limits":{"duration_ms":6,"energy_mj":2},"activities":[[[0,5,1],[2,1,2]],[[3,5,1],[0,1,10]]]}"#;
+    let instance = r#"{"limits":{"duration_ms":6,"energy_mj":2},
+        "activities":[[[0,5,1],[2,1,2]],[[3,5,1],[0,1,10]]]}"#;
     for allocator in ["exact", "panorama"] {
         let answer =
             allocate(&format!("infeasible_{allocator}"), instance, &["--allocator", allocator], 1);
@@ -69,8 +73,8 @@ fn infeasible_names_no_limit_where_the_steps_ended_before_it_was_known() {
     let instance = r#"{"limits":{"duration_ms":6,"energy_mj":2},"activities":[[[0,5,3]]]}"#;
     let reason = |steps| allocate(steps, instance, &["--steps", steps], 1)["reason"].clone();
     assert_eq!((&reason("0")["axis"], &reason("0")["least"]), (&Value::Null, &Value::Null));
-    let said = "no plan is within the limits; which of them cannot be met is not known after 0 steps: \
-                use more `--steps`";
+    let said = "no plan is within the limits; which of them cannot be met is \
+                not known after 0 steps: use more `--steps`";
     assert_eq!(reason("0")["text"], json!(said));
     assert_eq!((&reason("99")["axis"], &reason("99")["least"]), (&json!("energy"), &json!(3)));
 }

@@ -80,7 +80,11 @@ fn flags_that_make_no_sense() {
 fn faults_that_do_not_fit() {
     let folder = Folder::new("bad_faults");
     refused(&folder, "faults_missing", &["run", "patrol", "--faults", "faults.toml"]);
-    folder.write("other.toml", "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 1\nkind = \"fault\"\nhardware = \"radar\"\nunits_lost = 1\n");
+    folder.write(
+        "other.toml",
+        "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 1\nkind = \
+        \"fault\"\nhardware = \"radar\"\nunits_lost = 1\n",
+    );
     refused(&folder, "faults_hardware", &["run", "patrol", "--faults", "other.toml"]);
     refused(&folder, "faults_no_mission", &["replay", "other.toml"]);
     assert_eq!(folder.files(""), ["other.toml"]);
@@ -155,7 +159,8 @@ const PLACE: &str = "<place id=\"p\"><initialMarking><text>1</text></initialMark
 fn pnml(inside: &str) -> String {
     let kind = "http://www.pnml.org/version-2009/grammar/ptnet";
     format!(
-        "<pnml>\n <net id=\"n\" type=\"{kind}\">\n  <page id=\"g\">\n{inside}\n  </page>\n </net>\n</pnml>\n"
+        "<pnml>\n <net id=\"n\" type=\"{kind}\">\n  <page id=\"g\">\n{inside}\n  </page>\n </net>\n\
+         </pnml>\n"
     )
 }
 
@@ -176,7 +181,8 @@ fn models_that_cannot_be_read() {
         (
             "inhibitor",
             pnml(&format!(
-                "   {PLACE}<transition id=\"t\"/>\n   <arc id=\"a\" source=\"p\" target=\"t\"><type value=\"inhibitor\"/></arc>"
+                "   {PLACE}<transition id=\"t\"/>\n   <arc id=\"a\" source=\"p\" target=\"t\">\
+                 <type value=\"inhibitor\"/></arc>"
             )),
         ),
         ("tokens", pnml(&PLACE.replace(">1<", ">many<"))),

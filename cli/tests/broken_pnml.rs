@@ -6,7 +6,8 @@ use crate::common::Folder;
 /// A page with places `p` and `q` and transitions `t` and `u`, and more from line 5 on.
 fn page(more: &str) -> String {
     format!(
-        "<pnml>\n<net id=\"n\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\">\n<page id=\"page\">\n\
+        "<pnml>\n<net id=\"n\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\">\n\
+         <page id=\"page\">\n\
          <place id=\"p\"/><place id=\"q\"/><transition id=\"t\"/><transition id=\"u\"/>\n{more}\n\
          </page>\n</net>\n</pnml>\n"
     )
@@ -18,7 +19,8 @@ fn marking(tokens: &str) -> String {
 
 fn weight(weight: &str) -> String {
     page(&format!(
-        "<arc id=\"a\" source=\"p\" target=\"t\"><inscription><text>{weight}</text></inscription></arc>"
+        "<arc id=\"a\" source=\"p\" target=\"t\"><inscription><text>{weight}</text></inscription>\
+         </arc>"
     ))
 }
 

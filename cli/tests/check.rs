@@ -10,10 +10,13 @@ fn check(folder: &Folder, model: &str, properties: &[&str], more: &[&str]) -> En
     folder.cotama(&arguments)
 }
 
-const CONTEST: &str = "<?xml version=\"1.0\"?>\n<property-set>\n<property><id>never-two</id><formula>\
+const CONTEST: &str = "<?xml version=\"1.0\"?>\n<property-set>\n<property><id>never-two</id>\
+    <formula>\
     <all-paths><globally><integer-le><tokens-count><place>p0</place></tokens-count>\
-    <integer-constant>1</integer-constant></integer-le></globally></all-paths></formula></property>\n\
-    <property><id>most</id><formula><place-bound><place>p0</place></place-bound></formula></property>\n\
+    <integer-constant>1</integer-constant></integer-le></globally></all-paths></formula>\
+    </property>\n\
+    <property><id>most</id><formula><place-bound><place>p0</place></place-bound></formula>\
+    </property>\n\
     </property-set>\n";
 
 /// Nobody makes smoke, and the quick test is over before the late one can begin.

@@ -96,21 +96,7 @@ impl Ended {
 
 /// Compares with a golden file.
 pub(crate) fn golden(name: &str, said: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
-    compare(&path, said);
-}
-
-/// Compares with a stored file, or writes it.
-pub(crate) fn compare(path: &Path, said: &str) {
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        // At once, since other tests may be reading it.
-        let new = path.with_extension(format!("{}.new", std::process::id()));
-        std::fs::write(&new, said).unwrap();
-        std::fs::rename(new, path).unwrap();
-    } else {
-        let stored = std::fs::read_to_string(path).unwrap_or_default();
-        assert_eq!(stored, said, "{} differs; UPDATE_GOLDEN=1 writes it again", path.display());
-    }
+    cotama_golden::compare(Path::new("tests/golden").join(name), said);
 }
 
 /// The text of the patrol, with each `(old, new)` replaced where it stands first.

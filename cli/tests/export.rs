@@ -1,6 +1,6 @@
 //! `cotama export`: models as files of other tools.
 
-use crate::common::{Folder, compare, golden};
+use crate::common::{Folder, golden};
 use std::path::Path;
 
 const FORMATS: [(&str, &str, &str); 8] = [
@@ -52,7 +52,7 @@ fn the_drawings_of_the_delivery_are_those_of_the_program() {
         assert_eq!(drawn.code, Some(0), "{drawn:?}");
         let path =
             Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("../docs/delivery/{model}.svg"));
-        compare(&path, &drawn.stdout);
+        cotama_golden::compare(&path, &drawn.stdout);
         assert!(page.contains(&format!("(delivery/{model}.svg)")), "{model} is not shown");
     }
 }

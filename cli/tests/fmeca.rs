@@ -82,7 +82,8 @@ fn the_answer_in_json_has_every_row_and_what_cannot_be_told_apart() {
     let answer = folder.cotama(&["fmeca", "--json"]).json(0);
     golden("fmeca.json", &folder.cotama(&["fmeca", "--json"]).stdout);
     let counts = json!({
-        "rows": 40, "functions": 15, "detected": 38, "reported": 28, "recorded": 10, "undetectable": 2
+        "rows": 40, "functions": 15, "detected": 38,
+        "reported": 28, "recorded": 10, "undetectable": 2
     });
     assert_eq!(answer["counts"], counts);
     let rows = answer["rows"].as_array().unwrap();

@@ -32,7 +32,8 @@ fn the_activities_are_those_of_table_5() {
 #[test]
 fn the_plan_is_that_of_table_6() {
     let answer = plan(&[], 0);
-    let choices = "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M3 L1";
+    let choices = "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 \
+        L2,M5 L2,M5 L2,M3 L1";
     assert_eq!(column(&answer["plan"], "choice"), choices.split(',').collect::<Vec<_>>());
     let speeds = [410, 330, 330, 0, 0, 0, 330, 410, 410, 410, 0, 0, 0, 410, 410, 330, 410];
     assert_eq!(column(&answer["plan"], "speed_mm_s"), speeds);

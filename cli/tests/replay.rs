@@ -40,7 +40,11 @@ fn a_changed_trace_does_not() {
 #[test]
 fn a_file_of_faults_is_run_twice() {
     let folder = Folder::new("replay_faults");
-    folder.write("faults.toml", "format = \"panorama-faults/1\"\nrandom = [{ name = \"people\", per_km = 50, kind = \"obstacle\", delay_ms = 900 }]\n");
+    folder.write(
+        "faults.toml",
+        "format = \"panorama-faults/1\"\nrandom = \
+        [{ name = \"people\", per_km = 50, kind = \"obstacle\", delay_ms = 900 }]\n",
+    );
     let arguments = ["replay", "faults.toml", "--mission", "patrol", "--seed", "5", "--json"];
     let answer = folder.cotama(&arguments).json(0);
     assert_eq!((&answer["identical"], &answer["outcome"]), (&json!(true), &json!("completed")));

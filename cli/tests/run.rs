@@ -73,14 +73,19 @@ fn the_delivery_is_driven_in_seven_points() {
     assert_eq!(ladder, expected);
     let sonar = json!({
         "mode": "SON1", "t_ms": 118_300, "x_mm": 26_040, "during": "Following",
-        "detected_ms": 123_200, "flags": ["sonar far"], "diagnosis": "unique", "candidates": ["SON1"],
-        "report": "sonar", "severity": "medium", "by_severity": "adapter", "by_availability": "adapter",
-        "decided_ms": 123_300, "decision": "adapter", "event": "adapt_sonar", "transition": "sonar1",
+        "detected_ms": 123_200, "flags": ["sonar \
+            far"], "diagnosis": "unique", "candidates": ["SON1"],
+        "report": "sonar", "severity": "medium", "by_severity": "adapter",
+        "by_availability": "adapter",
+        "decided_ms": 123_300, "decision": "adapter", "event": "adapt_sonar",
+        "transition": "sonar1",
         "answered_ms": 123_400, "exposed_ms": 5_200,
     });
     assert_eq!(supervised["failures"][2], sonar);
     assert_eq!(supervised["told"][0], json!({ "round": 1, "event": "gs.mission_received" }));
-    let fired = json!({ "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3 });
+    let fired = json!({
+        "t_ms": 123_400, "net": "pf", "transition": "a8.level_2", "place": "Degraded", "cause": 3
+    });
     assert!(supervised["fired"].as_array().unwrap().contains(&fired));
     let runs: Vec<_> = supervised["configurations"]
         .as_array()
@@ -102,7 +107,8 @@ fn the_delivery_is_driven_in_seven_points() {
 #[test]
 fn supervisors_deal_with_the_failures_of_a_file() {
     let folder = Folder::new("run_delivery_faults");
-    let faults = "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode = \"BAT2\"\n";
+    let faults = "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 5000\nkind = \"failure\"\nmode \
+        = \"BAT2\"\n";
     folder.write("flat.toml", faults);
     let answer = folder.cotama(&["run", "delivery", "--faults", "flat.toml", "--json"]).json(1);
     assert_eq!(
@@ -120,7 +126,8 @@ fn supervisors_deal_with_the_failures_of_a_file() {
     );
     folder.write(
         "crowd.toml",
-        "format = \"panorama-faults/1\"\nevent = [{ x_mm = 9, kind = \"obstacle\", delay_ms = 9 }]\n",
+        "format = \"panorama-faults/1\"\nevent = \
+         [{ x_mm = 9, kind = \"obstacle\", delay_ms = 9 }]\n",
     );
     let run = folder.cotama(&["run", "delivery", "--faults", "crowd.toml", "--json"]);
     assert_eq!(
@@ -191,7 +198,8 @@ fn without_faults_there_is_one_plan_and_it_holds() {
 #[test]
 fn faults_come_from_a_file() {
     let folder = Folder::new("run_faults");
-    let faults = "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 90000\nkind = \"fault\"\nhardware = \"kinect\"\nunits_lost = 1\n";
+    let faults = "format = \"panorama-faults/1\"\n[[event]]\nx_mm = 90000\nkind = \"fault\"\n\
+        hardware = \"kinect\"\nunits_lost = 1\n";
     folder.write("blind.toml", faults);
     let answer = folder.cotama(&["run", "patrol", "--faults", "blind.toml", "--json"]).json(1);
     assert_eq!((&answer["outcome"], &answer["operator_requests"]), (&json!("safe"), &json!(1)));
@@ -208,7 +216,8 @@ fn hardware_lost_at_the_start_is_a_fault_at_the_start() {
     let one = folder
         .cotama(&["run", "patrol", "--lost", "laser:1", "--faults", "none", "--json"])
         .json(0);
-    let fault = json!({ "time_ms": 0, "x_mm": 0, "kind": "fault", "text": "laser failed: 1 lost, 1 left",
+    let fault = json!({ "time_ms": 0, "x_mm": 0, "kind": "fault", "text": "laser failed: 1 lost, 1 \
+        left",
         "lost_ms": 0, "hardware": "laser", "units": 1, "units_left": 1 });
     assert_eq!(one["events"], json!([fault]));
     assert_eq!((&one["replans"], &one["plans"][1]["x_mm"]), (&json!(1), &json!(0)));

@@ -1,6 +1,6 @@
 //! The schemas in `schemas/` are those of the types, and every answer is as they say.
 
-use crate::common::{Folder, compare};
+use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
@@ -36,7 +36,7 @@ fn the_stored_schemas_are_those_of_the_types() {
     for command in COMMANDS {
         let printed = folder.cotama(&["schema", command]);
         assert_eq!(printed.code, Some(0));
-        compare(&stored(command), &printed.stdout);
+        cotama_golden::compare(&stored(command), &printed.stdout);
     }
 }
 

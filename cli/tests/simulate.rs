@@ -65,12 +65,19 @@ fn lamp() -> Value {
         json!({ "name": name, "doc": "", "line": 0, "on": name, "take": arc(take), "read": [],
             "give": give, "emits": [], "within": within, "priority": 0 })
     };
-    let place = |name: &str, initial: u32, bound: u32| json!({ "name": name, "doc": "", "initial": initial, "bound": bound, "role": "state" });
-    json!({ "schema": "cotama/net/1", "name": "lamp", "doc": "", "outputs": [], "ignored": [], "laws": [],
+    let place = |name: &str, initial: u32, bound: u32| {
+        json!({
+            "name": name, "doc": "", "initial": initial, "bound": bound, "role": "state"
+        })
+    };
+    json!({ "schema": "cotama/net/\
+        1", "name": "lamp", "doc": "", "outputs": [], "ignored": [], "laws": [],
         "places": [place("dark", 1, 1), place("lit", 0, 1), place("count", 0, 3)],
         "events": [{ "name": "on", "doc": "" }, { "name": "off", "doc": "" }],
         "transitions": [
-            transition("on", "dark", json!([{ "place": "lit", "weight": 1 }, { "place": "count", "weight": 2 }]),
+            transition("on", "dark", json!([
+                { "place": "lit", "weight": 1 }, { "place": "count", "weight": 2 }
+            ]),
                 Value::Null),
             transition("off", "lit", arc("dark"), json!({ "earliest": 100, "latest": 200 })),
         ] })

@@ -5,7 +5,6 @@
 
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
-use std::path::PathBuf;
 
 fn patrol() -> &'static str {
     embedded::mission("patrol").unwrap().text
@@ -20,17 +19,7 @@ fn with(edits: &[(&str, &str)]) -> String {
 }
 
 fn compare(name: &str, said: &str) {
-    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(format!("tests/golden/{name}.txt"));
-    let said = format!("{said}\n");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, said).unwrap();
-    } else {
-        assert_eq!(
-            std::fs::read_to_string(golden).unwrap_or_default(),
-            said,
-            "golden file of {name}"
-        );
-    }
+    cotama_golden::compare(format!("tests/golden/{name}.txt"), &format!("{said}\n"));
 }
 
 /// Parses a broken file on a thread of the usual 2 MiB, and checks the invariants of its errors.

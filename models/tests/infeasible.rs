@@ -10,7 +10,6 @@ use cotama_models::missions::infeasible::{
 };
 use cotama_models::missions::{Constraint, Mission, embedded};
 use proptest::prelude::*;
-use std::path::PathBuf;
 
 const ENERGY: usize = 1;
 const SONAR: usize = 0;
@@ -247,17 +246,7 @@ fn compare(name: &str, why: &Explanation, mission: &Mission) {
 ",
     ) + "
 ";
-    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join(format!("tests/golden/infeasible_{name}.txt"));
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, said).unwrap();
-    } else {
-        assert_eq!(
-            std::fs::read_to_string(golden).unwrap_or_default(),
-            said,
-            "golden file of {name}"
-        );
-    }
+    cotama_golden::compare(format!("tests/golden/infeasible_{name}.txt"), &said);
 }
 
 #[test]

@@ -11,8 +11,6 @@ use cotama_models::cotama::load::{
 };
 use cotama_models::cotama::{Module, Modules};
 use std::fmt::Write as _;
-use std::fs;
-use std::path::Path;
 use std::time::Duration;
 
 fn tasks(configuration: Configuration, load: Load, particles: u32) -> Vec<Task> {
@@ -56,11 +54,7 @@ fn response_times_of_the_optimal_path_following() {
     let tables = [(Load::Quiet, 500), (Load::Busy, 500), (Load::Busy, 200)];
     let shown = tables.map(|(load, particles)| table(FollowingOptimal, load, particles)).join("\n");
     println!("{shown}");
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/load.txt");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        fs::write(&path, &shown).unwrap();
-    }
-    assert_eq!(shown, fs::read_to_string(&path).unwrap(), "UPDATE_GOLDEN=1 rewrites it");
+    cotama_golden::compare("tests/golden/load.txt", &shown);
 }
 
 #[test]

@@ -169,19 +169,11 @@ macro_rules! assert_printed {
         let mission = Mission::parse(embedded.name, embedded.text).unwrap();
         let scenario = mission.scenario();
         let printed = scenario.to_rust(&mission.name);
-        if std::env::var_os("UPDATE_GOLDEN").is_some() {
-            let file = concat!(
-                env!("CARGO_MANIFEST_DIR"),
-                "/src/missions/tables/",
-                stringify!($tables),
-                ".rs"
-            );
-            std::fs::write(file, &printed).unwrap();
-            return;
-        }
-        let stored = include_str!(concat!("../src/missions/tables/", stringify!($tables), ".rs"));
-        assert!(printed == stored, "rewrite it with UPDATE_GOLDEN=1 cargo test");
-        // And compiled, they are the same values.
+        cotama_golden::compare(
+            concat!("src/missions/tables/", stringify!($tables), ".rs"),
+            &printed,
+        );
+        // And compiled, they are the same values; those of a file just written at the next run.
         assert_eq!($tables::ACTIVITIES[..], scenario.activities()[..]);
         assert_eq!(($tables::LIMITS, $tables::ORDER), (scenario.limits, scenario.order));
         assert_eq!($tables::AVAILABLE, scenario.available());

@@ -104,7 +104,10 @@ mod tests {
     }
 
     fn step() -> impl Strategy<Value = Step> {
-        prop_oneof![3 => (0u64..8, 0u8..3).prop_map(|(t, p)| Step::Push(t, p)), 2 => Just(Step::Pop)]
+        prop_oneof![
+            3 => (0u64..8, 0u8..3).prop_map(|(t, p)| Step::Push(t, p)),
+            2 => Just(Step::Pop)
+        ]
     }
 
     proptest! {
@@ -122,8 +125,14 @@ mod tests {
                     Step::Pop => {
                         let expected = (!list.is_empty()).then(|| list.remove(0));
                         prop_assert_eq!(queue.next_time(), expected.map(|(time, ..)| time));
-                        prop_assert_eq!(queue.clone().pop(), expected.map(|(time, _, event)| (time, event)));
-                        prop_assert_eq!(queue.pop(), expected.map(|(time, _, event)| (time, event)));
+                        prop_assert_eq!(
+                            queue.clone().pop(),
+                            expected.map(|(time, _, event)| (time, event))
+                        );
+                        prop_assert_eq!(
+                            queue.pop(),
+                            expected.map(|(time, _, event)| (time, event))
+                        );
                     }
                 }
                 prop_assert_eq!(queue.len(), list.len());

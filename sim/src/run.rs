@@ -1,11 +1,19 @@
 //! What a run comes to.
 
-use crate::trace::Outcome;
+use cotama_core::units::Millis;
 use cotama_models::cotama::FailureMode;
 use cotama_models::missions::{AXES, Mission};
+use serde::{Deserialize, Serialize};
 
 /// The units of the performance axes.
 const UNITS: [&str; 2] = ["ms", "mJ"];
+
+/// The most replans of a run; the robot stops safely when one more is asked for.
+pub const MAX_REPLANS: u64 = 10_000;
+/// The most checks of the margins in a run; the robot stops safely when one more is due.
+pub const MAX_CHECKS: u64 = 1_000_000;
+/// A supervised run ends after this time, whatever it does.
+pub const LONGEST: Millis = Millis(3_600_000);
 
 /// What a run comes to: a few numbers and its plans.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,6 +44,29 @@ pub struct Run {
     pub checks: u64,
 }
 
+/// How a mission ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    /// All activities are done, within the limits.
+    Completed,
+    /// The robot stopped and asked its operator.
+    Safe,
+    /// All activities are done, but a limit is exceeded.
+    Failed,
+}
+
+impl Outcome {
+    /// Its name in traces and answers: `completed`, `safe`, `failed`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Completed => "completed",
+            Self::Safe => "safe",
+            Self::Failed => "failed",
+        }
+    }
+}
+
 /// How many events of each kind happened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EventCounts {
@@ -60,7 +91,7 @@ impl EventCounts {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PlanMade {
     /// Why.
-    pub cause: Cause,
+    pub cause: PlanCause,
     /// When, in µs.
     pub t_us: u64,
     /// Where, in whole mm of path.
@@ -85,7 +116,7 @@ pub struct PlanMade {
 
 /// Why a plan was needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Cause {
+pub enum PlanCause {
     /// The mission starts.
     Start,
     /// The margin of this axis is below zero.
@@ -109,7 +140,7 @@ pub enum Cause {
     Room,
 }
 
-impl Cause {
+impl PlanCause {
     /// In words: `start`, `energy margin below zero`, `one laser lost`, `UST back`, `room for a
     /// better plan`.
     pub fn text(self, mission: &Mission) -> String {
@@ -144,9 +175,9 @@ pub enum Reason {
         /// By how much, in ms or mJ.
         by: u64,
     },
-    /// [`MAX_REPLANS`](crate::world::MAX_REPLANS) plans were made, and one more was asked for.
+    /// [`MAX_REPLANS`] plans were made, and one more was asked for.
     TooManyReplans,
-    /// The margins were checked [`MAX_CHECKS`](crate::world::MAX_CHECKS) times.
+    /// The margins were checked [`MAX_CHECKS`] times.
     TooManyChecks,
     /// The global supervisor ended the mission.
     GivenUp {
@@ -155,7 +186,7 @@ pub enum Reason {
     },
     /// The laptop is down: the micro-controller has stopped the robot.
     Mindless,
-    /// A supervised mission was not done after [`LONGEST`](crate::supervised::LONGEST).
+    /// A supervised mission was not done after [`LONGEST`].
     TooLong,
 }
 
@@ -212,8 +243,8 @@ impl Reason {
                 let axis = axis.min(1);
                 format!("{} limit exceeded by {by} {}", AXES[axis], UNITS[axis])
             }
-            Self::TooManyReplans => format!("stopped after {} replans", crate::world::MAX_REPLANS),
-            Self::TooManyChecks => format!("stopped after {} checks", crate::world::MAX_CHECKS),
+            Self::TooManyReplans => format!("stopped after {} replans", MAX_REPLANS),
+            Self::TooManyChecks => format!("stopped after {} checks", MAX_CHECKS),
             Self::GivenUp { failure: Some(mode) } => {
                 let text = mode.description();
                 format!(
@@ -227,7 +258,7 @@ impl Reason {
                 "the operator gave up, and the global supervisor ended the mission".into()
             }
             Self::Mindless => "the laptop is down; the micro-controller stopped the motors".into(),
-            Self::TooLong => format!("not done after {} s", crate::supervised::LONGEST.0 / 1000),
+            Self::TooLong => format!("not done after {} s", LONGEST.0 / 1000),
         }
     }
 }

@@ -1,10 +1,7 @@
 //! A mission made ready to be run many times: everything that does not depend on the seed.
 
 use crate::options::{FaultChoice, Options, Planner};
-use crate::record::{Recorder, Silent};
-use crate::run::{NoPlan, Run};
 use crate::streams::Streams;
-use crate::world::World;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, MonitorError};
 use cotama_core::problem::Candidate;
@@ -23,7 +20,7 @@ pub const MAX_DRAWS: u64 = 10_000_000;
 ///
 /// ```
 /// use cotama_models::missions::{Mission, embedded};
-/// use cotama_sim::{options::Options, setup::Simulation, trace::Outcome};
+/// use cotama_sim::{options::Options, run::Outcome, setup::Simulation};
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
 /// let simulation = Simulation::new(&mission, &Options::default()).unwrap();
@@ -80,7 +77,8 @@ impl std::fmt::Display for SetupError {
             Self::ZeroPeriod => f.write_str("the monitor period is 0 ms; it must be at least 1 ms"),
             Self::TooManyDraws { draws } => write!(
                 f,
-                "the random events need {draws} draws, at most {MAX_DRAWS} are made; name fewer of them"
+                "the random events need {draws} draws, at most {MAX_DRAWS} are made; name fewer of \
+                 them"
             ),
             Self::Unwatchable(why) => write!(f, "the limits cannot be watched: {why}"),
             Self::ForeignFaults => {
@@ -148,27 +146,6 @@ impl<'m> Simulation<'m> {
     /// The monitor period.
     pub fn monitor_period(&self) -> Millis {
         Millis(self.period_us / 1000)
-    }
-
-    /// Runs the mission, without a trace.
-    ///
-    /// # Errors
-    /// [`NoPlan`] when there is no plan at the start; nothing is run then.
-    pub fn run(&self, seed: u64) -> Result<Run, NoPlan> {
-        self.run_recorded(seed, &mut Silent)
-    }
-
-    /// Runs the mission and records what happens.
-    ///
-    /// # Errors
-    /// [`NoPlan`] when there is no plan at the start; nothing is run or recorded then.
-    pub fn run_recorded<R: Recorder>(&self, seed: u64, recorder: &mut R) -> Result<Run, NoPlan> {
-        let mut world = World::start(self, seed, recorder)?;
-        loop {
-            if let Some(run) = world.step(recorder) {
-                return Ok(run);
-            }
-        }
     }
 
     /// All hardware of the robot.

@@ -4,6 +4,7 @@
 //! Every record says when (`t_us`, µs since the start) and where (`x_mm`, whole mm of path that are
 //! behind the robot). Numbers are integers; durations are ms, energies mJ, powers mW, speeds mm/s.
 
+use crate::run::Outcome;
 use serde::{Deserialize, Serialize};
 
 mod read;
@@ -296,7 +297,7 @@ pub struct Event {
     /// Where, in mm.
     pub x_mm: u64,
     /// What.
-    pub event: Happening,
+    pub event: Occurrence,
     /// The name of the random event that it comes from; none for those with a given place.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub random: Option<String>,
@@ -307,7 +308,7 @@ pub struct Event {
 /// What happened.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "snake_case")]
-pub enum Happening {
+pub enum Occurrence {
     /// Something stood in the way.
     Obstacle {
         /// The time lost.
@@ -350,29 +351,6 @@ pub struct Request {
     pub cause: String,
     /// Why there is none; in a supervised run why he is asked.
     pub reason: String,
-}
-
-/// How a mission ended.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Outcome {
-    /// All activities are done, within the limits.
-    Completed,
-    /// The robot stopped and asked its operator.
-    Safe,
-    /// All activities are done, but a limit is exceeded.
-    Failed,
-}
-
-impl Outcome {
-    /// Its name in traces and answers: `completed`, `safe`, `failed`.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Completed => "completed",
-            Self::Safe => "safe",
-            Self::Failed => "failed",
-        }
-    }
 }
 
 /// The mission is over.

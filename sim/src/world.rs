@@ -12,11 +12,10 @@
 //! at the end of the one that arrives. Hindrances are atomic: no check falls inside them.
 
 use crate::kernel::Queue;
-use crate::record::Recorder;
-use crate::run::{Cause, EventCounts, NoPlan, PlanMade, Reason, Run};
+use crate::record::{Recorder, Silent};
+use crate::run::{EventCounts, NoPlan, Outcome, PlanCause, PlanMade, Reason, Run};
 use crate::setup::{NM_PER_MM, Pending, Simulation};
 use crate::solver::Solver;
-use crate::trace::Outcome;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Monitor;
 use cotama_models::missions::tables::Alternative;
@@ -26,11 +25,6 @@ mod checks;
 mod happenings;
 mod planning;
 mod records;
-
-/// The most replans of a run; the robot stops safely when one more is asked for.
-pub const MAX_REPLANS: u64 = 10_000;
-/// The most checks of the margins in a run; the robot stops safely when one more is due.
-pub const MAX_CHECKS: u64 = 1_000_000;
 
 /// What comes next.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +81,29 @@ pub struct World<'s> {
     ended: Option<(Outcome, Option<Reason>)>,
 }
 
+impl Simulation<'_> {
+    /// Runs the mission, without a trace.
+    ///
+    /// # Errors
+    /// [`NoPlan`] when there is no plan at the start; nothing is run then.
+    pub fn run(&self, seed: u64) -> Result<Run, NoPlan> {
+        self.run_recorded(seed, &mut Silent)
+    }
+
+    /// Runs the mission and records what happens.
+    ///
+    /// # Errors
+    /// [`NoPlan`] when there is no plan at the start; nothing is run or recorded then.
+    pub fn run_recorded<R: Recorder>(&self, seed: u64, recorder: &mut R) -> Result<Run, NoPlan> {
+        let mut world = World::start(self, seed, recorder)?;
+        loop {
+            if let Some(run) = world.step(recorder) {
+                return Ok(run);
+            }
+        }
+    }
+}
+
 impl<'s> World<'s> {
     /// A robot at the start of its mission, with its first plan.
     ///
@@ -128,7 +145,7 @@ impl<'s> World<'s> {
             ended: None,
         };
         world.find_segment();
-        world.plan(Cause::Start, None, recorder)?;
+        world.plan(PlanCause::Start, None, recorder)?;
         world.set_leg();
         world.happen(recorder);
         if world.ended.is_none() {

@@ -6,7 +6,7 @@ mod common;
 
 use common::{labels, patrol, run, with_period};
 use cotama_sim::options::Options;
-use cotama_sim::trace::Outcome;
+use cotama_sim::run::Outcome;
 
 /// Margins after the start move with the monitor period and the order of rounding by up to so much.
 const TOLERANCE_MS: u64 = 500;
@@ -22,7 +22,8 @@ fn near(found: [i64; 2], reference: [i64; 2]) -> bool {
 const RAS: [(&str, &str); 4] = [
     (
         "A1",
-        "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M3 L1",
+        "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M5 \
+         L2,M3 L1",
     ),
     ("A8", "M5 L2,M5 L2,M5 L2,T1 L2,D2,T1 L2,M5 L2,M5 L2,M1 L2,M1 L1"),
     ("A14", "M3 L2,M3 L2,M1 L2,M3 L2"),

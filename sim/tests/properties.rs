@@ -10,10 +10,9 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError, RandomEvent};
 use cotama_sim::faults_text::faults_text;
 use cotama_sim::options::{FaultChoice, Options, Planner};
-use cotama_sim::run::{Reason, Run};
+use cotama_sim::run::{MAX_REPLANS, Outcome, Reason, Run};
 use cotama_sim::setup::Simulation;
-use cotama_sim::trace::{Outcome, Record};
-use cotama_sim::world::MAX_REPLANS;
+use cotama_sim::trace::Record;
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use std::sync::LazyLock;
@@ -45,7 +44,12 @@ fn faults(mission: &'static Mission) -> impl Strategy<Value = Faults> {
         prop_oneof![4 => hindrance(), 1 => lost, 1 => back]
     };
     let length = mission.path_length.0;
-    let place = prop_oneof![4 => 0..=length, 1 => Just(0), 1 => Just(length), 1 => (0..=length / 500).prop_map(|x| x * 500)];
+    let place = prop_oneof![
+        4 => 0..=length,
+        1 => Just(0),
+        1 => Just(length),
+        1 => (0..=length / 500).prop_map(|x| x * 500)
+    ];
     let event = (place, kind()).prop_map(|(x, kind)| Event { x: Millimetres(x), kind });
     let zones = mission.zones.len();
     let errors = prop::collection::btree_map(
@@ -53,7 +57,10 @@ fn faults(mission: &'static Mission) -> impl Strategy<Value = Faults> {
         prop_oneof![3 => -300i32..0, 3 => -50i32..50, 1 => -999i32..=10_000],
         0..=3,
     );
-    let random = prop_oneof![2 => Just(Vec::new()), 1 => prop::collection::vec((1u16..=30, hindrance()), 1..3)];
+    let random = prop_oneof![
+        2 => Just(Vec::new()),
+        1 => prop::collection::vec((1u16..=30, hindrance()), 1..3)
+    ];
     (prop::collection::vec(event, 0..12), errors, random).prop_map(
         |(mut events, errors, random)| {
             events.sort_by_key(|event| event.x);
@@ -159,7 +166,10 @@ proptest! {
         prop_assert_eq!(u128::from(run.used[1]), (run.energy_pj + 500_000_000) / 1_000_000_000);
         let error = energy_of_legs(&records).abs_diff(run.energy_pj);
         // Odometry before a first activity that stands is driven at the power of a later one.
-        let first = records.iter().position(|record| matches!(record, Record::Activity(_))).unwrap_or(records.len());
+        let first = records
+            .iter()
+            .position(|record| matches!(record, Record::Activity(_)))
+            .unwrap_or(records.len());
         let driven_first = case.mission.scenario().activities[0].x_end.0 == 0
             && records[..first].iter().any(|record| matches!(record, Record::Event(_)));
         prop_assert!(driven_first || error <= u128::from(run.time_us) * 500, "{error} pJ");

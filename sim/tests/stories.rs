@@ -8,10 +8,10 @@ use cotama_core::monitor::Upward;
 use cotama_core::units::Millis;
 use cotama_models::missions::Mission;
 use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
-use cotama_sim::run::{NoPlan, Reason};
+use cotama_sim::run::{MAX_REPLANS, NoPlan, Outcome, Reason};
 use cotama_sim::setup::{SetupError, Simulation};
-use cotama_sim::trace::{Happening, Outcome, Record};
-use cotama_sim::world::{MAX_REPLANS, World};
+use cotama_sim::trace::{Occurrence, Record};
+use cotama_sim::world::World;
 
 const UPWARD: Upward<2> = Upward { growth: [60_000, 600_000], reserve: [5_000, 30_000] };
 
@@ -131,16 +131,16 @@ fn events_on_a_border_come_before_the_next_activity() {
             }
             Record::Activity(activity) => Some(format!("{} {}", activity.x_mm, activity.activity)),
             Record::Event(event) => Some(match &event.event {
-                Happening::Obstacle { .. } => {
+                Occurrence::Obstacle { .. } => {
                     format!("{} obstacle {} us", event.x_mm, event.lost_us)
                 }
-                Happening::Odometry { .. } => {
+                Occurrence::Odometry { .. } => {
                     format!("{} odometry {} us", event.x_mm, event.lost_us)
                 }
-                Happening::Fault { units_left, .. } => {
+                Occurrence::Fault { units_left, .. } => {
                     format!("{} fault, {units_left} left", event.x_mm)
                 }
-                Happening::Repair { .. } => "repair".into(),
+                Occurrence::Repair { .. } => "repair".into(),
             }),
             _ => None,
         })
@@ -244,7 +244,7 @@ fn savings_are_spent_without_flapping() {
     assert_eq!(end.outcome, Outcome::Completed);
     // At most 15 % of 8640 J are saved, and each plan needs 600 J of growth.
     assert!((1..=2).contains(&end.replans), "{:?}", causes(&mission, &end));
-    assert!(end.plans[1..].iter().all(|plan| plan.cause == cotama_sim::run::Cause::Room));
+    assert!(end.plans[1..].iter().all(|plan| plan.cause == cotama_sim::run::PlanCause::Room));
 }
 
 #[test]

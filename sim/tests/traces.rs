@@ -31,17 +31,7 @@ fn digest(text: &str) -> u64 {
 }
 
 fn golden(name: &str, found: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden").join(name);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, found).unwrap();
-    }
-    let expected = std::fs::read_to_string(&path).unwrap_or_default();
-    let line = expected.lines().zip(found.lines()).position(|(a, b)| a != b);
-    assert!(
-        expected == found,
-        "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it"
-    );
+    cotama_golden::compare(Path::new("tests/golden").join(name), found);
 }
 
 /// Debug and release builds, and all platforms, agree on these bytes.
@@ -172,7 +162,11 @@ proptest! {
 
     /// Whatever is changed in a good trace, reading and replaying it ends with an answer.
     #[test]
-    fn damaged_traces_are_survived(at in 0usize..60_000, byte in any::<u8>(), cut in any::<bool>()) {
+    fn damaged_traces_are_survived(
+        at in 0usize..60_000,
+        byte in any::<u8>(),
+        cut in any::<bool>(),
+    ) {
         let mut bytes = SECONDS_30.clone().into_bytes();
         let at = at % bytes.len();
         if cut { bytes.truncate(at) } else { bytes[at] = byte }
@@ -180,7 +174,11 @@ proptest! {
         if let Ok(trace) = Trace::parse("damaged", &text)
             && let Ok(replayed) = replay(&trace)
         {
-            prop_assert!(!replayed.identical || text == *SECONDS_30 || trace.header != Trace::parse("", &SECONDS_30).unwrap().header);
+            prop_assert!(
+                !replayed.identical
+                    || text == *SECONDS_30
+                    || trace.header != Trace::parse("", &SECONDS_30).unwrap().header
+            );
         }
     }
 }

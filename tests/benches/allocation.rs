@@ -117,7 +117,8 @@ fn main() {
             rows.push(json!({
                 "name": name, "kind": kind, "seconds": timed.seconds,
                 "status": if planned.optimal { "optimal" } else { "feasible" },
-                "quality": planned.quality, "bound": bound, "steps": planned.steps, "plan": timed.plan,
+                "quality": planned.quality, "bound": bound, "steps": planned.steps,
+                "plan": timed.plan,
             }));
         }
         println!(

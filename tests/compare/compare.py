@@ -30,7 +30,8 @@ from pathlib import Path
 SCHEMA_IN = "cotama/bench-allocation/1"
 SCHEMA_OUT = "cotama/bench-compare/1"
 SHORT = 0.1  # seconds; a run shorter than this is repeated
-OPTIMAL, FEASIBLE, INFEASIBLE, UNKNOWN, INVALID = "optimal", "feasible", "infeasible", "unknown", "invalid"
+OPTIMAL, FEASIBLE, INFEASIBLE = "optimal", "feasible", "infeasible"
+UNKNOWN, INVALID = "unknown", "invalid"
 PROVEN = (OPTIMAL, INFEASIBLE)
 OURS = "cotama"
 
@@ -82,7 +83,8 @@ def instance_from(data, name, kind, ours=None):
     for options in activities:
         for candidate in options:
             if len(candidate) != 3:
-                raise InputError(f"{name}: a candidate is [quality, duration_ms, energy_mj], not {candidate}")
+                raise InputError(f"{name}: a candidate is [quality, duration_ms, energy_mj], "
+                    f"not {candidate}")
             numbers.extend(candidate)
     if any(type(n) is not int for n in numbers):
         raise InputError(f"{name}: every number must be an integer")
@@ -108,7 +110,7 @@ def read_json(path):
 
 
 def load(path):
-    """A folder with results.json (or instances alone), or JSON lines of entries that hold their instance."""
+    """A folder with results.json (or instances alone), or JSON lines of entries with instances."""
     path = Path(path)
     if path.is_dir():
         results = path / "results.json"
@@ -119,7 +121,8 @@ def load(path):
         if data.get("schema") != SCHEMA_IN:
             raise InputError(f"{results}: schema {data.get('schema')!r}, expected {SCHEMA_IN!r}")
         return [
-            instance_from(read_json(path / f"{e['name']}.json"), e["name"], e["kind"], check_ours(e))
+            instance_from(read_json(path / f"{e['name']}.json"), e["name"], e["kind"],
+                check_ours(e))
             for e in data["instances"]
         ]
     instances = []
@@ -153,7 +156,7 @@ def verify(instance, plan):
 
 
 def picked(instance, values):
-    """The one candidate of each activity whose variable is set; -1 where there is not exactly one."""
+    """The one candidate of each activity whose variable is set; -1 where there is not just one."""
     plan, start = [], 0
     for options in instance.activities:
         chosen = [k for k in range(len(options)) if values[start + k] > 0.5]
@@ -248,7 +251,8 @@ class Highs:
         lp.col_upper_ = np.ones(len(candidates))
         lp.integrality_ = [highspy.HighsVarType.kInteger] * len(candidates)
         lp.row_lower_ = np.array([1.0] * groups + [-highspy.kHighsInf] * 2)
-        lp.row_upper_ = np.array([1.0] * groups + [float(instance.duration), float(instance.energy)])
+        lp.row_upper_ = np.array([1.0] * groups
+            + [float(instance.duration), float(instance.energy)])
         start, index, value = [0], [], []
         for group, options in enumerate(instance.activities):
             for _, duration, energy in options:
@@ -349,7 +353,8 @@ def run(solver, instance, limit, repeat):
 
 def ours_of(instance):
     entry = instance.ours
-    answer = Answer(entry["status"], entry["seconds"], 0.0, entry.get("quality"), entry.get("bound"))
+    answer = Answer(entry["status"], entry["seconds"], 0.0, entry.get("quality"),
+        entry.get("bound"))
     if isinstance(entry.get("plan"), list):
         quality, wrong = verify(instance, entry["plan"])
         if wrong is None and quality != answer.quality:
@@ -361,7 +366,8 @@ def ours_of(instance):
 
 def contradictions(name, answers):
     """Every pair of answers that cannot both be true."""
-    found = [f"{name}: {who} returns a wrong plan: {a.note}" for who, a in answers.items() if a.status == INVALID]
+    found = [f"{name}: {who} returns a wrong plan: {a.note}" for who, a in answers.items()
+        if a.status == INVALID]
     sound = {who: a for who, a in answers.items() if a.status != INVALID}
     for who, a in sound.items():
         ceiling = a.quality if a.status == OPTIMAL else a.bound
@@ -369,10 +375,12 @@ def contradictions(name, answers):
             if b.quality is None:
                 continue
             if a.status == INFEASIBLE:
-                found.append(f"{name}: {who} proves there is no plan, {other} has one of quality {b.quality}")
+                found.append(f"{name}: {who} proves there is no plan, "
+                        f"{other} has one of quality {b.quality}")
             elif ceiling is not None and b.quality > ceiling:
                 what = "optimum" if a.status == OPTIMAL else "bound"
-                found.append(f"{name}: {who} proves {what} {ceiling}, {other} has quality {b.quality}")
+                found.append(f"{name}: {who} proves {what} {ceiling}, "
+                        f"{other} has quality {b.quality}")
     return found
 
 
@@ -460,7 +468,8 @@ def kinds_of(rows):
 
 
 def markdown(rows, names, limit, versions):
-    out = [", ".join(f"{k} {v}" for k, v in versions.items()) + f"; one CPU, limit {limit:g} s.", ""]
+    out = [", ".join(f"{k} {v}" for k, v in versions.items()) + f"; one CPU, limit {limit:g} s.",
+        ""]
     body, overall = [], []
     for kind, members in kinds_of(rows).items():
         per = {n: [m["answers"][n] for m in members if n in m["answers"]] for n in names}
@@ -488,7 +497,8 @@ def markdown(rows, names, limit, versions):
                 a = row["answers"].get(n)
                 if a is not None:
                     shown = ["-" if v is None else str(v) for v in (a.quality, a.bound)]
-                    body.append([row["name"], n, seconds_text(a.seconds), a.status, *shown, gap_text(a.gap())])
+                    body.append([row["name"], n, seconds_text(a.seconds), a.status, *shown,
+                        gap_text(a.gap())])
         out += ["", f"Not proven by {OURS}; the others were given the same time:", ""]
         out.append(table(["instance", "solver", "time", "status", "quality", "bound", "gap"], body))
     return "\n".join(out)
@@ -500,7 +510,8 @@ def machine(rows, names, limit, versions, problems):
         r = ratio(row["answers"])
         solvers = {}
         for n, a in row["answers"].items():
-            solvers[n] = {k: v for k, v in asdict(a).items() if k != "plan" and v is not None} | {"gap": a.gap()}
+            solvers[n] = {k: v for k, v in asdict(a).items() if k != "plan" and v is not None} | {
+                "gap": a.gap()}
         instances.append(
             {
                 "name": row["name"],
@@ -517,7 +528,8 @@ def machine(rows, names, limit, versions, problems):
             found = [m["answers"][n] for m in members if n in m["answers"]]
             if found:
                 entry["seconds_median"][n] = statistics.median(a.seconds for a in found)
-                entry["status"][n] = {s: sum(a.status == s for a in found) for s in {a.status for a in found}}
+                entry["status"][n] = {s: sum(a.status == s for a in found)
+                    for s in {a.status for a in found}}
         for key, pick in (("ratio_median", statistics.median), ("ratio_min", min)):
             value, mark = summary_of(ratios, pick)
             entry[key] = None if value is None else {"value": value, "mark": mark}
@@ -547,19 +559,23 @@ def brute_force(instance):
 def self_test(solvers):
     known = {
         "limits": {"duration_ms": 10, "energy_mj": 10},
-        "activities": [[[1, 1, 1], [6, 6, 2], [7, 2, 7]], [[0, 0, 0], [5, 5, 3], [9, 3, 9]], [[2, 1, 1], [3, 2, 5]]],
+        "activities": [[[1, 1, 1], [6, 6, 2], [7, 2, 7]], [[0, 0, 0], [5, 5, 3], [9, 3, 9]],
+            [[2, 1, 1], [3, 2, 5]]],
     }
     instances = [instance_from(known, "known", "test")]
     numbers = random.Random(1)
     for k in range(12):
         activities = [
-            [[numbers.randint(0, 40), numbers.randint(1, 30), numbers.randint(1, 30)] for _ in range(4)]
+            [[numbers.randint(0, 40), numbers.randint(1, 30), numbers.randint(1, 30)]
+                for _ in range(4)]
             for _ in range(6)
         ]
         share = 0.2 if k == 0 else numbers.uniform(0.3, 0.6)
         limits = {"duration_ms": round(180 * share), "energy_mj": round(180 * share)}
-        instances.append(instance_from({"limits": limits, "activities": activities}, f"random-{k}", "test"))
-    hopeless = {"limits": {"duration_ms": 1, "energy_mj": 9}, "activities": [[[5, 1, 1]], [[5, 1, 1], [9, 1, 2]]]}
+        instances.append(instance_from({"limits": limits, "activities": activities}, f"random-{k}",
+            "test"))
+    hopeless = {"limits": {"duration_ms": 1, "energy_mj": 9},
+        "activities": [[[5, 1, 1]], [[5, 1, 1], [9, 1, 2]]]}
     instances.append(instance_from(hopeless, "hopeless", "test"))
     failures, seen = [], set()
     for instance in instances:
@@ -570,13 +586,16 @@ def self_test(solvers):
         for solver in solvers:
             a = answers[solver.name] = run(solver, instance, 10.0, 1)
             if (a.status, a.quality) != (want, best):
-                failures.append(f"{instance.name}: {solver.name} {a.status} {a.quality}, brute force {want} {best}")
+                failures.append(f"{instance.name}: {solver.name} {a.status} {a.quality}, "
+                    f"brute force {want} {best}")
         failures += contradictions(instance.name, answers)
         # The checks themselves must notice a false claim.
         if best is not None:
-            for lie in (Answer(OPTIMAL, 0.0, quality=best - 1), Answer(FEASIBLE, 0.0, quality=best + 1, bound=best + 9)):
+            for lie in (Answer(OPTIMAL, 0.0, quality=best - 1),
+                    Answer(FEASIBLE, 0.0, quality=best + 1, bound=best + 9)):
                 if not contradictions(instance.name, answers | {OURS: lie}):
-                    failures.append(f"{instance.name}: a false {lie.status} {lie.quality} went unnoticed")
+                    failures.append(
+                        f"{instance.name}: a false {lie.status} {lie.quality} went unnoticed")
             if not contradictions(instance.name, answers | {OURS: Answer(INFEASIBLE, 0.0)}):
                 failures.append(f"{instance.name}: a false proof of no plan went unnoticed")
     for plan in ([0, 0], [0, 0, -1], [1, 1, 0], [2, 2, 0]):
@@ -618,17 +637,25 @@ def positive(convert):
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description="Time CP-SAT and HiGHS on exported allocation instances.")
-    parser.add_argument("input", nargs="?", help="folder of the benchmark's --export, or a JSON lines file")
-    parser.add_argument("--limit", type=positive(float), default=60.0, help="seconds per run (default 60)")
-    parser.add_argument("--repeat", type=positive(int), default=5, help="runs when one takes under 0.1 s (default 5)")
-    parser.add_argument("--kind", action="append", help="only kinds that contain this text (may be given again)")
-    parser.add_argument("--solver", action="append", choices=["cp-sat", "highs"], help="only this solver")
+    parser = argparse.ArgumentParser(
+        description="Time CP-SAT and HiGHS on exported allocation instances.")
+    parser.add_argument("input", nargs="?",
+        help="folder of the benchmark's --export, or a JSON lines file")
+    parser.add_argument("--limit", type=positive(float), default=60.0,
+        help="seconds per run (default 60)")
+    parser.add_argument("--repeat", type=positive(int), default=5,
+        help="runs when one takes under 0.1 s (default 5)")
+    parser.add_argument("--kind", action="append",
+        help="only kinds that contain this text (may be given again)")
+    parser.add_argument("--solver", action="append", choices=["cp-sat", "highs"],
+        help="only this solver")
     parser.add_argument("--cp-sat", action="append", type=setting, default=[], metavar="KEY=VALUE")
     parser.add_argument("--highs", action="append", type=setting, default=[], metavar="KEY=VALUE")
     parser.add_argument("--cpu", type=int, help="CPU to stay on (default: the last one allowed)")
-    parser.add_argument("--json", metavar="FILE", help="also write the figures here; - for standard output instead")
-    parser.add_argument("--self-test", action="store_true", help="compare both solvers with brute force, and stop")
+    parser.add_argument("--json", metavar="FILE",
+        help="also write the figures here; - for standard output instead")
+    parser.add_argument("--self-test", action="store_true",
+        help="compare both solvers with brute force, and stop")
     options = parser.parse_args()
     if options.input is None and not options.self_test:
         parser.error("give a folder or a file, or --self-test")
@@ -639,7 +666,8 @@ def main():
     options = arguments()
     if hasattr(os, "sched_setaffinity"):
         try:
-            os.sched_setaffinity(0, {max(os.sched_getaffinity(0)) if options.cpu is None else options.cpu})
+            os.sched_setaffinity(0, {max(os.sched_getaffinity(0)) if options.cpu is None
+                else options.cpu})
         except OSError as error:
             raise InputError(f"cannot stay on one CPU: {error}") from error
     else:
@@ -679,7 +707,8 @@ def compare(options, solvers):
             problems.append(problem)
         rows.append({"name": instance.name, "kind": instance.kind, "answers": answers})
     if wall > 1.05 * cpu + 0.1:
-        print(f"WARNING the CPU was shared: {wall:.1f} s passed, {cpu:.1f} s were used", file=sys.stderr)
+        print(f"WARNING the CPU was shared: {wall:.1f} s passed, {cpu:.1f} s were used",
+            file=sys.stderr)
 
     names = [n for n in [OURS] + [s.name for s in solvers] if any(n in r["answers"] for r in rows)]
     if options.json:

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""Exports every shipped model as PNML and as JSON, and lets pm4py count what it reads of the one against the other.
+"""Exports every shipped model as PNML and as JSON, and lets pm4py count what it reads of the one
+against the other.
 
-    read_models.py            needs the program (built in release) and the packages of requirements.txt
+    read_models.py      needs the program (built in release) and the packages of requirements.txt
 """
 
 import json
@@ -44,11 +45,13 @@ def main():
             net = json.loads(cotama("export", name, "--format", "json"))
             path = pathlib.Path(folder) / (name.replace(":", "_") + ".pnml")
             path.write_text(cotama("export", name, "--format", "pnml"), encoding="utf-8")
-            said = {"places": len(net["places"]), "transitions": len(net["transitions"]), "arcs": arcs(net)}
+            said = {"places": len(net["places"]), "transitions": len(net["transitions"]),
+                "arcs": arcs(net)}
             found = counts(path)
             models += 1
             wrong += found != said
-            print(f"{name}: {found['places']} places, {found['transitions']} transitions, {found['arcs']} arcs:",
+            print(f"{name}: {found['places']} places, {found['transitions']} transitions,",
+                f"{found['arcs']} arcs:",
                   "same" if found == said else f"DIFFERENT, expected {said}")
     print(f"{models} models, {wrong} wrong")
     return 1 if wrong or not models else 0

@@ -3,7 +3,8 @@
 
     read_pnml.py FACTS.tsv FILE.pnml...
 
-FACTS.tsv has the columns model, places, transitions and arcs; a model is the name of a file without `.pnml`.
+FACTS.tsv has the columns model, places, transitions and arcs; a model is the name of a file without
+`.pnml`.
 Exits with 1 when a number differs, a file cannot be read or has no facts.
 """
 
@@ -33,7 +34,8 @@ def main(facts, *files):
             continue
         wrong += found != said
         verdict = "same" if found == said else f"DIFFERENT, expected {said}"
-        print(f"{path.name}: {found['places']} places, {found['transitions']} transitions, {found['arcs']} arcs: {verdict}")
+        print(f"{path.name}: {found['places']} places, {found['transitions']} transitions,",
+            f"{found['arcs']} arcs: {verdict}")
     print(f"{len(files)} files, {wrong} wrong")
     return 1 if wrong or not files else 0
 

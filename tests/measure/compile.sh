@@ -32,7 +32,8 @@ net() {
 
 # One counter that rises: as many markings as values.
 chain() {
-    net "$1" "counters { count: 0 of $(($2 - 1)) }" "up on Up: _ => _ read On do count += 1;" "always_can(A);"
+    net "$1" "counters { count: 0 of $(($2 - 1)) }" "up on Up: _ => _ read On do count += 1;" \
+        "always_can(A);"
 }
 
 # Flags that are set and cleared, each by itself: 2^n markings.
@@ -55,12 +56,16 @@ supervisor() {
     done
     lines+="stop_B on Down [hot]: B => A read On; stop_C on Down [hot]: C => A read On;"
     lines+="stop_D on Down [hot]: D => A read On; stop_E on Down [hot]: E => A read On;"
-    lines+="heat on Set [!hot]: _ => _ read On do hot = true; cool on Clear [hot]: _ => _ read On do hot = false;"
+    lines+="heat on Set [!hot]: _ => _ read On do hot = true;"
+    lines+=" cool on Clear [hot]: _ => _ read On do hot = false;"
     lines+="light on Set [hot & !lit]: _ => _ read On do lit = true;"
     lines+="dark on Clear [!hot & lit]: _ => _ read On do lit = false;"
-    lines+="up on Up: _ => _ read On do count += 1; down on Down [!hot]: _ => _ read On do count -= 1;"
-    local laws="invariant(A & B & C & D & E = 1); never_both(B, C); always_can(A); deadlock_free_except(A);"
-    net "$1" "flags { hot, lit } counters { count: 0 of $(($2 / 20 - 1)) }" "$lines" "$laws deterministic;"
+    lines+="up on Up: _ => _ read On do count += 1;"
+    lines+=" down on Down [!hot]: _ => _ read On do count -= 1;"
+    local laws="invariant(A & B & C & D & E = 1); never_both(B, C); always_can(A);"
+    laws+=" deadlock_free_except(A);"
+    net "$1" "flags { hot, lit } counters { count: 0 of $(($2 / 20 - 1)) }" "$lines" \
+        "$laws deterministic;"
 }
 
 # Processor time of one check, in milliseconds; ends the script when the compiler says something
@@ -68,7 +73,8 @@ supervisor() {
 once() {
     local TIMEFORMAT=%U seconds
     cargo clean --quiet --package measured --manifest-path "$package/Cargo.toml"
-    if ! seconds=$( { time cargo check --quiet --offline --manifest-path "$package/Cargo.toml" 2>"$package/said"; } 2>&1 ) &&
+    if ! seconds=$( { time cargo check --quiet --offline --manifest-path "$package/Cargo.toml" \
+        2>"$package/said"; } 2>&1 ) &&
         ! grep -q "$1" "$package/said"; then
         cat "$package/said" >&2
         exit 1

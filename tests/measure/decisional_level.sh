@@ -11,7 +11,8 @@ here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/decisional_level
 export CARGO_TARGET_DIR PATH=/usr/bin:/bin # only Debian's compiler
 unset CARGO RUSTC RUSTDOC RUSTUP_TOOLCHAIN
-RUSTFLAGS="--remap-path-prefix=$(realpath "$here/../..")=." # panics name their files: not where this folder lies
+# Panics name their files: not where this folder lies.
+RUSTFLAGS="--remap-path-prefix=$(realpath "$here/../..")=."
 export RUSTFLAGS
 cd "$here/decisional_level"
 target=thumbv7em-none-eabihf
@@ -26,15 +27,18 @@ promise() {
 
 cargo build --quiet --locked --profile firmware --target "$target" -p decisional-level-firmware
 built=$CARGO_TARGET_DIR/$target/firmware
-echo "The decisional level on $target, $(rustc -V | cut -d' ' -f1,2), opt-level s, overflow checks on:"
+echo "The decisional level on $target, $(rustc -V | cut -d' ' -f1,2), opt-level s," \
+    "overflow checks on:"
 
 # An image that begins at these entry points keeps only what they reach.
 size() {
     local entries=() it
     for it in "${@:2}"; do entries+=(-u "robot_$it"); done
-    arm-none-eabi-ld --gc-sections -e "robot_$2" "${entries[@]}" -o "$work/image" "$built/libentries.a"
+    arm-none-eabi-ld --gc-sections -e "robot_$2" "${entries[@]}" -o "$work/image" \
+        "$built/libentries.a"
     read -r code tables ram < <(arm-none-eabi-size -A "$work/image" | awk '
-        $1 ~ /^\.text/ { code += $2 } $1 ~ /^\.rodata/ { tables += $2 } $1 ~ /^\.(data|bss)/ { ram += $2 }
+        $1 ~ /^\.text/ { code += $2 } $1 ~ /^\.rodata/ { tables += $2 }
+        $1 ~ /^\.(data|bss)/ { ram += $2 }
         END { print code, tables + 0, ram + 0 }')
     printf '  %-42s %6d + %5d = %6d\n' "$1" "$code" "$tables" $((code + tables))
 }
@@ -57,9 +61,13 @@ mark=$(arm-none-eabi-nm "$built/count" | awk '$3 == "icount_mark" { print "0x" $
 timeout 600 qemu-system-arm -M mps2-an386 -nographic -monitor none -serial none \
     -semihosting-config enable=on,target=native -kernel "$built/count" \
     -plugin "$work/icount.so,mark=$mark" -d plugin -D "$work/counts" >"$work/said"
-is() { awk -v what="$1" '$1 == what && NF == 2 { print $2 }  $1 " " $2 == what { print $3 }' "$work/said"; }
-printf 'state: %d bytes, of which the supervisors %d and the executive %d; while it plans %d more, exactly %d\n' \
-    "$(is "bytes robot")" "$(is "bytes supervisors")" "$(is "bytes executive")" "$(is "bytes rule")" "$(is "bytes exact")"
+is() {
+    awk -v what="$1" '$1 == what && NF == 2 { print $2 }  $1 " " $2 == what { print $3 }' \
+        "$work/said"
+}
+printf 'state: %d bytes, of which the supervisors %d and the executive %d; ' \
+    "$(is "bytes robot")" "$(is "bytes supervisors")" "$(is "bytes executive")"
+printf 'while it plans %d more, exactly %d\n' "$(is "bytes rule")" "$(is "bytes exact")"
 promise "state, bytes" "$(is "bytes robot")" 2048
 
 # A region is named after its batch; those of the exploration follow each other as a round and one
@@ -79,14 +87,20 @@ awk '
     }
     END {
         if (FNR != all) { print "the emulator did not count every region" > "/dev/stderr"; exit 1 }
-        for (it = 1; it <= kinds; it++) printf "%s %d %.0f %d\n", order[it], n[order[it]], sum[order[it]] / n[order[it]], most[order[it]]
+        for (it = 1; it <= kinds; it++) printf "%s %d %.0f %d\n", order[it], n[order[it]],
+            sum[order[it]] / n[order[it]], most[order[it]]
     }' "$work/said" "$work/counts" | sed 's/^tell /tell_/' >"$work/classes"
 class() { awk -v name="$1" '$1 == name { print $4 }' "$work/classes"; }
-echo "instructions in each of the $(is states) states that the supervisors reach; of diagnoses, in each of $(is situations) situations with"
-echo "each set of losses; of plans, from each activity with each set of modules:        calls    mean    most"
+echo "instructions in each of the $(is states) states that the supervisors reach; of diagnoses," \
+    "in each of $(is situations) situations with"
+echo "each set of losses; of plans, from each activity with each set of modules:       " \
+    "calls    mean    most"
 awk '{ printf "  %-68s %8d %7d %7d\n", $1, $2, $3, $4 }' "$work/classes"
 # As many as the model checker finds: nothing is left out.
-[ "$(is states)" = 31266 ] || { echo "$(is states) states, 31266 between rounds by the checker" >&2; failed=1; }
+[ "$(is states)" = 31266 ] || {
+    echo "$(is states) states, 31266 between rounds by the checker" >&2
+    failed=1
+}
 worst=$(awk '/^tell_/ { if ($4 > most) most = $4 } END { print most }' "$work/classes")
 promise "the worst event, instructions" "$worst" 10000
 echo "the worst event: $worst instructions; the worst round: $(class round)"

@@ -3,13 +3,16 @@
 # time.
 #
 #   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list
-#   next to this script tests/mutants/run.sh --table         writes README.md anew from the lists
+#                                        next to this script
+#   tests/mutants/run.sh --table         writes README.md anew from the lists
 #
 # A list has paragraphs:
 #
-#   mutant: what is wrong, in plain words file: path below verification/src test: the target that
-#   kills it, where it is not the one of the engine by: the test that kills it, tried first; the
-#   whole test target is run only when it does not; `time` when the target hangs
+#   mutant: what is wrong, in plain words
+#   file: path below verification/src
+#   test: the target that kills it, where it is not the one of the engine
+#   by: the test that kills it, tried first; the whole test target is run only when it does not;
+#       `time` when the target hangs
 #   - text that occurs exactly once in the file, of one or more lines
 #   + text in its place
 #   equivalent: why no test can tell the difference; then it is not run
@@ -33,14 +36,16 @@ bad=0
 
 # Builds the tests of a target; prints where they are.
 build() {
-    (cd "$copy" && cargo test --offline -p cotama-verification --test "$1" --no-run --message-format=json) \
+    (cd "$copy" && cargo test --offline -p cotama-verification --test "$1" --no-run \
+        --message-format=json) \
         2>"$work/build.log" | sed -n 's/.*"executable":"\([^"]*\)".*/\1/p' | tail -1
 }
 
 # Runs tests until one fails; prints its name, or `time`, or `a crash`; nothing when all pass.
 first_failure() {
     local line out tests status=0
-    exec {out}< <(cd "$copy/verification" && ulimit -v 16000000 && exec timeout "$limit" "$@" 2>/dev/null)
+    exec {out}< <(cd "$copy/verification" && ulimit -v 16000000 &&
+        exec timeout "$limit" "$@" 2>/dev/null)
     tests=$!
     while read -r line <&"$out"; do
         if [[ $line =~ ^test\ (.*)\ \.\.\.\ FAILED$ ]]; then
@@ -112,13 +117,17 @@ run() {
         mapfile -t names < <(awk -v usual="$usual" -v wanted="$name" '
             /^mutant: / { target = usual }
             /^test: / { target = $2 }
-            /^by: / && $2 != "time" && target == wanted { print $2 }' "$lists/$engine.txt" | sort -u)
+            /^by: / && $2 != "time" && target == wanted { print $2 }' "$lists/$engine.txt" |
+            sort -u)
         [[ ${#names[@]} == 0 ]] || sound "$name" --exact "${names[@]}"
     done
     mutant=
     while IFS= read -r line; do
         case $line in
-            'mutant: '*) try; mutant=${line#*: } target=$usual file='' by='' old='' new='' equivalent='' ;;
+            'mutant: '*)
+                try
+                mutant=${line#*: } target=$usual file='' by='' old='' new='' equivalent=''
+                ;;
             'file: '*) file=${line#*: } ;;
             'by: '*) by=${line#*: } ;;
             'test: '*) target=${line#*: } ;;

@@ -25,7 +25,8 @@ fi
 export CARGO_TARGET_DIR
 
 # The canary of the heap: with it the crate must not build, and for this reason.
-if said=$("${build[@]}" --features canary-heap 2>&1) || ! grep -qF "no global memory allocator found" <<<"$said"; then
+if said=$("${build[@]}" --features canary-heap 2>&1) ||
+    ! grep -qF "no global memory allocator found" <<<"$said"; then
     printf 'canary_heap builds, or fails for another reason: this check is blind\n%s\n' "$said" >&2
     exit 1
 fi
@@ -36,10 +37,14 @@ library=$CARGO_TARGET_DIR/${target:+$target/}release/libcotama_no_panic.a
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-"$nm" --defined-only "$library" 2>/dev/null | awk '$2 == "T" && $3 ~ /^(root|open|canary)_/ { print $3 }' | sort -u >"$work/names"
+"$nm" --defined-only "$library" 2>/dev/null |
+    awk '$2 == "T" && $3 ~ /^(root|open|canary)_/ { print $3 }' | sort -u >"$work/names"
 
 # links NAME: whether an image that begins there links.
-links() { "${link[@]}" "${pass}-e${pass:+,}$1" "${pass}-u${pass:+,}$1" -o "$work/image" "$library" 2>"$work/why"; }
+links() {
+    "${link[@]}" "${pass}-e${pass:+,}$1" "${pass}-u${pass:+,}$1" -o "$work/image" "$library" \
+        2>"$work/why"
+}
 
 failed=0 roots=0
 while read -r name; do
@@ -62,7 +67,8 @@ done <"$work/names"
 # or a macro over them makes of it, has a player's roots here.
 find ../../models/src src -name '*.rs' -exec awk '
     /^ *(cotama_core::|crate::)?(net|watchdog|recovery|path_following|teleoperation|observation|contextual|faults|system|level)! *\{/ { open = 1 }
-    open && /^ *(pub )?mod [a-z0-9_]+ *\{/ { sub(/pub /, ""); print $2; open = 0 }' {} + | sort -u >"$work/shipped"
+    open && /^ *(pub )?mod [a-z0-9_]+ *\{/ { sub(/pub /, ""); print $2; open = 0 }' {} + |
+        sort -u >"$work/shipped"
 sed -n 's/^\(root\|open\)_\(.*\)_start$/\2/p' "$work/names" | sort >"$work/rooted"
 if ! diff "$work/shipped" "$work/rooted"; then
     echo "the nets and systems of models/src (<) and those that have roots (>) differ" >&2
@@ -72,5 +78,6 @@ for canary in index overflow; do
     grep -qx "canary_$canary" "$work/names" || { echo "canary_$canary is gone" >&2; failed=1; }
 done
 [ "$roots" -gt 0 ] || failed=1
-echo "$roots roots without panics and without a heap (${target:-this machine}, $(rustc -V | cut -d' ' -f1,2))"
+echo "$roots roots without panics and without a heap" \
+    "(${target:-this machine}, $(rustc -V | cut -d' ' -f1,2))"
 exit $failed

@@ -8,7 +8,8 @@
 # is linked alone as well, and its size is printed.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
-CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}") # before the folder changes
+# Before the folder changes.
+CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")
 cd "$here"
 target=${1:-}
 build=(cargo build --quiet --locked --release)
@@ -22,7 +23,8 @@ else
 fi
 
 "${build[@]}"
-echo "builds without std and without a heap (${target:-this machine}, $(rustc -V | cut -d' ' -f1,2))"
+echo "builds without std and without a heap" \
+    "(${target:-this machine}, $(rustc -V | cut -d' ' -f1,2))"
 
 # canary FEATURE MESSAGE: fails to build, with this message.
 canary() {
@@ -54,5 +56,6 @@ for entry in cotama_panorama cotama_exact cotama_front cotama_monitor; do
     arm-none-eabi-ld --gc-sections -e "$entry" -u "$entry" -o "$image" "$library"
     arm-none-eabi-size -A "$image" | awk -v entry="$entry" '
         $1 ~ /^\.(text|rodata|data|bss)/ { size[$1] += $2 }
-        END { printf "%-17s %7d %7d %5d\n", entry, size[".text"], size[".rodata"], size[".data"] + size[".bss"] }'
+        END { printf "%-17s %7d %7d %5d\n", entry, size[".text"], size[".rodata"],
+            size[".data"] + size[".bss"] }'
 done

@@ -1,8 +1,8 @@
 //! What `net!` refuses while compiling, and in which words.
 //!
 //! Every file in `cases` is a library with one net. Those named `*_ok` compile without a warning;
-//! the others are refused, as `golden.txt` says. After a change of the words: `BLESS=1 cargo test
-//! -p cotama-tests --test refused`, and read the difference as a stranger would.
+//! the others are refused, as `golden.txt` says. After a change of the words: `UPDATE_GOLDEN=1
+//! cargo test -p cotama-tests --test refused`, and read the difference as a stranger would.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -55,16 +55,7 @@ fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
             (false, false) => refused.push(format!("== {name}\n{}\n\n", errors.join("\n"))),
         }
     }
-    let text = refused.concat();
-    let golden = here.join("golden.txt");
-    if std::env::var_os("BLESS").is_some() {
-        fs::write(&golden, &text).expect("the golden text can be written");
-    }
-    let agreed = fs::read_to_string(&golden).expect("there is a golden text");
-    for (is, agreed) in text.split("== ").zip(agreed.split("== ")) {
-        assert_eq!(is, agreed);
-    }
-    assert_eq!(text, agreed);
+    cotama_golden::compare("refused/golden.txt", &refused.concat());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
@@ -83,7 +74,8 @@ fn package(here: &Path, names: &[String]) -> PathBuf {
     let core = here.join("../../core");
     let core = core.display();
     let mut manifest = vec![format!(
-        "[workspace]\n[package]\nname = \"refused\"\nversion = \"0.0.0\"\nedition = \"2024\"\nautoexamples = false\n\
+        "[workspace]\n[package]\nname = \"refused\"\nversion = \"0.0.0\"\nedition = \"2024\"\n\
+         autoexamples = false\n\
          [lib]\npath = \"lib.rs\"\n[dev-dependencies]\ncotama-core = {{ path = '{core}' }}\n"
     )];
     for name in names {

@@ -13,9 +13,9 @@ use cotama_models::cotama::{
     Configuration, FailureMode, Module, Told, delivery, faults, local, recovering,
 };
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
-use cotama_sim::trace::Outcome;
 use cotama_verification::check::{Model, Options, Verdict, check};
 use cotama_verification::flat::{Rounds, rounds};
 use cotama_verification::property;
@@ -192,7 +192,8 @@ impl Game {
 /// An event as the net of rounds calls it.
 fn name(told: Told) -> String {
     let event = told.event();
-    let component = &recovering::SYSTEM.components[usize::from(event.component)]; // and those of delivery before
+    // and those of delivery before
+    let component = &recovering::SYSTEM.components[usize::from(event.component)];
     format!("{}.{}", component.name, component.net.events[event.id.0 as usize].name)
 }
 

@@ -83,7 +83,8 @@ fn main() {
             (limit, graph) => format!("  {limit:?} {graph:?}"),
         };
         println!(
-            "{name:<20} {:>12} {:>12} {clock:>8.3} {processor:>8.3} {:>12.0} {:>8.1} {:>9.1} {graph_seconds:>9.3}{end}",
+            "{name:<20} {:>12} {:>12} {clock:>8.3} {processor:>8.3} {:>12.0} {:>8.1} {:>9.1} \
+             {graph_seconds:>9.3}{end}",
             space.states,
             space.arcs,
             space.states as f64 / processor,

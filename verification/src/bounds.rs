@@ -8,31 +8,11 @@ use crate::pt::Pt;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
 use std::rc::Rc;
-use std::sync::OnceLock;
 
 /// The most sums that are kept at a time, and that one transition may add.
 const SUMS: usize = 2_000;
 /// Numbers that may be looked at: some tenths of a second.
 const WORK: usize = 50_000_000;
-
-/// What [`bounds`] found of a net, so that it is looked for once. A copy of the net may be changed,
-/// so it knows nothing yet; and what is known of two nets is no difference between them.
-#[derive(Debug, Default)]
-pub struct Bounds(OnceLock<Vec<Option<u32>>>);
-
-impl Clone for Bounds {
-    fn clone(&self) -> Self {
-        Self::default()
-    }
-}
-
-impl PartialEq for Bounds {
-    fn eq(&self, _: &Self) -> bool {
-        true
-    }
-}
-
-impl Eq for Bounds {}
 
 /// For each place the most tokens that it can hold by the sums found; `None` where none was found.
 ///

@@ -5,7 +5,7 @@
 //! | [`bounds`] | bounds of places that the structure of a net proves |
 //! | [`certificate`] | evidence for a verdict, and a small checker of it |
 //! | [`check`] | a question, its answer, and the choice among engines |
-//! | [`coverability`] | nets with infinitely many markings: boundedness and what more tokens keep true |
+//! | [`coverability`] | infinitely many markings: boundedness, and what more tokens keep true |
 //! | [`diagnosis`] | what a person sees of a verdict |
 //! | [`explicit`] | the engine that passes through reachable markings one by one |
 //! | [`export`] | a net as a file of another tool, or as a drawing |
@@ -33,6 +33,7 @@ pub mod pnml;
 pub mod property;
 pub mod pt;
 pub mod reductions;
+mod source;
 pub mod structural;
 pub mod stubborn;
 pub mod temporal;

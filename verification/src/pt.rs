@@ -1,7 +1,7 @@
 //! A net without time and priorities, in the form in which engines read it.
 
-use crate::bounds::Bounds;
 use cotama_core::net::{Net, PlaceId, TransitionId};
+use std::sync::OnceLock;
 
 /// A place/transition net: every order in which enabled transitions can fire.
 ///
@@ -30,6 +30,26 @@ pub struct Pt {
     /// What its structure says of bounds, once somebody has asked.
     pub bounds: Bounds,
 }
+
+/// What [`bounds`](crate::bounds::bounds) found of a net, so that it is looked for once. A copy of
+/// the net may be changed, so it knows nothing yet; and what is known of two nets is no difference
+/// between them.
+#[derive(Debug, Default)]
+pub struct Bounds(pub(crate) OnceLock<Vec<Option<u32>>>);
+
+impl Clone for Bounds {
+    fn clone(&self) -> Self {
+        Self::default()
+    }
+}
+
+impl PartialEq for Bounds {
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
+}
+
+impl Eq for Bounds {}
 
 /// Lists of ids with a weight each, one list after the other.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -19,19 +19,9 @@ use std::path::Path;
 use std::process::{Command, Stdio};
 use xml::Element;
 
-/// Compares with a file of `tests/golden/drawings`, or writes it.
+/// Compares with a file of `tests/golden/drawings`.
 fn golden(file: &str, text: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/drawings").join(file);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(&path, text).unwrap();
-    }
-    let expected = std::fs::read_to_string(&path)
-        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    assert!(
-        text == expected,
-        "{} is out of date: set UPDATE_GOLDEN=1 and look at the difference",
-        path.display()
-    );
+    cotama_golden::compare(Path::new("tests/golden/drawings").join(file), text);
 }
 
 fn all_formats(name: &str, net: &OwnedNet, style: Style) {
@@ -143,7 +133,8 @@ fn counters_read_as_comparisons() {
     add(&mut it, |step, tries, left| step.read(tries, 1).read(left, 1));
     add(&mut it, |step, tries, left| step.take(left, 1).give(tries, 1));
     add(&mut it, |step, tries, left| step.take(tries, 2).give(left, 2));
-    let labels = "[tries ≥ 2]\\n[tries ≤ 0]\\n[tries = 2]\\n[1 ≤ tries ≤ 2]\\n[tries ≤ 2] / tries += 1\\n\
+    let labels = "[tries ≥ 2]\\n[tries ≤ 0]\\n[tries = 2]\\n[1 ≤ tries ≤ 2]\\n[tries ≤ 2] / tries \
+        += 1\\n\
                   [tries ≥ 2] / tries -= 2";
     assert_eq!(
         dot_edges(&it.net),
@@ -301,7 +292,11 @@ fn any_states(size: u32) -> impl Strategy<Value = OwnedNet> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 200,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn any_net_gives_a_sound_drawing_and_the_same_one_twice(net in any_net(14)) {
@@ -312,7 +307,10 @@ proptest! {
             check_svg(&text);
             prop_assert_eq!(text, svg::write(&again.net(), style));
             prop_assert_eq!(dot::write(&view.net(), style), dot::write(&again.net(), style));
-            prop_assert_eq!(mermaid::write(&view.net(), style), mermaid::write(&again.net(), style));
+            prop_assert_eq!(
+                mermaid::write(&view.net(), style),
+                mermaid::write(&again.net(), style)
+            );
         }
     }
 

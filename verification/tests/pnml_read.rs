@@ -9,7 +9,8 @@ use std::fmt::Write as _;
 fn file(page: &str) -> String {
     format!(
         "<pnml xmlns=\"http://www.pnml.org/version-2009/grammar/pnml\">\
-         <net id=\"n\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\"><page id=\"g\">{page}</page></net></pnml>"
+         <net id=\"n\" type=\"http://www.pnml.org/version-2009/grammar/ptnet\">\
+         <page id=\"g\">{page}</page></net></pnml>"
     )
 }
 
@@ -129,11 +130,14 @@ fn without_intervals_there_is_no_time() {
 fn the_dialect_of_pipe_is_read() {
     let net = read(
         "<pnml><net id='Net-One' type='P/T net'><token id='Default' enabled='true' red='0'/>
-         <place id='P0'><graphics><position x='1' y='2'/></graphics><name><value>P0</value><graphics/></name>
-           <initialMarking><value>Default,2</value><graphics/></initialMarking><capacity><value>0</value></capacity></place>
+         <place id='P0'><graphics><position x='1' y='2'/></graphics><name><value>P0</value>\
+         <graphics/></name>
+           <initialMarking><value>Default,2</value><graphics/></initialMarking><capacity><value>0\
+           </value></capacity></place>
          <transition id='T0'><name><value>T0</value></name><rate><value>1.0</value></rate>
            <timed><value>false</value></timed><priority><value>1</value></priority></transition>
-         <arc id='P0 to T0' source='P0' target='T0'><inscription><value>Default,3</value></inscription>
+         <arc id='P0 to T0' source='P0' target='T0'><inscription><value>Default,3</value>\
+         </inscription>
            <arcpath id='000' x='1' y='2'/><type value='normal'/></arc></net></pnml>",
     );
     let mut expected = OwnedNet::new("Net-One", "");
@@ -144,7 +148,8 @@ fn the_dialect_of_pipe_is_read() {
 
 #[test]
 fn a_coloured_net_beside_the_only_plain_one_is_skipped() {
-    let coloured = "<net id='c' type='http://www.pnml.org/version-2009/grammar/symmetricnet'><place id='p'/></net>";
+    let coloured = "<net id='c' type='http://www.pnml.org/version-2009/grammar/symmetricnet'>\
+        <place id='p'/></net>";
     let net =
         read(&format!("<pnml>{coloured}<net id='plain'><place id='p'/></net>{coloured}</pnml>"));
     assert_eq!((net.name.as_str(), net.places.len()), ("plain", 1));
@@ -155,8 +160,10 @@ fn parts_of_other_tools_comments_and_a_plain_doctype_are_skipped() {
     let net = read(
         "<?xml version='1.0'?><!DOCTYPE pnml SYSTEM 'pnml.dtd'><!-- <place id='no'/> --><?go on?>
          <x:pnml xmlns:x='http://www.pnml.org/version-2009/grammar/pnml'><x:net id='n'>
-         <x:toolspecific tool='other' version='7'><place id='p'/><anything><initialMarking/></anything></x:toolspecific>
-         <x:place id='p'><x:toolspecific tool='cotamaran' version='1'><place bound='x'/></x:toolspecific></x:place>
+         <x:toolspecific tool='other' version='7'><place id='p'/><anything><initialMarking/>\
+         </anything></x:toolspecific>
+         <x:place id='p'><x:toolspecific tool='cotamaran' version='1'><place bound='x'/>\
+         </x:toolspecific></x:place>
          </x:net></x:pnml> <!-- end -->",
     );
     assert_eq!(place_names(&net), ["p"]);
@@ -231,9 +238,11 @@ fn damaged_files_never_panic_and_say_where() {
         std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml")).unwrap();
     let tina = pnml::write_for_tina(&read_bytes(&written).view().net()).into_bytes();
     let mixed = file(
-        "<place id='p'><initialMarking><text>1</text></initialMarking></place><!-- c --><referencePlace id='r' ref='p'/>\
+        "<place id='p'><initialMarking><text>1</text></initialMarking></place><!-- c -->\
+         <referencePlace id='r' ref='p'/>\
          <transition id='t'><name><text>&lt;t&#62;<![CDATA[x]]></text></name></transition>\
-         <arc id='a' source='r' target='t' type='test'/><arc id='b' source='t' target='p'><inscription><text>2</text>\
+         <arc id='a' source='r' target='t' type='test'/><arc id='b' source='t' target='p'>\
+         <inscription><text>2</text>\
          </inscription></arc>",
     );
     let files = [written, tina, mixed.into_bytes()];

@@ -110,7 +110,8 @@ fn in_order(element: &str, children: &str) -> bool {
 }
 
 fn weird_text() -> impl Strategy<Value = String> {
-    let palette = "ab  \t\n\r<>&\"'\\{}u;#]]>\u{0}\u{1b}\u{7f}\u{85}\u{a0}é→🤖\u{2028}\u{fffd}\u{fffe}\u{ffff}";
+    let palette = "ab  \t\n\r<>&\"'\\{}u;#]]>\
+        \u{0}\u{1b}\u{7f}\u{85}\u{a0}é→🤖\u{2028}\u{fffd}\u{fffe}\u{ffff}";
     let character =
         prop_oneof![4 => select(palette.chars().collect::<Vec<_>>()), 1 => any::<char>()];
     proptest::collection::vec(character, 0..8).prop_map(|text| text.into_iter().collect())
@@ -274,7 +275,11 @@ fn cases() -> u32 {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: cases(), failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: cases(),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn every_net_comes_back_as_it_was(net in net()) {
@@ -324,11 +329,7 @@ fn the_written_text_of_a_small_net() {
         .unwrap();
     net.laws.push(OwnedLaw::NeverBoth(shut, open));
     let text = pnml::write(&net.view().net());
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/pnml/door.pnml");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, &text).unwrap();
-    }
-    assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), text);
+    cotama_golden::compare("tests/golden/pnml/door.pnml", &text);
     is_valid(&text);
     comes_back(&net);
 }

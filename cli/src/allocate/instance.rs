@@ -125,7 +125,10 @@ impl Instance {
             let said = error.to_string();
             let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
             Failure::new(format!("{name}:{}:{}: {what}", error.line(), error.column().max(1))).help(
-                "an instance is {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\"activities\":[[[quality,duration_ms,energy_mj],...],...]}, in whole numbers from 0; those of a candidate are below 2^32",
+                "an instance is \
+                 {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\
+                 \"activities\":[[[quality,duration_ms,energy_mj],...],...]}, \
+                 in whole numbers from 0; those of a candidate are below 2^32",
             )
         })?;
         let candidate = |(id, &Triple(quality, duration, energy)): (u16, &Triple)| Candidate {

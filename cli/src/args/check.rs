@@ -55,7 +55,8 @@ Examples:
   $ cotama check decision --semantics rounds --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
-What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an unbounded
+What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an \
+unbounded
 net, it is shown which firings can be repeated to add tokens for ever.
 
 Examples:
@@ -66,7 +67,8 @@ Examples:
   $ cotama export philosophers:4 --output four.pnml && cotama statespace four.pnml --jobs 2";
 
 pub(crate) const VERIFY_EXAMPLES: &str = "\
-A certificate that is refused does not show that its verdict is wrong; one that is accepted shows that
+A certificate that is refused does not show that its verdict is wrong; one that is accepted shows \
+that
 it is right, whatever engine found it.
 
 Exit codes: 0 it shows its verdict, 1 it does not, 2 it is no certificate.
@@ -81,13 +83,15 @@ Examples:
 #[derive(Args, Clone, Copy, Debug)]
 pub(crate) struct BudgetArgs {
     /// On how many threads
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1024))]
     pub(crate) jobs: u64,
     /// The most markings, or state classes of a time net [default: no limit]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_states: Option<u64>,
     /// The most memory of a search, in MiB
-    #[arg(long, value_name = "MIB", default_value_t = 4096, value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    #[arg(long, value_name = "MIB", default_value_t = 4096)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
     pub(crate) max_memory: u64,
     /// The most time of all work together, in seconds [default: no limit]
     #[arg(long, value_name = "S", value_parser = seconds)]

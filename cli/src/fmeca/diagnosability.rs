@@ -1,6 +1,6 @@
 //! Which failure modes cannot be told apart in which status, why, and which probes would tell them.
 
-use super::rows::{flags, modes, modules};
+use super::names::{flags, modes, modules, probes};
 use crate::answers::fmeca::{
     AmbiguousCase, Diagnosability, GroupRow, PairRow, ProbeRow, StatusRow, UndetectableRow,
 };
@@ -112,8 +112,8 @@ fn ambiguous_case() -> AmbiguousCase {
     let explained: Vec<_> = candidates.iter().map(|it| explanation(it, raised)).collect();
     let text = vec![
         format!(
-            "Avoidance drives the robot back along its path, in front of an obstacle that the map does not have. \
-             Two flags are raised: {}.",
+            "Avoidance drives the robot back along its path, in front of an obstacle that the map \
+             does not have. Two flags are raised: {}.",
             and(&seen)
         ),
         format!(
@@ -122,8 +122,9 @@ fn ambiguous_case() -> AmbiguousCase {
             explained.join("; ")
         ),
         format!(
-            "So nothing is declared lost: {} are suspect until the matter is settled, and stay available. The report \
-             is `{}`: while a path is followed, {}; when the operator cannot be reached, {}.",
+            "So nothing is declared lost: {} are suspect until the matter is settled, and stay \
+             available. The report is `{}`: while a path is followed, {}; when the operator cannot \
+             be reached, {}.",
             and(&modules(suspect)),
             Report::Ambiguous.name(),
             consequence(decided),
@@ -183,8 +184,4 @@ fn and(items: &[impl AsRef<str>]) -> String {
             format!("{} and {}", first.join(", "), last.as_ref())
         }
     }
-}
-
-fn probes(set: Probes) -> Vec<&'static str> {
-    set.iter().map(Probe::name).collect()
 }

@@ -12,9 +12,11 @@ pub(crate) fn write(answer: &FmecaAnswer) -> String {
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>FMECA of the delivery robot</title>\n\
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>FMECA of the delivery robot\
+         </title>\n\
          <style>\n{}{}</style>\n</head>\n<body>\n<main>\n<h1>What can fail, and what is done</h1>\n\
-         <p>Failure modes, effects and criticality of the delivery robot (COTAMA on a Pioneer 3-DX). {}.</p>\n\
+         <p>Failure modes, effects and criticality of the delivery robot (COTAMA on a Pioneer \
+         3-DX). {}.</p>\n\
          <nav><a href=\"#table\">Table</a> <a href=\"#diagrams\">Cause-effect diagrams</a> \
          <a href=\"#diagnosability\">What cannot be told apart</a></nav>\n",
         include_str!("page.css"),
@@ -37,9 +39,11 @@ macro_rules! put {
 
 fn table(page: &mut String, rows: &[FmecaRow]) {
     page.push_str(
-        "<section id=\"table\">\n<h2>Failure modes</h2>\n<p class=\"note\">Severity while the robot drives itself, and while \
-         the operator drives. Rates are assumed unless they are marked as stated.</p>\n<div class=\"scroll\"><table>\n\
-         <thead><tr><th>Id<th>What fails<th>Cause and effect<th>Robot drives<th>Operator drives<th>Seen by<th>Modules lost\
+        "<section id=\"table\">\n<h2>Failure modes</h2>\n<p class=\"note\">Severity while the \
+         robot drives itself, and while the operator drives. Rates are assumed unless they are \
+         marked as stated.</p>\n<div class=\"scroll\"><table>\n\
+         <thead><tr><th>Id<th>What fails<th>Cause and effect<th>Robot drives<th>Operator drives\
+         <th>Seen by<th>Modules lost\
          <th>Reaction<th class=\"n\">MTBF</tr></thead>\n<tbody>\n",
     );
     for row in rows {
@@ -56,8 +60,10 @@ fn table(page: &mut String, rows: &[FmecaRow]) {
         let stated = if row.rate_label == "assumed" { "" } else { row.rate_label };
         put!(
             page,
-            "<tr id=\"{id}\"><th scope=\"row\">{id}<td>{}: {} <small>{}; {}</small><td>{} <small>{}</small>\
-             <td>{}<td>{}<td>{seen}<td>{}<td>{} <small>{}</small><td class=\"n\">{} <small>{stated}</small></tr>",
+            "<tr id=\"{id}\"><th scope=\"row\">{id}<td>{}: {} <small>{}; {}</small><td>{} <small>{}\
+             </small>\
+             <td>{}<td>{}<td>{seen}<td>{}<td>{} <small>{}</small><td class=\"n\">{} <small>{stated}\
+             </small></tr>",
             escape(row.component),
             escape(row.failure),
             escape(row.function),
@@ -78,8 +84,8 @@ fn table(page: &mut String, rows: &[FmecaRow]) {
 
 fn diagrams(page: &mut String, answer: &FmecaAnswer) {
     page.push_str(
-        "<section id=\"diagrams\">\n<h2>Cause-effect diagrams</h2>\n<p class=\"note\">One a function: which component takes \
-         it away, how, and why.</p>\n",
+        "<section id=\"diagrams\">\n<h2>Cause-effect diagrams</h2>\n<p class=\"note\">One a \
+         function: which component takes it away, how, and why.</p>\n",
     );
     put!(page, "<figure>{}</figure>", sheet::legend_element());
     for diagram in &answer.diagrams {
@@ -90,14 +96,18 @@ fn diagrams(page: &mut String, answer: &FmecaAnswer) {
 
 fn diagnosability(page: &mut String, it: &Diagnosability) {
     page.push_str(
-        "<section id=\"diagnosability\">\n<h2>What cannot be told apart</h2>\n<p class=\"note\">A failure mode is a candidate \
-         when it explains the raised flags exactly. Where some flags leave several candidates, the robot asks. A probe is an \
-         observation that could be added.</p>\n",
+        "<section id=\"diagnosability\">\n<h2>What cannot be told apart</h2>\n<p class=\"note\">A \
+         failure mode is a candidate when it explains the raised flags exactly. Where some flags \
+         leave several candidates, the robot asks. A probe is an observation that could be added.\
+         </p>\n",
     );
     for row in &it.statuses {
         status(page, row);
     }
-    page.push_str("<h3>Probes</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>Probe<th>Who would observe what<th>Shows<th>Needs</tr></thead>\n<tbody>\n");
+    page.push_str(
+        "<h3>Probes</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>Probe<th>Who \
+        would observe what<th>Shows<th>Needs</tr></thead>\n<tbody>\n",
+    );
     for probe in &it.probes {
         let needs =
             if probe.needs.is_empty() { "itself".to_owned() } else { probe.needs.join(" ") };
@@ -134,7 +144,10 @@ fn status(page: &mut String, row: &StatusRow) {
         row.detectable,
         row.undetectable.len()
     );
-    page.push_str("<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags<th>Separated by</tr></thead>\n<tbody>\n");
+    page.push_str(
+        "<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags\
+        <th>Separated by</tr></thead>\n<tbody>\n",
+    );
     for pair in &row.pairs {
         let probes =
             if pair.probes.is_empty() { "no probe".to_owned() } else { pair.probes.join(", or ") };

@@ -1,10 +1,9 @@
 //! The typed rows of the FMECA as an answer.
 
 use super::diagnosability;
+use super::names::{flags, modes, modules};
 use crate::answers::fmeca::{CountsRow, DiagramRow, FmecaAnswer, FmecaRow, RibRow};
-use cotama_models::cotama::{
-    FailureMode, FailureModes, Flag, Flags, Module, Modules, Report, Resource, functions, ribs,
-};
+use cotama_models::cotama::{FailureMode, Modules, Report, Resource, functions, ribs};
 
 /// All that is known.
 pub(crate) fn answer() -> FmecaAnswer {
@@ -75,19 +74,4 @@ fn diagram(function: &'static str) -> DiagramRow {
     let ribs =
         ribs(function).map(|rib| RibRow { component: rib.component, modes: modes(rib.modes) });
     DiagramRow { function, ribs: ribs.collect() }
-}
-
-/// The names of failure modes.
-pub(crate) fn modes(set: FailureModes) -> Vec<&'static str> {
-    set.iter().map(FailureMode::name).collect()
-}
-
-/// The names of flags.
-pub(crate) fn flags(set: Flags) -> Vec<&'static str> {
-    set.iter().map(Flag::name).collect()
-}
-
-/// The names of modules.
-pub(crate) fn modules(set: Modules) -> Vec<&'static str> {
-    set.iter().map(Module::name).collect()
 }

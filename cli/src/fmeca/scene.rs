@@ -176,7 +176,8 @@ fn element(out: &mut String, item: &Item) {
         }
         Item::Rect { class, corner: (x, y), size: (width, height), radius } => write!(
             out,
-            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" rx=\"{radius}\"/>"
+            "<rect class=\"{class}\" x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" \
+             rx=\"{radius}\"/>"
         ),
         Item::Text { face, at: (x, y), text } => {
             write!(

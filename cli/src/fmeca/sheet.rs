@@ -37,8 +37,8 @@ pub(crate) fn legend_element() -> String {
 fn inline(label: &str, scene: &Scene) -> String {
     let (width, height) = (scene.width, scene.height);
     format!(
-        "<svg class=\"causes\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\" role=\"img\" \
-         aria-label=\"{}\">\n{}</svg>\n",
+        "<svg class=\"causes\" viewBox=\"0 0 {width} {height}\" width=\"{width}\" height=\"{height}\
+         \" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
         escape(label),
         scene.elements((0, 0))
     )
@@ -63,8 +63,9 @@ fn file(title: &str, diagrams: &[Scene]) -> String {
     }
     let height = y + row;
     format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"causes\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"causes\" width=\"{width}\" \
+         height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+         aria-labelledby=\"title\">\n\
          <title id=\"title\">{}</title>\n<style>\n{STYLE}</style>\n\
          <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{body}</svg>\n",
         escape(title)

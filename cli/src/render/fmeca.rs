@@ -21,8 +21,9 @@ const FIXED: usize = 2 + 4 + 2 + 6 + 2 + 8 + 4 * 2;
 /// How many rows are detected and answered.
 pub(crate) fn summary(counts: &CountsRow) -> String {
     format!(
-        "{} failure modes of {} functions: {} are detected ({} reported to the contextual supervisor, {} recorded with a \
-         reaction of their own), {} are declared undetectable with a reason; none is left out, which is checked while compiling",
+        "{} failure modes of {} functions: {} are detected ({} reported to the contextual \
+         supervisor, {} recorded with a reaction of their own), {} are declared undetectable with \
+         a reason; none is left out, which is checked while compiling",
         counts.rows,
         counts.functions,
         counts.detected,
@@ -73,7 +74,8 @@ pub(crate) fn screen(answer: &FmecaAnswer, width: usize) -> String {
     text += &wrapped(&summary(&answer.counts), width, "");
     let _ = writeln!(
         text,
-        "\nnext: {NAME}cotama fmeca --diagnosability{NAME:#}, {NAME}cotama fmeca --output fmeca.html{NAME:#}"
+        "\nnext: {NAME}cotama fmeca --diagnosability{NAME:#}, {NAME}cotama fmeca --output \
+         fmeca.html{NAME:#}"
     );
     text
 }

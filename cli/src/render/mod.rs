@@ -21,7 +21,9 @@ pub(crate) mod verify;
 pub(crate) fn visible(text: &str) -> String {
     let obeyed = |c: char| {
         c.is_control()
-            || matches!(c, '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+            || ('\u{200e}'..='\u{200f}').contains(&c)
+            || ('\u{2028}'..='\u{202e}').contains(&c)
+            || ('\u{2066}'..='\u{2069}').contains(&c)
     };
     let mut shown = String::with_capacity(text.len());
     for c in text.chars() {

@@ -167,7 +167,8 @@ fn margins(body: &RunBody, trace: &Trace, width: usize) -> String {
     let times: Vec<_> =
         body.plans.iter().take(SHOWN_PLANS).map(|plan| plan.time_ms.saturating_mul(1000)).collect();
     format!(
-        "\n{HEADING}margins{HEADING:#} {FAINT}limit less used less planned, over time{FAINT:#}\n{}{}  {FAINT}plan    {FAINT:#}  {}\n",
+        "\n{HEADING}margins{HEADING:#} {FAINT}limit less used less planned, over time{FAINT:#}\n\
+         {}{}  {FAINT}plan    {FAINT:#}  {}\n",
         line("duration", duration, body.duration_margin_ms, seconds),
         line("energy", energy, body.energy_margin_mj, joules),
         marks(&times, end, room),

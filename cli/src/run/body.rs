@@ -3,7 +3,7 @@
 use crate::answers::{EventRow, Outcome, PlanMade, PlanRow, RunBody};
 use cotama_core::units::mul_div_half_up;
 use cotama_sim::run::Run;
-use cotama_sim::trace::{self, Event, Happening, Plan, Record, Trace};
+use cotama_sim::trace::{self, Event, Occurrence, Plan, Record, Trace};
 
 /// The answer for a run and the trace that it left.
 pub(crate) fn body(trace: &Trace, run: &Run, mission: &str) -> RunBody {
@@ -23,9 +23,9 @@ pub(crate) fn body(trace: &Trace, run: &Run, mission: &str) -> RunBody {
         mission: mission.into(),
         seed: trace.header.options.seed,
         outcome: match run.outcome {
-            trace::Outcome::Completed => Outcome::Completed,
-            trace::Outcome::Safe => Outcome::Safe,
-            trace::Outcome::Failed => Outcome::Failed,
+            cotama_sim::run::Outcome::Completed => Outcome::Completed,
+            cotama_sim::run::Outcome::Safe => Outcome::Safe,
+            cotama_sim::run::Outcome::Failed => Outcome::Failed,
         },
         reason,
         infeasible: None,
@@ -86,22 +86,22 @@ fn event_row(event: &Event) -> EventRow {
         extra_mm: None,
     };
     match &event.event {
-        Happening::Obstacle { .. } => {
+        Occurrence::Obstacle { .. } => {
             row.kind = "obstacle";
             row.text = "an obstacle in the way".into();
         }
-        Happening::Odometry { extra_mm } => {
+        Occurrence::Odometry { extra_mm } => {
             row.kind = "odometry";
             row.text = format!("the position was wrong, {extra_mm} mm more to drive");
             row.extra_mm = Some(*extra_mm);
         }
-        Happening::Fault { hardware, units_lost, units_left } => {
+        Occurrence::Fault { hardware, units_lost, units_left } => {
             row.kind = "fault";
             row.text = format!("{hardware} failed: {units_lost} lost, {units_left} left");
             (row.units, row.units_left) = (Some(*units_lost), Some(*units_left));
             row.hardware = Some(hardware.clone());
         }
-        Happening::Repair { hardware, units_back, units_left } => {
+        Occurrence::Repair { hardware, units_back, units_left } => {
             row.kind = "repair";
             row.text = format!("{hardware} repaired: {units_back} back, {units_left} work");
             (row.units, row.units_left) = (Some(*units_back), Some(*units_left));

@@ -145,7 +145,10 @@ impl<'n> Words<'n> {
 
 fn no_time(word: &str, what: &str) -> Failure {
     Failure::new(format!("{word}: `{what}` is no time: a whole number of milliseconds below 2^64"))
-        .help("`+500` lets half a second pass; `EVENT@500` offers an event half a second after the start")
+        .help(
+            "`+500` lets half a second pass; `EVENT@500` offers an event half a second after the \
+            start",
+        )
 }
 
 #[cfg(test)]

@@ -14,11 +14,7 @@ const DRIVING: Situation = Situation {
 #[test]
 fn the_printed_table_is_the_golden_one() {
     let printed = FmecaCsv.to_string();
-    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/fmeca.csv");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(path, &printed).unwrap();
-    }
-    assert_eq!(printed, std::fs::read_to_string(path).unwrap());
+    cotama_golden::compare("tests/golden/fmeca.csv", &printed);
     assert_eq!(printed.lines().count(), 41);
     assert_eq!(FMECA_COLUMNS.split(',').count(), 18);
 }

@@ -4,7 +4,6 @@
 use crate::file::{File, Objective, failure, operator};
 use cotama_models::missions::{MAX_SUPERVISED_OBJECTIVES, Mission};
 use std::fmt::Write;
-use std::path::PathBuf;
 
 /// A way to break a mission: its name, what the message about it says, and what it does.
 type Breaking = (&'static str, &'static str, fn(&mut File));
@@ -194,10 +193,5 @@ fn each_way_to_break_a_mission_has_its_own_message() {
         }
         write!(said, "# {name}\n{errors}\n\n").unwrap();
     }
-    let golden = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/golden/supervised.txt");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, said).unwrap();
-    } else {
-        assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said);
-    }
+    cotama_golden::compare("tests/golden/supervised.txt", &said);
 }

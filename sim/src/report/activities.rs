@@ -14,8 +14,9 @@ pub(super) fn section(view: &View<'_>) -> String {
         Ok(mission) => mission,
         Err(problem) => {
             return format!(
-                "<section class=\"activities\"><h2>Activities</h2><p class=\"bad\">The mission in the trace's \
-                 header cannot be read, so candidates are not known: {}</p></section>\n",
+                "<section class=\"activities\"><h2>Activities</h2><p class=\"bad\">The mission in \
+                 the trace's header cannot be read, so candidates are not known: {}</p>\
+                 </section>\n",
                 escape(problem)
             );
         }
@@ -29,9 +30,11 @@ pub(super) fn section(view: &View<'_>) -> String {
         .map_or("more than 3.4 × 10³⁸".into(), super::format::grouped);
     let _ = write!(
         html,
-        "<p class=\"note\">Candidates are the products of the options of an activity’s tasks; constraints of \
-         zones exclude some. What is left allows {combinations} plans. Open a row to see its candidates.</p>\n\
-         <div class=\"row head\" aria-hidden=\"true\"><span>Activity</span><span>Objective</span><span>From – to</span>\
+        "<p class=\"note\">Candidates are the products of the options of an activity’s tasks; \
+         constraints of zones exclude some. What is left allows {combinations} plans. Open a row \
+         to see its candidates.</p>\n\
+         <div class=\"row head\" aria-hidden=\"true\"><span>Activity</span><span>Objective</span>\
+         <span>From – to</span>\
          <span>Speed limit</span><span>Candidates</span><span>Chosen</span></div>\n",
     );
     let mut budget = MAX_CANDIDATES;
@@ -93,8 +96,10 @@ fn row(
     let unstarted = if step.started { "" } else { " <em>not started</em>" };
     let _ = write!(
         html,
-        "<details><summary class=\"row\"><span class=\"id\">{}</span><span>{} <small>{}</small></span>\
-         <span class=\"n\">{range}</span><span class=\"n\">{limit}</span><span class=\"n\">{candidates}</span>\
+        "<details><summary class=\"row\"><span class=\"id\">{}</span><span>{} <small>{}</small>\
+         </span>\
+         <span class=\"n\">{range}</span><span class=\"n\">{limit}</span>\
+         <span class=\"n\">{candidates}</span>\
          <span>{earlier}<b>{}</b>{unstarted}</span></summary>\n<div class=\"inside\">\n",
         escape(&step.id),
         escape(objective.map_or("", |it| it.id.as_str())),
@@ -114,8 +119,10 @@ fn row(
 /// What is left after constraints, with costs of the whole activity.
 fn table(html: &mut String, activity: &PlannedActivity, chosen: &str) {
     html.push_str(
-        "<div class=\"scroll\"><table class=\"candidates\"><thead><tr><th>Candidate</th><th class=\"n\">Speed</th>\
-         <th class=\"n\">Power</th><th class=\"n\">Duration</th><th class=\"n\">Energy</th><th class=\"n\">Quality</th>\
+        "<div class=\"scroll\"><table class=\"candidates\"><thead><tr><th>Candidate</th>\
+         <th class=\"n\">Speed</th>\
+         <th class=\"n\">Power</th><th class=\"n\">Duration</th><th class=\"n\">Energy</th>\
+         <th class=\"n\">Quality</th>\
          </tr></thead><tbody>\n",
     );
     let whole = activity.table();
@@ -128,7 +135,8 @@ fn table(html: &mut String, activity: &PlannedActivity, chosen: &str) {
         let speed = if whole.travels() { speed(alternative.speed.0) } else { "–".into() };
         let _ = writeln!(
             html,
-            "<tr{}><td>{}{}</td><td class=\"n\">{speed}</td><td class=\"n\">{} W</td><td class=\"n\">{}</td>\
+            "<tr{}><td>{}{}</td><td class=\"n\">{speed}</td><td class=\"n\">{} W</td>\
+             <td class=\"n\">{}</td>\
              <td class=\"n\">{}</td><td class=\"n\">{}</td></tr>",
             mark.0,
             escape(label),

@@ -83,14 +83,16 @@ pub(super) fn section(view: &View<'_>) -> String {
         margin("Energy margin", "J", "limit, less used, less planned rest", |it| it.energy_mj),
     ];
     let mut html = String::from(
-        "<section class=\"charts\"><h2>Along the way</h2>\n<p class=\"note\">The axis is the one of the \
-         corridor: metres of path and, in the shaded bands, the seconds of a stop. A hindrance takes time \
-         at one place, so margins drop there in a step. Vertical lines are the numbered replans.</p>\n",
+        "<section class=\"charts\"><h2>Along the way</h2>\n<p class=\"note\">The axis is the one \
+         of the corridor: metres of path and, in the shaded bands, the seconds of a stop. A \
+         hindrance takes time at one place, so margins drop there in a step. Vertical lines are \
+         the numbered replans.</p>\n",
     );
     for chart in &charts {
         let _ = write!(
             html,
-            "<figure><figcaption><h3>{} <span class=\"unit\">{}</span></h3><span class=\"note\">{}</span>\
+            "<figure><figcaption><h3>{} <span class=\"unit\">{}</span></h3><span class=\"note\">{}\
+             </span>\
              </figcaption>\n{}{}</figure>\n",
             chart.title,
             chart.unit,
@@ -118,7 +120,7 @@ fn margins(view: &View<'_>, value: fn(&Margins) -> i64) -> Vec<Measured> {
         })
         // What was not planned to the end has no margin at the end.
         .filter(|(record, _)| match record {
-            Record::End(it) => it.outcome != crate::trace::Outcome::Safe,
+            Record::End(it) => it.outcome != crate::run::Outcome::Safe,
             _ => true,
         })
         .map(|(record, margins)| (record.x_mm(), record.t_us(), value(margins)))

@@ -14,10 +14,13 @@ pub(super) fn section(view: &View<'_>) -> String {
     let mut html =
         String::from("<section class=\"decisions\"><h2>What was decided, and why</h2>\n");
     html.push_str(
-        "<p class=\"note\">From flags to a diagnosis, from its report to a class by severity and one by what is still \
-         available; the worse class wins, and its event goes to a supervisor. Times are since the failure.</p>\n\
-         <div class=\"scroll\"><table><thead><tr><th></th><th>Flags</th><th>Diagnosis</th><th>Report</th>\
-         <th>By severity</th><th>By availability</th><th>Event</th><th>Reaction</th><th class=\"n\">Exposed</th></tr></thead>\n",
+        "<p class=\"note\">From flags to a diagnosis, from its report to a class by severity and \
+         one by what is still available; the worse class wins, and its event goes to a supervisor. \
+         Times are since the failure.</p>\n\
+         <div class=\"scroll\"><table><thead><tr><th></th><th>Flags</th><th>Diagnosis</th>\
+         <th>Report</th>\
+         <th>By severity</th><th>By availability</th><th>Event</th><th>Reaction</th>\
+         <th class=\"n\">Exposed</th></tr></thead>\n",
     );
     let points = &view.points[..view.points.len().min(MAX_POINTS)];
     for point in points {
@@ -41,7 +44,8 @@ fn cut(html: &mut String, view: &View<'_>) {
 fn row(html: &mut String, point: &Point<'_>) {
     let _ = write!(
         html,
-        "<tbody><tr class=\"point\"><th><b class=\"pin point\">{}</b></th><td colspan=\"8\"><b>{}</b> <span class=\"where\">at {}, {}",
+        "<tbody><tr class=\"point\"><th><b class=\"pin point\">{}</b></th><td colspan=\"8\"><b>{}\
+         </b> <span class=\"where\">at {}, {}",
         point.number,
         escape(&capital(&point.title())),
         metres(point.x_mm),
@@ -103,8 +107,9 @@ fn event(html: &mut String, chain: &Chain<'_>, since: &impl Fn(u64) -> String) {
 /// How far up each reaction went, the mission above and a parameter below.
 fn ladder(html: &mut String, points: &[Point<'_>]) {
     html.push_str(
-        "<h2>The ladder</h2>\n<p class=\"note\">A reaction starts as low as it can. Parameters, sets of modules, activities \
-         and the mission: Durand et al. 2010; planning the rest of the objectives again: Lambert et al. 2024.</p>\n\
+        "<h2>The ladder</h2>\n<p class=\"note\">A reaction starts as low as it can. Parameters, \
+         sets of modules, activities and the mission: Durand et al. 2010; planning the rest of the \
+         objectives again: Lambert et al. 2024.</p>\n\
          <div class=\"scroll\"><table class=\"ladder\"><thead><tr><th></th>",
     );
     for point in points {

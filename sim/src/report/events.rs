@@ -4,7 +4,8 @@ use super::MAX_ROWS;
 use super::format::{metres, moment, seconds, trimmed};
 use super::svg::{escape, fixed};
 use super::view::View;
-use crate::trace::{Event, Happening, Outcome, Record};
+use crate::run::Outcome;
+use crate::trace::{Event, Occurrence, Record};
 use std::fmt::Write;
 
 /// The shape of a kind of event, about 12 wide; shapes differ so that colour is not needed.
@@ -26,16 +27,16 @@ pub(super) fn glyph(kind: &str, x: f64, y: f64) -> String {
 pub(super) fn short(event: &Event) -> (&'static str, String, String) {
     let lost = moment(event.lost_us);
     match &event.event {
-        Happening::Obstacle { .. } => ("obstacle", lost.clone(), format!("obstacle, {lost} lost")),
-        Happening::Fault { hardware, units_lost, units_left } => {
+        Occurrence::Obstacle { .. } => ("obstacle", lost.clone(), format!("obstacle, {lost} lost")),
+        Occurrence::Fault { hardware, units_lost, units_left } => {
             let words = format!("fault of {hardware}: {units_lost} lost, {units_left} left");
             ("fault", format!("{hardware} \u{2212}{units_lost}"), words)
         }
-        Happening::Repair { hardware, units_back, units_left } => {
+        Occurrence::Repair { hardware, units_back, units_left } => {
             let words = format!("repair of {hardware}: {units_back} back, {units_left} work");
             ("repair", format!("{hardware} +{units_back}"), words)
         }
-        Happening::Odometry { extra_mm } => {
+        Occurrence::Odometry { extra_mm } => {
             let extra = trimmed(*extra_mm);
             (
                 "odometry",
@@ -63,7 +64,8 @@ struct Row {
 fn row(record: &Record, plans: &mut u64) -> Option<Row> {
     let mark = |kind: &str| {
         format!(
-            "<svg class=\"glyph\" viewBox=\"0 0 14 14\" aria-hidden=\"true\"><path class=\"mark {kind}\" d=\"{}\"/></svg>",
+            "<svg class=\"glyph\" viewBox=\"0 0 14 14\" aria-hidden=\"true\">\
+             <path class=\"mark {kind}\" d=\"{}\"/></svg>",
             glyph(kind, 7.0, 7.0)
         )
     };
@@ -130,8 +132,10 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
 /// The list of events, with the plans between them.
 pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from(
-        "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr><th></th>\
-         <th class=\"n\">Time</th><th class=\"n\">Place</th><th>What</th><th class=\"n\">Time lost</th>\
+        "<section class=\"events\"><h2>Events</h2>\n<div class=\"scroll\"><table><thead><tr><th>\
+         </th>\
+         <th class=\"n\">Time</th><th class=\"n\">Place</th><th>What</th><th class=\"n\">Time lost\
+         </th>\
          <th></th></tr></thead>\n<tbody>\n",
     );
     let mut plans = 0;

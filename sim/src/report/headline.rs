@@ -3,7 +3,8 @@
 use super::format::{clock, count, grouped, joules, metres, milli, percent, seconds, watt_hours};
 use super::svg::{escape, fixed};
 use super::view::View;
-use crate::trace::{Header, Margins, Outcome, RunFaults, Used};
+use crate::run::Outcome;
+use crate::trace::{Header, Margins, RunFaults, Used};
 use std::fmt::Write;
 
 /// The name of the mission, or of its source.
@@ -77,9 +78,11 @@ fn gauge(
     let margin = milli(margin.unsigned_abs().into(), 1);
     let _ = writeln!(
         html,
-        "<div class=\"gauge{class}\"><h2>{title}</h2><p class=\"big\">{used} <small>of {limit}</small></p>\
+        "<div class=\"gauge{class}\"><h2>{title}</h2><p class=\"big\">{used} <small>of {limit}\
+         </small></p>\
          <div class=\"track\"><div style=\"width:{width}%\"></div></div>\
-         <p><b>{margin} {unit}</b> {words} ({left} %) <span class=\"muted\">· {also}</span></p></div>"
+         <p><b>{margin} {unit}</b> {words} ({left} %) <span class=\"muted\">· {also}</span></p>\
+         </div>"
     );
 }
 
@@ -101,8 +104,10 @@ pub(super) fn section(view: &View<'_>) -> String {
     let header = &view.trace.header;
     let (class, word, shape) = outcome(view.end.map(|end| end.outcome));
     let mut html = format!(
-        "<header><p class=\"kicker\">Report of a simulated mission</p>\n<h1>{}</h1>\n<div class=\"outcome {class}\">\
-         <svg viewBox=\"0 0 32 32\" aria-hidden=\"true\"><circle cx=\"16\" cy=\"16\" r=\"15\"/><path d=\"{shape}\"/>\
+        "<header><p class=\"kicker\">Report of a simulated mission</p>\n<h1>{}</h1>\n\
+         <div class=\"outcome {class}\">\
+         <svg viewBox=\"0 0 32 32\" aria-hidden=\"true\"><circle cx=\"16\" cy=\"16\" r=\"15\"/>\
+         <path d=\"{shape}\"/>\
          </svg><p><strong>{word}</strong><span>{}</span></p></div>\n",
         escape(name(view)),
         escape(&sentence(view))

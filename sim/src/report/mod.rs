@@ -130,6 +130,7 @@ fn footer(page: &mut String, header: &Header) {
         let _ = writeln!(page, "<div><dt>{name}</dt><dd>{}</dd></div>", escape(&value));
     }
     page.push_str(
-        "</dl>\n<p>The same run again, compared byte for byte: <code>cotama replay trace.jsonl</code></p>\n</footer>\n",
+        "</dl>\n<p>The same run again, compared byte for byte: <code>cotama replay trace.jsonl\
+         </code></p>\n</footer>\n",
     );
 }

@@ -33,9 +33,10 @@ pub(super) fn section(view: &View<'_>) -> String {
     let families = families(&view.plans);
     let most = MAX_PLANS.min(MAX_CELLS / columns.len().max(1)).max(1);
     let mut html = String::from(
-        "<section class=\"plans\"><h2>Plans</h2>\n<p class=\"note\">A row is a plan, a column an activity. Each \
-         cell names the choice and its speed in m/s; a framed one differs from the plan above. \
-         Activities that were done have no cell.</p>\n<div class=\"scroll\"><table class=\"matrix\"><thead>\n<tr><th>Plan</th>",
+        "<section class=\"plans\"><h2>Plans</h2>\n<p class=\"note\">A row is a plan, a column an \
+         activity. Each cell names the choice and its speed in m/s; a framed one differs from the \
+         plan above. Activities that were done have no cell.</p>\n<div class=\"scroll\">\
+         <table class=\"matrix\"><thead>\n<tr><th>Plan</th>",
     );
     for id in &columns {
         let _ = write!(html, "<th>{}</th>", escape(id));
@@ -81,7 +82,8 @@ pub(super) fn section(view: &View<'_>) -> String {
     if hidden > 0 || view.plans[0].plan.len() > columns.len() {
         let _ = writeln!(
             html,
-            "<p class=\"note\">The table is cut: {hidden} further plans, {} further activities are in the trace.</p>",
+            "<p class=\"note\">The table is cut: {hidden} further plans, {} further activities are \
+             in the trace.</p>",
             view.plans[0].plan.len() - columns.len()
         );
     }

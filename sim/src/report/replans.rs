@@ -28,8 +28,9 @@ pub(super) fn section(view: &View<'_>) -> String {
     for request in view.requests.iter().take(if supervised { 0 } else { MAX_PLANS }) {
         let _ = writeln!(
             html,
-            "<article class=\"card\"><h3><b class=\"pin ask\">?</b>Operator asked <span class=\"where\">at {}, \
-             {}</span></h3>\n<p>A plan was needed ({}), and there is none: {}. The robot stopped.</p></article>",
+            "<article class=\"card\"><h3><b class=\"pin ask\">?</b>Operator asked \
+             <span class=\"where\">at {}, {}</span></h3>\n<p>A plan was needed ({}), and there is \
+             none: {}. The robot stopped.</p></article>",
             metres(request.x_mm),
             moment(request.t_us),
             escape(&request.cause),
@@ -50,7 +51,8 @@ fn card(html: &mut String, view: &View<'_>, number: usize) {
     }
     let _ = write!(
         html,
-        "<article class=\"card\"><h3><b class=\"pin\">{number}</b>{} <span class=\"where\">at {}, {}, in {}</span>\
+        "<article class=\"card\"><h3><b class=\"pin\">{number}</b>{} <span class=\"where\">at {}, \
+         {}, in {}</span>\
          </h3>\n<div class=\"pair\"><div>\n<p>{}</p>\n<h4>What changed</h4>\n{}</div>\n",
         escape(&capital(&plan.cause)),
         metres(plan.x_mm),
@@ -169,7 +171,8 @@ fn changes(before: &Plan, after: &Plan) -> String {
         };
         let _ = write!(
             html,
-            "<li><span class=\"id\">{}</span><s>{}</s><span aria-label=\"becomes\">→</span><b>{}</b></li>",
+            "<li><span class=\"id\">{}</span><s>{}</s><span aria-label=\"becomes\">→</span><b>{}\
+             </b></li>",
             escape(&ids),
             escape(from),
             escape(to)
@@ -189,7 +192,8 @@ fn changes(before: &Plan, after: &Plan) -> String {
 /// The margins before and after, and at the safe ends.
 fn margins(html: &mut String, plan: &Plan, with_ends: bool) {
     html.push_str(
-        "<table class=\"margins\"><thead><tr><th></th><th class=\"n\">Duration</th><th class=\"n\">Energy</th></tr></thead><tbody>\n",
+        "<table class=\"margins\"><thead><tr><th></th><th class=\"n\">Duration</th>\
+         <th class=\"n\">Energy</th></tr></thead><tbody>\n",
     );
     let cell = |value: i64, unit: &str| {
         let class = if value < 0 { "n bad" } else { "n" };

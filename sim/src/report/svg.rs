@@ -104,7 +104,8 @@ impl Svg {
     pub(super) fn finish(self, class: &str, [width, height]: [f64; 2], label: &str) -> String {
         let (width, height, label) = (fixed(width), fixed(height), escape(label));
         format!(
-            "<svg class=\"{class}\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\">{}</svg>\n",
+            "<svg class=\"{class}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-label=\"{label}\">{}</svg>\n",
             self.body
         )
     }

@@ -1,6 +1,7 @@
 use super::html;
 use crate::options::{FaultChoice, Options};
-use crate::trace::{Outcome, Record, Trace};
+use crate::run::Outcome;
+use crate::trace::{Record, Trace};
 use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
@@ -287,7 +288,11 @@ fn the_delivery_shows_seven_points_with_their_decisions_and_how_far_up_they_went
         panic!()
     };
     assert_eq!(table.matches("<tr class=\"point\">").count(), 7);
-    assert!(table.contains("<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>sonar</td><td>medium → adapter</td><td>adapter</td><td><b>adapt_sonar</b> <small>5.0\u{a0}s, sonar1</small></td><td>pf a8 <small>5.1\u{a0}s</small></td><td class=\"n\">5.2\u{a0}s</td>"));
+    assert!(table.contains(
+        "<td>sonar far <small>4.9\u{a0}s</small></td><td>SON1</td><td>sonar</td>\
+        <td>medium → adapter</td><td>adapter</td><td><b>adapt_sonar</b> <small>5.0\u{a0}s, sonar1\
+        </small></td><td>pf a8 <small>5.1\u{a0}s</small></td><td class=\"n\">5.2\u{a0}s</td>"
+    ));
     let steps = |rung: &str| ladder.matches(&format!("<td class=\"step {rung}\">")).count();
     assert_eq!(
         ["parameter", "set", "activity", "objective", "mission"].map(steps),

@@ -26,9 +26,10 @@ const NETS: [(&str, &str); 5] = [
 /// together.
 pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from(
-        "<section class=\"timeline\"><h2>Who was where, when</h2>\n<p class=\"note\">A lane is a supervisor, a bar a place \
-         of its net; where it rests there is none. Numbers are the points of the story below. Red in the lane of failures is \
-         the time from a failure to the first reaction.</p>\n",
+        "<section class=\"timeline\"><h2>Who was where, when</h2>\n<p class=\"note\">A lane is a \
+         supervisor, a bar a place of its net; where it rests there is none. Numbers are the \
+         points of the story below. Red in the lane of failures is the time from a failure to the \
+         first reaction.</p>\n",
     );
     let whole = Span { from_us: 0, to_us: view.last().1.max(1) };
     figure(&mut html, view, whole, "The whole mission");
@@ -59,7 +60,8 @@ fn figure(html: &mut String, view: &View<'_>, span: Span, title: &str) {
     let length = clock((span.to_us - span.from_us) / 1000);
     let _ = write!(
         html,
-        "<figure><figcaption><h3>{title}</h3><span class=\"note\">{length}</span></figcaption>\n{}{}</figure>\n",
+        "<figure><figcaption><h3>{title}</h3><span class=\"note\">{length}</span></figcaption>\n\
+         {}{}</figure>\n",
         draw(view, span, WIDE),
         draw(view, span, NARROW)
     );

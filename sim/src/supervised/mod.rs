@@ -4,7 +4,7 @@
 //! ```
 //! use cotama_models::missions::{Mission, embedded};
 //! use cotama_sim::supervised::{Script, Supervised};
-//! use cotama_sim::trace::Outcome;
+//! use cotama_sim::run::Outcome;
 //! let delivery = embedded::mission("delivery").unwrap();
 //! let mission = Mission::parse(delivery.name, delivery.text).unwrap();
 //! let run = Supervised::new(&mission).unwrap().run(&Script::default()).unwrap();
@@ -21,12 +21,11 @@ mod world;
 
 pub use effect::{Effect, Ends, Motion, effect};
 pub use operator::Answers;
-pub use world::{LONGEST, PERIOD, PLANNING};
+pub use world::{PERIOD, PLANNING};
 
 use crate::options::{Aim, Planner};
 use crate::record::{Recorder, Silent};
-use crate::run::{NoPlan, PlanMade};
-use crate::trace::Outcome;
+use crate::run::{NoPlan, Outcome, PlanMade};
 use cotama_core::net::Net;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::player::{Packed, Program};

@@ -6,7 +6,7 @@
 //! rest of the mission is planned again.
 
 use crate::options::Planner;
-use crate::run::{Cause, NoPlan, PlanMade};
+use crate::run::{NoPlan, PlanCause, PlanMade};
 use crate::solver::Solver;
 use cotama_core::hardware::Equipment;
 use cotama_core::problem::{Candidate, Problem};
@@ -67,7 +67,7 @@ impl<'m> Planning<'m> {
     /// Plans what is left with these modules.
     pub(super) fn plan(
         &mut self,
-        cause: Cause,
+        cause: PlanCause,
         at: Progress,
         available: Modules,
     ) -> Result<(), NoPlan> {

@@ -71,11 +71,14 @@ mod tests {
 
     proptest! {
         #[test]
-        fn it_brakes_within_its_braking_distance(speeds in prop::collection::vec(0u64..=1200, 1..60)) {
+        fn it_brakes_within_its_braking_distance(
+            speeds in prop::collection::vec(0u64..=1200, 1..60),
+        ) {
             let mut robot = Robot::default();
             speeds.iter().for_each(|&it| robot.go(MillimetresPerSecond(it), FAR, STEP));
             // One step more, as the last one may brake by less than a whole step.
-            let (from, within) = (robot.x().0, robot.braking_distance().0 + 3 + robot.speed().0 / 20);
+            let (from, within) =
+                (robot.x().0, robot.braking_distance().0 + 3 + robot.speed().0 / 20);
             (0..60).for_each(|_| robot.go(MillimetresPerSecond(0), FAR, STEP));
             prop_assert_eq!(robot.speed(), MillimetresPerSecond(0));
             prop_assert!(robot.x().0 - from <= within);

@@ -107,7 +107,10 @@ impl Rung {
 /// let points = points(&trace.records);
 /// assert_eq!(points.len(), 7);
 /// assert_eq!(points[1].title(), "RT1: MCL, deadline missed again and again");
-/// assert_eq!(points[1].decided().unwrap(), "after 0.3 s: medium, so the adapter takes fewer particles (slow1)");
+/// assert_eq!(
+///     points[1].decided().unwrap(),
+///     "after 0.3 s: medium, so the adapter takes fewer particles (slow1)"
+/// );
 /// ```
 pub fn points(records: &[Record]) -> Vec<Point<'_>> {
     let mut story = Story::default();

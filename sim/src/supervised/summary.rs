@@ -1,8 +1,7 @@
 //! What a supervised run comes to, in the terms of every run.
 
-use super::{LONGEST, Run};
-use crate::run::{EventCounts, Reason};
-use crate::trace::Outcome;
+use super::Run;
+use crate::run::{EventCounts, LONGEST, Outcome, Reason};
 use cotama_models::missions::Mission;
 
 /// A power of ten: pJ of a mJ.

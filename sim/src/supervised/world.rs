@@ -12,8 +12,7 @@ use super::plan::{Planning, Progress};
 use super::robot::Robot;
 use super::{Conduct, Injection, Run, Script, When, shipped};
 use crate::options::Planner;
-use crate::run::{self, NoPlan};
-use crate::trace::Outcome;
+use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
 use cotama_core::net::{Net, PlaceId};
 use cotama_core::player::Program;
 use cotama_core::system::System;
@@ -22,10 +21,13 @@ use cotama_models::cotama::{
     Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, local, recovering,
 };
 use cotama_models::missions::Mission;
+use objective::Objective;
 use recovery::Recovery;
 use std::collections::VecDeque;
-use telling::Objective;
 
+mod adaptation;
+mod diagnosis;
+mod objective;
 mod records;
 mod recovery;
 mod telling;
@@ -37,9 +39,6 @@ pub(super) use records::Recorded;
 pub const PERIOD: Millis = Millis(100);
 /// How long planning a path takes: assumed.
 pub const PLANNING: Millis = Millis(2_000);
-/// A run ends after this time, whatever it does.
-pub const LONGEST: Millis = Millis(3_600_000);
-
 /// No supervisor has an interval, whatever the objectives.
 pub(super) const CLOCKS: usize = recovering::SIZE.clocks;
 
@@ -106,7 +105,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
     ) -> Result<Self, NoPlan> {
         let mut planning = Planning::new(mission, planner);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
-        planning.plan(run::Cause::Start, start, Modules::ALL)?;
+        planning.plan(PlanCause::Start, start, Modules::ALL)?;
         let level = Level::start(program);
         let mut world = Self {
             mission,
@@ -214,7 +213,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it.when));
         self.waiting = wait;
         for failure in &mut self.failures {
-            let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if now.0 >= failure.since.0 + time.0);
+            let past = |time: Millis| now.0 >= failure.since.0 + time.0;
+            let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if past(time));
             failure.over |= by_itself || failure.until.is_some_and(due);
         }
         for Injection { mode, part, until, .. } in fail {

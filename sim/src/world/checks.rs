@@ -1,9 +1,8 @@
 //! The checks of the margins, and what follows from them (rule 5 of the paper's algorithm).
 
-use super::{MAX_CHECKS, MAX_REPLANS, World};
+use super::World;
 use crate::record::Recorder;
-use crate::run::{Cause, Reason};
-use crate::trace::Outcome;
+use crate::run::{MAX_CHECKS, MAX_REPLANS, Outcome, PlanCause, Reason};
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{self, MAX_AMOUNT, Request};
 use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
@@ -13,7 +12,7 @@ impl World<'_> {
     /// Compares consumption with the plan, and replans when it no longer holds.
     pub(super) fn check<R: Recorder>(&mut self, recorder: &mut R) {
         if self.checks >= MAX_CHECKS {
-            let cause = self.plans.last().map_or(Cause::Start, |plan| plan.cause);
+            let cause = self.plans.last().map_or(PlanCause::Start, |plan| plan.cause);
             self.stop(cause, Reason::TooManyChecks, recorder);
             return;
         }
@@ -32,9 +31,9 @@ impl World<'_> {
             Ok(Request::Up) => self.plan_upwards(&rest, margins, recorder),
             Ok(Request::Down(trigger)) => {
                 let cause = match trigger {
-                    monitor::Trigger::Margin { axis } => Cause::Margin { axis },
+                    monitor::Trigger::Margin { axis } => PlanCause::Margin { axis },
                     monitor::Trigger::Hardware => {
-                        Cause::Hardware { hardware: self.lost.0, units: self.lost.1 }
+                        PlanCause::Hardware { hardware: self.lost.0, units: self.lost.1 }
                     }
                 };
                 if self.plans.len() as u64 > MAX_REPLANS {
@@ -105,7 +104,7 @@ impl World<'_> {
     }
 
     /// The operator is asked, and the robot stops.
-    fn stop<R: Recorder>(&mut self, cause: Cause, reason: Reason, recorder: &mut R) {
+    fn stop<R: Recorder>(&mut self, cause: PlanCause, reason: Reason, recorder: &mut R) {
         if R::WANTED {
             recorder.record(self.request_record(cause, reason));
         }

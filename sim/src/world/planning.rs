@@ -1,8 +1,8 @@
 //! How the robot plans what is left of its mission (rules 4 and 5 of the paper's algorithm).
 
-use super::{MAX_REPLANS, World};
+use super::World;
 use crate::record::Recorder;
-use crate::run::{Cause, NoPlan, PlanMade};
+use crate::run::{MAX_REPLANS, NoPlan, PlanCause, PlanMade};
 use crate::setup::NM_PER_MM;
 use crate::trace::Record;
 use cotama_core::hardware::Equipment;
@@ -28,7 +28,7 @@ impl World<'_> {
     /// Plans within what is left of the limits, and goes by that plan from now on.
     pub(super) fn plan<R: Recorder>(
         &mut self,
-        cause: Cause,
+        cause: PlanCause,
         before: Option<[i64; 2]>,
         recorder: &mut R,
     ) -> Result<(), NoPlan> {
@@ -54,7 +54,7 @@ impl World<'_> {
             // A replan rounds the rest of the way up to whole mm, which alone is no improvement.
             let differs = proposal.choice != self.choice[self.first_remaining()..];
             if differs && (proposal.quality, proposal.cost[axis]) > present {
-                self.adopt(Cause::Room, Some(before), proposal, recorder);
+                self.adopt(PlanCause::Room, Some(before), proposal, recorder);
                 return;
             }
         }
@@ -130,7 +130,7 @@ impl World<'_> {
     /// Goes by a plan from now on.
     fn adopt<R: Recorder>(
         &mut self,
-        cause: Cause,
+        cause: PlanCause,
         before: Option<[i64; 2]>,
         proposal: Proposal,
         recorder: &mut R,

@@ -1,10 +1,10 @@
 //! What the robot tells the trace.
 
 use super::World;
-use crate::run::{Cause, PlanMade, Reason, Run};
+use crate::run::{PlanCause, PlanMade, Reason, Run};
 use crate::setup::{NM_PER_MM, Pending};
 use crate::trace::{
-    Activity, End, Event, Happening, Margins, Plan, PlanRow, Record, Request, ReturnMargin, Sample,
+    Activity, End, Event, Margins, Occurrence, Plan, PlanRow, Record, Request, ReturnMargin, Sample,
 };
 use cotama_core::units::mul_div_half_up;
 use cotama_models::missions::Mission;
@@ -100,14 +100,14 @@ impl World<'_> {
                 .map_or_else(String::new, |it| it.name.clone())
         };
         let event = match pending.kind {
-            EventKind::Obstacle { delay } => Happening::Obstacle { delay_ms: delay.0 },
-            EventKind::Odometry { extra } => Happening::Odometry { extra_mm: extra.0 },
-            EventKind::Fault { hardware, .. } => Happening::Fault {
+            EventKind::Obstacle { delay } => Occurrence::Obstacle { delay_ms: delay.0 },
+            EventKind::Odometry { extra } => Occurrence::Odometry { extra_mm: extra.0 },
+            EventKind::Fault { hardware, .. } => Occurrence::Fault {
                 hardware: name(hardware),
                 units_lost: units,
                 units_left: self.available.of(hardware),
             },
-            EventKind::Repair { hardware, .. } => Happening::Repair {
+            EventKind::Repair { hardware, .. } => Occurrence::Repair {
                 hardware: name(hardware),
                 units_back: units,
                 units_left: self.available.of(hardware),
@@ -118,7 +118,7 @@ impl World<'_> {
         Record::Event(Event { t_us: self.time_us, x_mm: self.x_mm(), event, random, lost_us })
     }
 
-    pub(super) fn request_record(&self, cause: Cause, reason: Reason) -> Record {
+    pub(super) fn request_record(&self, cause: PlanCause, reason: Reason) -> Record {
         let mission = self.simulation.mission;
         Record::Request(Request {
             t_us: self.time_us,

@@ -19,14 +19,5 @@ fn delivery() -> Mission {
 
 /// Compares with the golden file of this name.
 fn golden(name: &str, found: &str) {
-    let path = format!("{}/tests/golden/{name}", env!("CARGO_MANIFEST_DIR"));
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(&path, found).unwrap();
-    }
-    let expected = std::fs::read_to_string(&path).unwrap_or_default();
-    let line = expected.lines().zip(found.lines()).position(|(a, b)| a != b);
-    assert!(
-        expected == found,
-        "{name} differs, first in line {line:?}; UPDATE_GOLDEN=1 rewrites it"
-    );
+    cotama_golden::compare(std::path::Path::new("tests/golden").join(name), found);
 }

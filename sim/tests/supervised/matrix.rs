@@ -4,8 +4,8 @@ use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
-use cotama_sim::trace::Outcome;
 use std::fmt::Write;
 
 const PLACES: [local::State; 5] = [
@@ -61,7 +61,8 @@ fn line(run: &Run, mode: FailureMode, part: Module, place: local::State) -> Stri
     let answered = it.answered.map_or("-".into(), |at| format!("{} ms", after(at)));
     let part = if mode.rule().one_module { format!(" {}", part.name()) } else { String::new() };
     format!(
-        "{}{part} | {place:?} | {detected} | {decided} | {answered} | {:?} after {} s, {} requests | {} ms",
+        "{}{part} | {place:?} | {detected} | {decided} | {answered} | {:?} after {} s, {} requests \
+         | {} ms",
         mode.name(),
         run.outcome,
         run.time.0 / 1000,

@@ -2,8 +2,8 @@
 
 use cotama_models::cotama::FailureMode;
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
-use cotama_sim::trace::Outcome;
 
 const OBJECTIVES: &str = r#"
 [[objective]]

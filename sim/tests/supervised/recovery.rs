@@ -10,8 +10,9 @@ use cotama_models::missions::Mission;
 use cotama_models::missions::faults::Faults;
 use cotama_sim::faults_text::faults_text;
 use cotama_sim::options::Options;
+use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{Injection, PLANNER, Run, Script, Supervised, When};
-use cotama_sim::trace::{Outcome, Record, Trace, replay};
+use cotama_sim::trace::{Record, Trace, replay};
 
 /// The delivery with these events in place of its own, and with supervisors that use again what
 /// returns or do not.

@@ -8,8 +8,8 @@ use cotama_models::cotama::Configuration::{
     TeleoperationFull, Teleprogramming,
 };
 use cotama_models::cotama::{Diagnosis, FailureMode, FailureModes};
+use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{Decided, Run, Script, Supervised};
-use cotama_sim::trace::Outcome;
 
 fn run() -> Run {
     let mission = delivery();

@@ -6,8 +6,9 @@ use cotama_models::cotama::{Diagnosis, FailureMode};
 use cotama_models::missions::embedded;
 use cotama_models::missions::faults::{Answer, Faults, Incident, IncidentKind};
 use cotama_sim::options::{FaultChoice, Options};
+use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{PLANNER, Script, Supervised, story};
-use cotama_sim::trace::{Outcome, Record, Trace, replay};
+use cotama_sim::trace::{Record, Trace, replay};
 use proptest::prelude::*;
 use std::fmt::Write;
 use std::sync::LazyLock;
@@ -133,7 +134,10 @@ proptest! {
         let count = |kind: fn(&Record) -> bool| trace.records.iter().filter(|it| kind(it)).count();
         prop_assert_eq!(count(|it| matches!(it, Record::Fired(_))), run.fired.len());
         prop_assert_eq!(count(|it| matches!(it, Record::Told(_))), run.told.len());
-        prop_assert_eq!(count(|it| matches!(it, Record::Configuration(_))), run.configurations.len());
+        prop_assert_eq!(
+            count(|it| matches!(it, Record::Configuration(_))),
+            run.configurations.len()
+        );
         prop_assert_eq!(count(|it| matches!(it, Record::Request(_))) as u64, run.operator_requests);
         let decided = run.conduct.iter().filter(|it| it.decided.is_some()).count();
         prop_assert_eq!(count(|it| matches!(it, Record::Decision(_))), decided);
@@ -146,7 +150,10 @@ proptest! {
             // What no available observer sees is diagnosed as nothing.
             let found = conduct.detected.filter(|it| it.1 != Diagnosis::None);
             prop_assert_eq!(chain.diagnosis.map(|it| it.t_us / 1000), found.map(|it| it.0.0));
-            prop_assert_eq!(chain.reaction.first().map(|it| it.t_us / 1000), conduct.answered.map(|it| it.0));
+            prop_assert_eq!(
+                chain.reaction.first().map(|it| it.t_us / 1000),
+                conduct.answered.map(|it| it.0)
+            );
             prop_assert_eq!(chain.exposed_ms, conduct.exposed.0);
             prop_assert_eq!(conduct.judged.is_some(), found.is_some());
         }
@@ -161,12 +168,20 @@ proptest! {
     /// Whatever is changed in a good trace, reading it, replaying it and reporting it ends with an
     /// answer.
     #[test]
-    fn damaged_traces_are_survived(at in 0usize..200_000, byte in any::<u8>(), line in any::<bool>()) {
+    fn damaged_traces_are_survived(
+        at in 0usize..200_000,
+        byte in any::<u8>(),
+        line in any::<bool>(),
+    ) {
         let text = GOLDEN.clone();
         let at = at % text.len();
         let damaged = if line {
             let gone = at % text.lines().count();
-            text.lines().enumerate().filter(|(number, _)| *number != gone).map(|(_, it)| format!("{it}\n")).collect()
+            text.lines()
+                .enumerate()
+                .filter(|(number, _)| *number != gone)
+                .map(|(_, it)| format!("{it}\n"))
+                .collect()
         } else {
             let mut bytes = text.into_bytes();
             bytes[at] = byte;

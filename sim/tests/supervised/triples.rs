@@ -4,11 +4,11 @@ use super::delivery;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
+use cotama_sim::run::Outcome;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{
     Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect,
 };
-use cotama_sim::trace::Outcome;
 use std::collections::BTreeMap;
 
 fn one<T: Copy>(stream: &mut Stream, of: &[T]) -> T {
@@ -48,13 +48,15 @@ fn judge(run: &Run, script: &Script) -> bool {
     // Each loss alone: detected, two rounds, and standing still; they may follow each other.
     let each =
         script.injections.iter().map(|it| u64::from(it.mode.rule().latency_ms).max(2_000) + 1_200);
-    run.exposed.0 <= each.sum()
-        || {
-            // But for what several failures at once hide: no diagnosis, or not of this one alone.
-            let found = |it: &Conduct| matches!(it.detected, Some((_, Diagnosis::Unique(mode))) if mode == it.mode);
-            assert!(!run.conduct.iter().all(found), "AS2: {} after {script:?}", run.exposed);
-            false
-        }
+    run.exposed.0 <= each.sum() || {
+        // But for what several failures at once hide: no diagnosis, or not of this one alone.
+        let found = |it: &Conduct| match it.detected {
+            Some((_, Diagnosis::Unique(mode))) => mode == it.mode,
+            _ => false,
+        };
+        assert!(!run.conduct.iter().all(found), "AS2: {} after {script:?}", run.exposed);
+        false
+    }
 }
 
 fn campaign(mission: &Mission, runs: u64) -> BTreeMap<(Outcome, bool), u64> {

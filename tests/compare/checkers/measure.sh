@@ -39,7 +39,8 @@ differ() { echo "counts differ: $1" >&2; failed=1; }
 # a file.
 medians() {
     for column in 1 2 3 4 5 6; do
-        cut -d' ' -f"$column" "$1" | sort -g | awk '{ it[NR] = $1 } END { printf "%s ", it[int((NR + 1) / 2)] }'
+        cut -d' ' -f"$column" "$1" | sort -g |
+            awk '{ it[NR] = $1 } END { printf "%s ", it[int((NR + 1) / 2)] }'
     done
     echo # `read` fails on a line without an end
 }
@@ -54,14 +55,17 @@ runs() {
         for program in "$@"; do "$checkers" "$what" "$program" "$net" >>"$work/$program"; done
     done
     for program in "$@"; do
-        [ "$(cut -d' ' -f1-3 "$work/$program" | sort -u | wc -l)" = 1 ] || differ "$net, $program with itself"
+        [ "$(cut -d' ' -f1-3 "$work/$program" | sort -u | wc -l)" = 1 ] ||
+            differ "$net, $program with itself"
     done
 }
 
-echo "$(rustc -V | cut -d' ' -f1,2), $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2 | xargs), $(nproc) processors;" \
+echo "$(rustc -V | cut -d' ' -f1,2)," \
+    "$(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2 | xargs), $(nproc) processors;" \
     "load average $(cut -d' ' -f1-3 /proc/loadavg); median of $repeat"
 if awk '{ exit !($1 > 0.5) }' /proc/loadavg; then
-    echo "WARNING: this machine is not idle: times of two threads mean little, and CPU times suffer too" >&2
+    echo "WARNING: this machine is not idle: times of two threads mean little," \
+        "and CPU times suffer too" >&2
 fi
 "$checkers" nothing >"$work/nothing"
 nothing=$(cut -d' ' -f6 "$work/nothing")
@@ -74,27 +78,32 @@ else
     echo "SKIPPED: COTAMA_MCC_DIR names no folder of public nets, for Referendum-PT-0015.pnml" >&2
 fi
 echo
-echo "| net | states | states per CPU second: ours | stateright | ratio | bytes per state: ours | stateright | ratio |"
+echo "| net | states | states per CPU second: ours | stateright | ratio |" \
+    "bytes per state: ours | stateright | ratio |"
 echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
 for net in "${markings[@]}"; do
     runs markings "$net" cotama array-bfs vec-bfs
     read -r states edges _ time _ bytes < <(medians "$work/cotama")
     for other in array-bfs vec-bfs; do
-        cmp -s <(cut -d' ' -f1-2 "$work/cotama" | sort -u) <(cut -d' ' -f1-2 "$work/$other" | sort -u) ||
+        cmp -s <(cut -d' ' -f1-2 "$work/cotama" | sort -u) \
+            <(cut -d' ' -f1-2 "$work/$other" | sort -u) ||
             differ "$net, $other with ours"
     done
     read -r array _ < <(medians "$work/array-bfs" | cut -d' ' -f4)
     read -r vec _ < <(medians "$work/vec-bfs" | cut -d' ' -f4)
     # Whichever of the two is faster.
-    best=$(awk -v array="$array" -v vec="$vec" 'BEGIN { print (vec < array ? "vec-bfs" : "array-bfs") }')
+    best=$(awk -v array="$array" -v vec="$vec" \
+        'BEGIN { print (vec < array ? "vec-bfs" : "array-bfs") }')
     read -r _ _ _ best_time _ best_bytes < <(medians "$work/$best")
     name=$(basename "$net" .pnml)
     awk -v name="$name" -v n="$states" -v t="$time" -v b="$((bytes - nothing))" -v u="$best_time" \
         -v c="$((best_bytes - nothing))" 'BEGIN {
-            printf "| %s | %d | %.0f | %.0f | %.1f | %.1f | %.1f | %.1f |\n", name, n, n / t, n / u, u / t, b / n, c / n, c / b }'
+            printf "| %s | %d | %.0f | %.0f | %.1f | %.1f | %.1f | %.1f |\n", name, n, n / t,
+                n / u, u / t, b / n, c / n, c / b }'
 done
 echo
-echo "| net | seconds by the clock: 1 thread | 2 threads | pairs | speedup, median | least | most | two processes |"
+echo "| net | seconds by the clock: 1 thread | 2 threads | pairs |" \
+    "speedup, median | least | most | two processes |"
 echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
 for net in "${markings[@]}"; do
     for _ in $(seq "$pairs"); do
@@ -103,14 +112,20 @@ for net in "${markings[@]}"; do
         "$checkers" markings cotama "$net" >"$work/first" &
         "$checkers" markings cotama "$net" >"$work/second"
         wait $!
-        [ "$(cut -d' ' -f1-2 <<<"$one")" = "$(cut -d' ' -f1-2 <<<"$two")" ] || differ "$net, two threads with one"
+        [ "$(cut -d' ' -f1-2 <<<"$one")" = "$(cut -d' ' -f1-2 <<<"$two")" ] ||
+            differ "$net, two threads with one"
         both=$(cut -d' ' -f5 "$work/first" "$work/second" | sort -g | tail -1)
-        awk -v one="$(cut -d' ' -f5 <<<"$one")" -v two="$(cut -d' ' -f5 <<<"$two")" -v both="$both" \
+        awk -v one="$(cut -d' ' -f5 <<<"$one")" -v two="$(cut -d' ' -f5 <<<"$two")" \
+            -v both="$both" \
             'BEGIN { print one, two, one / two, 2 * one / both }'
     done >"$work/pairs"
-    middle() { cut -d' ' -f"$1" "$work/pairs" | sort -g | awk '{ it[NR] = $1 } END { print it[int((NR + 1) / 2)] }'; }
+    middle() {
+        cut -d' ' -f"$1" "$work/pairs" | sort -g |
+            awk '{ it[NR] = $1 } END { print it[int((NR + 1) / 2)] }'
+    }
     ends=$(cut -d' ' -f3 "$work/pairs" | sort -g)
-    printf '| %s | %.3f | %.3f | %d | %.2f | %.2f | %.2f | %.2f |\n' "$(basename "$net" .pnml)" "$(middle 1)" "$(middle 2)" \
+    printf '| %s | %.3f | %.3f | %d | %.2f | %.2f | %.2f | %.2f |\n' "$(basename "$net" .pnml)" \
+        "$(middle 1)" "$(middle 2)" \
         "$pairs" "$(middle 3)" "$(head -1 <<<"$ends")" "$(tail -1 <<<"$ends")" "$(middle 4)"
 done
 echo "load average now $(cut -d' ' -f1-3 /proc/loadavg), $(nproc) processors"
@@ -122,7 +137,8 @@ else
     echo "SKIPPED: COTAMA_TPN_DIR names no folder of time nets, for more of them" >&2
 fi
 echo
-echo "| time net | classes: ours | libpetri | classes per CPU second: ours | libpetri | ratio | ratio of whole times |"
+echo "| time net | classes: ours | libpetri |" \
+    "classes per CPU second: ours | libpetri | ratio | ratio of whole times |"
 echo "| --- | ---: | ---: | ---: | ---: | ---: | ---: |"
 for net in "${timed[@]}"; do
     name=$(basename "$net" .net)
@@ -136,10 +152,12 @@ for net in "${timed[@]}"; do
     read -r others _ other_markings other_time _ _ < <(medians "$work/libpetri")
     # The same definition, worked out with the matrices of libpetri.
     read -r linear linear_edges _ < <("$checkers" classes linear "$net")
-    [ "$classes $edges" = "$linear $linear_edges" ] || differ "$name, our classes with a second opinion: $linear"
+    [ "$classes $edges" = "$linear $linear_edges" ] ||
+        differ "$name, our classes with a second opinion: $linear"
     [ "$markings" = "$other_markings" ] || differ "$name, markings: $markings and $other_markings"
     awk -v name="$name" -v n="$classes" -v m="$others" -v t="$time" -v u="$other_time" 'BEGIN {
-        printf "| %s | %d | %d | %.0f | %.0f | %.1f | %.1f |\n", name, n, m, n / t, m / u, (n / t) / (m / u), u / t }'
+        printf "| %s | %d | %d | %.0f | %.0f | %.1f | %.1f |\n", name, n, m, n / t, m / u,
+            (n / t) / (m / u), u / t }'
 done
 if [ -s "$work/not" ]; then
     echo

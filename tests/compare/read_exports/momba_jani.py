@@ -4,8 +4,8 @@
     python3 -m venv venv && venv/bin/pip install momba==0.6.12
     venv/bin/python tests/compare/read_exports/momba_jani.py [DEPTH]
 
-For each `NAME.jani` of the golden exports, the states that Momba reaches in at most DEPTH steps (12) and the
-number of edges out of them are compared with those of a token game on `NAME.json`.
+For each `NAME.jani` of the golden exports, the states that Momba reaches in at most DEPTH steps
+(12) and the number of edges out of them are compared with those of a token game on `NAME.json`.
 
 Exit status: 0 when all agree, 1 when one differs, 77 when Momba is not installed.
 """
@@ -25,7 +25,7 @@ except ImportError:
 
 
 def reach(start, step, depth):
-    """The states in at most `depth` steps by `step(state) -> {key: state, ...}, number`, and the edges seen."""
+    """States and edges in at most `depth` steps by `step(state) -> {key: state, ...}, number`."""
     found, layer, edges = dict(start), dict(start), 0
     for _ in range(depth):
         fresh = {}
@@ -85,8 +85,10 @@ def main():
         theirs = by_momba(json.loads(path.read_text()), depth)
         ours = by_tokens(json.loads(path.with_suffix(".json").read_text()), depth)
         differs |= theirs != ours
-        verdict = "agree" if theirs == ours else f"DIFFER, the token game: {len(ours[0])}, {ours[1]}"
-        print(f"{path.name}: {len(theirs[0])} states, {theirs[1]} edges in {depth} steps: {verdict}")
+        differ = f"DIFFER, the token game: {len(ours[0])}, {ours[1]}"
+        verdict = "agree" if theirs == ours else differ
+        size = f"{len(theirs[0])} states, {theirs[1]} edges"
+        print(f"{path.name}: {size} in {depth} steps: {verdict}")
     sys.exit(1 if differs or not models else 0)
 
 

@@ -4,10 +4,11 @@
 //     npm install --prefix DIR @scion-scxml/scxml@4.3.27
 //     NODE_PATH=DIR/node_modules node tests/compare/read_exports/scion_scxml.js [RUNS]
 //
-// For each `NAME.scxml` of the golden exports, 200 random events and waits go to the chart and to a token game with
-// time on `NAME.json`, in each of RUNS (30) runs; state, variables and outputs have to be the same after every step.
-// The clock is a simulated one. What the chart leaves to its environment, the intervals that it lists as not kept, is left to this
-// script: it offers an event only within its interval, and sends the timeouts.
+// For each `NAME.scxml` of the golden exports, 200 random events and waits go to the chart and to a
+// token game with time on `NAME.json`, in each of RUNS (30) runs; state, variables and outputs have
+// to be the same after every step. The clock is a simulated one. What the chart leaves to its
+// environment, the intervals that it lists as not kept, is left to this script: it offers an event
+// only within its interval, and sends the timeouts.
 //
 // Exit status: 0 when all agree, 1 when one differs, 77 when SCION is not installed.
 'use strict';
@@ -44,7 +45,9 @@ class Clock {
   clear(timer) { this.timers = this.timers.filter((it) => it !== timer); }
   advance(to) {
     for (;;) {
-      const due = this.timers.filter((it) => it.at <= to).sort((a, b) => a.at - b.at || a.number - b.number)[0];
+      const due = this.timers
+        .filter((it) => it.at <= to)
+        .sort((a, b) => a.at - b.at || a.number - b.number)[0];
       if (!due) break;
       this.clear(due);
       this.now = due.at;
@@ -54,7 +57,8 @@ class Clock {
   }
 }
 
-// A net as it is played: highest priority first, then the earlier one; clocks as of a time Petri net.
+// A net as it is played: highest priority first, then the earlier one; clocks as of a time Petri
+// net.
 class Tokens {
   constructor(net) {
     this.net = net;
@@ -77,7 +81,9 @@ class Tokens {
     it.give.forEach((arc) => this.marking.set(arc.place, this.marking.get(arc.place) + arc.weight));
     for (const other of this.order) {
       if (!this.enabled(other)) this.since.delete(other.name);
-      else if (other.name === it.name || !this.enabled(other, between) || !this.since.has(other.name)) {
+      else if (
+        other.name === it.name || !this.enabled(other, between) || !this.since.has(other.name)
+      ) {
         this.since.set(other.name, this.now);
       }
     }
@@ -85,21 +91,26 @@ class Tokens {
     this.fired.add(it.name);
   }
   settle() {
-    for (let it; (it = this.order.find((it) => it.on === null && !it.within && this.enabled(it))); ) this.fire(it);
+    const free = (it) => it.on === null && !it.within && this.enabled(it);
+    for (let it; (it = this.order.find(free)); ) this.fire(it);
   }
-  // The transition that is due first by itself, and when. Of two at the same instant the one whose clock started
-  // first: the documented rule of the chart, where the net would look at priorities.
+  // The transition that is due first by itself, and when. Of two at the same instant the one whose
+  // clock started first: the documented rule of the chart, where the net would look at priorities.
   due() {
     const timed = this.order.filter((it) => it.on === null && it.within && this.enabled(it));
     const since = (it) => this.since.get(it.name);
     const at = (it) => since(it) + it.within.earliest;
-    return timed.map((it) => ({ at: at(it), it })).sort((a, b) => a.at - b.at || since(a.it) - since(b.it))[0];
+    return timed
+      .map((it) => ({ at: at(it), it }))
+      .sort((a, b) => a.at - b.at || since(a.it) - since(b.it))[0];
   }
   // Whether the event means the same with and without its interval.
   open(event) {
-    return this.order.filter((it) => it.on === event && it.within && this.enabled(it)).every((it) => {
+    const waits = (it) => it.on === event && it.within && this.enabled(it);
+    return this.order.filter(waits).every((it) => {
       const elapsed = this.now - this.since.get(it.name);
-      return it.within.earliest <= elapsed && (it.within.latest === null || elapsed <= it.within.latest);
+      const { earliest, latest } = it.within;
+      return earliest <= elapsed && (latest === null || elapsed <= latest);
     });
   }
   offer(event) {
@@ -109,7 +120,8 @@ class Tokens {
   }
 }
 
-const written = (name) => name.replace(/[^A-Za-z0-9_-]/g, '_'); // enough for the names of these nets
+// Enough for the names of these nets.
+const written = (name) => name.replace(/[^A-Za-z0-9_-]/g, '_');
 
 // One run; the names of the transitions that fired.
 function compare(file, factory, net, text, seed) {
@@ -126,11 +138,20 @@ function compare(file, factory, net, text, seed) {
 
   const check = (step, what) => {
     const state = net.places.filter((it) => it.role === 'state' && tokens.marking.get(it.name) > 0);
-    const ours = [written(state[0].name), ...variables.map((it) => tokens.marking.get(it.name)), ...tokens.outputs.map(written)];
+    const ours = [
+      written(state[0].name),
+      ...variables.map((it) => tokens.marking.get(it.name)),
+      ...tokens.outputs.map(written),
+    ];
     const data = chart.getSnapshot()[3];
-    const theirs = [...chart.getConfiguration(), ...variables.map((it) => Number(data[written(it.name)])), ...outputs];
+    const theirs = [
+      ...chart.getConfiguration(),
+      ...variables.map((it) => Number(data[written(it.name)])),
+      ...outputs,
+    ];
     if (JSON.stringify(ours) !== JSON.stringify(theirs)) {
-      throw new Error(`${file}, run ${seed}, step ${step} (${what}): the net is at ${ours}, the chart at ${theirs}`);
+      const where = `${file}, run ${seed}, step ${step} (${what})`;
+      throw new Error(`${where}: the net is at ${ours}, the chart at ${theirs}`);
     }
     tokens.outputs.length = outputs.length = 0;
   };
@@ -160,7 +181,8 @@ function compare(file, factory, net, text, seed) {
       clock.advance(tokens.now);
     } else {
       const next = tokens.due();
-      const short = random(8); // up to the very instant of the next firing, one millisecond less, or any time
+      // Up to the very instant of the next firing, one millisecond less, or any time.
+      const short = random(8);
       what = next && short < 2 ? Math.max(0, next.at - tokens.now - short) : 1 + random(4000);
       wait(what);
     }
@@ -179,12 +201,16 @@ async function main() {
     const model = await promisify(scxml.pathToModel)(source);
     const fired = new Set();
     for (let seed = 1; seed <= RUNS; seed++) {
-      const factory = await promisify(model.prepare.bind(model))(); // variables belong to it: one for each run
-      compare(file, factory, net, fs.readFileSync(source, 'utf8'), seed).forEach((it) => fired.add(it));
+      // Variables belong to it: one for each run.
+      const factory = await promisify(model.prepare.bind(model))();
+      const text = fs.readFileSync(source, 'utf8');
+      compare(file, factory, net, text, seed).forEach((it) => fired.add(it));
       Object.assign(global, real);
     }
-    console.log(`${file}: ${RUNS} runs of ${STEPS} steps agree, ${fired.size} of ${net.transitions.length} transitions fired`);
-    if (fired.size < net.transitions.length) throw new Error('a transition that never fires is not compared');
+    const all = net.transitions.length;
+    const runs = `${RUNS} runs of ${STEPS} steps agree`;
+    console.log(`${file}: ${runs}, ${fired.size} of ${all} transitions fired`);
+    if (fired.size < all) throw new Error('a transition that never fires is not compared');
   }
 }
 main().catch((error) => {

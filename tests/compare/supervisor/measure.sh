@@ -30,7 +30,8 @@ cargo build --quiet --locked --release -p supervisor
 declare -A each
 for version in nothing hand net smlang statig; do
     # Counts from entry to return of the function of this name, whatever it calls.
-    said=$(valgrind --quiet --tool=callgrind --callgrind-out-file="$work/calls" --collect-atstart=no \
+    said=$(valgrind --quiet --tool=callgrind --callgrind-out-file="$work/calls" \
+        --collect-atstart=no \
         --toggle-collect="*stream_$version*" "$CARGO_TARGET_DIR/release/supervisor" "$version")
     each[$version]=$(awk -v loop="${each[nothing]:-0}" '
         /^(totals|summary):/ { printf "%.1f", $2 / 1e7 - loop; exit }' "$work/calls")
@@ -42,7 +43,8 @@ for version in nothing hand net smlang statig; do
     fi
 done
 promise "net!, instructions an event" "${each[net]}" "${each[statig]}"
-promise "net!, instructions an event" "${each[net]}" "$(awk -v it="${each[hand]}" 'BEGIN { print 2 * it }')"
+promise "net!, instructions an event" "${each[net]}" \
+    "$(awk -v it="${each[hand]}" 'BEGIN { print 2 * it }')"
 
 # From here on only Debian's compiler.
 export PATH=/usr/bin:/bin CARGO_TARGET_DIR=$CARGO_TARGET_DIR/debian
@@ -65,27 +67,38 @@ if [ "$(wc -l <"$work/said")" != "$(wc -l <"$work/counts")" ]; then
 fi
 answers() { awk -v version="$1" '$1 == version { print $2 }' "$work/said"; }
 for version in net smlang statig; do
-    cmp <(answers hand) <(answers "$version") || { echo "$version disagrees on the target" >&2; exit 1; }
+    cmp <(answers hand) <(answers "$version") || {
+        echo "$version disagrees on the target" >&2
+        exit 1
+    }
 done
 # VERSION CLASS MEAN MOST; the marks' own instructions are taken off.
 paste -d' ' "$work/said" "$work/counts" | awk '
     $1 == "empty" { marks = $3; next }
-    { n[$1 " " $2]++; sum[$1 " " $2] += $3 - marks; if ($3 - marks > most[$1 " " $2]) most[$1 " " $2] = $3 - marks }
+    { n[$1 " " $2]++; sum[$1 " " $2] += $3 - marks
+      if ($3 - marks > most[$1 " " $2]) most[$1 " " $2] = $3 - marks }
     END { for (it in n) printf "%s %.0f %d\n", it, sum[it] / n[it], most[it] }' >"$work/classes"
 
-class() { awk -v version="$1" -v class="$2" '$1 == version && $2 == class { print $3, $4 }' "$work/classes"; }
-echo "             code  tables  state     ignored       fired     settled   (bytes; instructions, mean and most)"
+class() {
+    awk -v version="$1" -v class="$2" '$1 == version && $2 == class { print $3, $4 }' \
+        "$work/classes"
+}
+echo "             code  tables  state     ignored       fired     settled  " \
+    "(bytes; instructions, mean and most)"
 for version in hand net timed_net smlang statig; do
-    arm-none-eabi-ld --gc-sections -e "offer_$version" -u "offer_$version" -o "$work/image" "$built/libentries.a"
+    arm-none-eabi-ld --gc-sections -e "offer_$version" -u "offer_$version" -o "$work/image" \
+        "$built/libentries.a"
     read -r code tables < <(arm-none-eabi-size -A "$work/image" | awk '
-        $1 ~ /^\.text/ { code += $2 } $1 ~ /^\.(rodata|data)/ { tables += $2 } END { print code, tables + 0 }')
+        $1 ~ /^\.text/ { code += $2 } $1 ~ /^\.(rodata|data)/ { tables += $2 }
+        END { print code, tables + 0 }')
     state=$(awk -v version="$version" '$2 == version { print $3 }' "$work/bytes")
     printf '  %-9s %6d %7d %6d' "$version" "$code" "$tables" "$state"
     for class in ignored fired settled; do
         read -r mean most < <(class "$version" "$class")
         printf ' %6d %4d' "$mean" "$most"
         case $version:$class in
-            net:ignored | timed_net:ignored) promise "$version, instructions for an ignored event" "$most" 250 ;;
+            net:ignored | timed_net:ignored)
+                promise "$version, instructions for an ignored event" "$most" 250 ;;
             net:* | timed_net:*) promise "$version, instructions for a fired event" "$most" 400 ;;
         esac
     done

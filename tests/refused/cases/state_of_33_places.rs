@@ -2,7 +2,10 @@
 cotama_core::net! {
     /// A round.
     pub mod round {
-        places { P0: 1, P1, P2, P3, P4, P5, P6, P7, P8, P9, P10, P11, P12, P13, P14, P15, P16, P17, P18, P19, P20, P21, P22, P23, P24, P25, P26, P27, P28, P29, P30, P31, P32 }
+        places {
+            P0: 1, P1, P2, P3, P4, P5, P6, P7, P8, P9, P10, P11, P12, P13, P14, P15, P16, P17, P18,
+            P19, P20, P21, P22, P23, P24, P25, P26, P27, P28, P29, P30, P31, P32
+        }
         events { Go }
         transitions {
             t0 on Go: P0 => P1;

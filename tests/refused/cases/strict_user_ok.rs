@@ -59,7 +59,8 @@ mod inner {
     pub fn flips() -> bool {
         let mut player = quiet::Player::new();
         let time = cotama_core::units::Millis(0);
-        let both = player.offer(time, &quiet::Event::Flip).fired() && player.offer(time, &quiet::Event::Flip).fired();
+        let both = player.offer(time, &quiet::Event::Flip).fired()
+            && player.offer(time, &quiet::Event::Flip).fired();
         both && player.state() == quiet::State::On
     }
 }

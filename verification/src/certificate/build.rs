@@ -189,9 +189,10 @@ impl Formula {
         Self::AtMost(Linear { constant: tokens, weights: weights.into_iter().collect() })
     }
 
-    /// That these places hold fewer tokens together.
-    pub fn fewer(tokens: i64, places: &[String]) -> Self {
-        Self::Not(Box::new(Self::at_least(tokens, places)))
+    /// That these places hold so many tokens together, or fewer.
+    pub fn at_most(tokens: i64, places: &[String]) -> Self {
+        // No file has enough places to hold as many tokens as do not fit.
+        Self::Not(Box::new(Self::at_least(tokens.saturating_add(1), places)))
     }
 
     /// A formula of the property language.

@@ -21,7 +21,8 @@
 //! let shown = verify(&certificate.text()).unwrap();
 //! assert_eq!(
 //!     shown.to_string(),
-//!     "net lamp (2 places, 1 transition): quasi_live is true\n  by 1 part, the first by a trace of 0 firings"
+//!     "net lamp (2 places, 1 transition): quasi_live is true\n  \
+//!      by 1 part, the first by a trace of 0 firings"
 //! );
 //! ```
 //!

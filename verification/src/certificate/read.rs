@@ -2,10 +2,10 @@
 //! for names. Whether it is right is no matter here.
 
 use super::sum::{Marking, ONE, Sum};
-use super::{Certificate, Formula, Linear, Net, SCHEMA, VerifyError};
+use super::verified::{Checked, at, each, ensure, error};
+use super::{Certificate, Formula, Linear, Net, SCHEMA};
 use std::cell::Cell;
 use std::collections::BTreeMap;
-use std::fmt::Display;
 use std::iter::once;
 use std::slice::from_ref;
 
@@ -28,31 +28,8 @@ pub(crate) const fn most_markings(places: usize) -> u64 {
     MAX_MEMORY / (marking_bytes(places + 1) + 128) as u64
 }
 
-pub(super) type Checked<T> = Result<T, VerifyError>;
-
-pub(super) fn error(message: impl Display) -> VerifyError {
-    VerifyError { at: String::new(), message: message.to_string() }
-}
-
-pub(super) fn ensure(holds: bool, message: impl Display) -> Checked<()> {
-    if holds { Ok(()) } else { Err(error(message)) }
-}
-
-/// Puts the part of the certificate in front of where an error is.
-pub(super) fn at(part: impl Display) -> impl FnOnce(VerifyError) -> VerifyError {
-    move |it| VerifyError { at: format!("{part}{}", it.at), ..it }
-}
-
-/// Checks each of a list; where an error is starts with its number.
-pub(super) fn each<T, U>(
-    list: impl IntoIterator<Item = T>,
-    mut check: impl FnMut(T) -> Checked<U>,
-) -> Checked<Vec<U>> {
-    list.into_iter()
-        .enumerate()
-        .map(|(n, it)| check(it).map_err(at(format_args!("[{n}]"))))
-        .collect()
-}
+/// A formula, and whether it holds.
+pub(super) type Claim<'a> = (&'a Formula, bool);
 
 pub(super) fn certificate(text: &str) -> Checked<Certificate> {
     let long = format_args!("has {} bytes; at most {MAX_BYTES} are read", text.len());

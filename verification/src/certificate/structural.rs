@@ -1,6 +1,6 @@
 //! Evidence from proofs of the structural engine.
 
-use super::read::Numbered;
+use super::read::{Claim, Numbered};
 use super::sum::{ONE, Sum};
 use super::verify::Known;
 use super::{Case, Evidence, Fact, Formula, Linear, Refutation};
@@ -71,13 +71,20 @@ impl Evidence {
     /// lamp.transition(OwnedTransition::new("press").take(off, 1).give(on, 1)).unwrap();
     /// let lamp = Pt::from(&lamp.view().net());
     /// let both = property::parse("EF on + off >= 2", &lamp).unwrap();
-    /// let Question::Formula(Formula::Exists(path)) = &both.question else { panic!("not of that form") };
+    /// let Question::Formula(Formula::Exists(path)) = &both.question else {
+    ///     panic!("not of that form")
+    /// };
     /// let Formula::Finally(goal) = &**path else { panic!("not of that form") };
     ///
     /// let structure = Structure::new(&lamp, structural::Limits::default());
     /// let inequality = property::Linear { constant: 2, weights: vec![(off, -1), (on, -1)] };
-    /// let structural::Answer::Impossible(refutation) = structure.reach(&[inequality.clone()]) else { panic!() };
-    /// let evidence = Evidence::never(&lamp, structure.dead(), goal, &[(vec![inequality], refutation)]).unwrap();
+    /// let structural::Answer::Impossible(refutation) = structure.reach(&[inequality.clone()])
+    /// else {
+    ///     panic!()
+    /// };
+    /// let evidence =
+    ///     Evidence::never(&lamp, structure.dead(), goal, &[(vec![inequality], refutation)])
+    ///         .unwrap();
     /// let certificate = Certificate::new(&lamp, &both, Answer::Holds(false), evidence).unwrap();
     /// assert!(verify(&certificate.text()).is_ok());
     /// ```
@@ -243,13 +250,13 @@ impl<'a> Draught<'a> {
     fn goal<'c>(
         &mut self,
         net: &Numbered<'_>,
-        (goal, holds): (&'c Formula, bool),
+        goal: Claim<'c>,
         known: &mut Known<'c>,
         split: usize,
         parts: &[(Vec<Sum>, &proof::Refutation)],
     ) -> Option<()> {
         let (sums, lists) = (known.sums.len(), known.lists.len());
-        net.assume(goal, holds, known).ok()?;
+        net.assume(goal, known).ok()?;
         let at = |it: &Sum| known.sums.iter().position(|known| known == it);
         let refuted = parts.iter().find_map(|(goal, by)| {
             let premises = goal.iter().map(at).collect::<Option<Vec<_>>>()?;

@@ -1,6 +1,6 @@
 //! Weighted sums of tokens, in exact numbers.
 
-use super::read::{Checked, error};
+use super::verified::{Checked, error};
 use std::collections::BTreeMap;
 
 /// The tokens of each place. The first place is none of the net: it always holds one token, so that

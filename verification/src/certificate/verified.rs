@@ -1,7 +1,7 @@
 //! What comes out of checking a certificate.
 
 use super::Certificate;
-use std::fmt;
+use std::fmt::{self, Display};
 
 /// What a certificate shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -49,3 +49,29 @@ impl fmt::Display for VerifyError {
 }
 
 impl std::error::Error for VerifyError {}
+
+pub(super) type Checked<T> = Result<T, VerifyError>;
+
+pub(super) fn error(message: impl Display) -> VerifyError {
+    VerifyError { at: String::new(), message: message.to_string() }
+}
+
+pub(super) fn ensure(holds: bool, message: impl Display) -> Checked<()> {
+    if holds { Ok(()) } else { Err(error(message)) }
+}
+
+/// Puts the part of the certificate in front of where an error is.
+pub(super) fn at(part: impl Display) -> impl FnOnce(VerifyError) -> VerifyError {
+    move |it| VerifyError { at: format!("{part}{}", it.at), ..it }
+}
+
+/// Checks each of a list; where an error is starts with its number.
+pub(super) fn each<T, U>(
+    list: impl IntoIterator<Item = T>,
+    mut check: impl FnMut(T) -> Checked<U>,
+) -> Checked<Vec<U>> {
+    list.into_iter()
+        .enumerate()
+        .map(|(n, it)| check(it).map_err(at(format_args!("[{n}]"))))
+        .collect()
+}

@@ -1,6 +1,7 @@
 //! Which engine is asked what, and how their findings become an answer.
 
-use super::engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+use super::budget::Budget;
+use super::engine::{Engine, Extent, Finding, Found, Reason, Task};
 use super::engines::{Coverability, Explicit, Structural, Stubborn, Temporal, growth};
 use super::known::Known;
 use super::reduced::Smaller;

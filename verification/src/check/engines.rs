@@ -1,7 +1,8 @@
 //! The engines behind the trait.
 
+use super::budget::Budget;
 use super::clauses::clauses;
-use super::engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+use super::engine::{Engine, Extent, Finding, Found, Reason, Task};
 use super::known::Known;
 use crate::certificate::Evidence;
 use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};

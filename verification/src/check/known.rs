@@ -1,6 +1,6 @@
 //! A net with what was found of it.
 
-use super::Budget;
+use super::budget::Budget;
 use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
 use crate::pt::Pt;
 use crate::structural::{self, Structure};

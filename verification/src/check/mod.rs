@@ -1,10 +1,10 @@
 //! A question to a net, and its answer: engines behind one trait, and the choice among them.
 //!
 //! ```text
-//! text, XML, a law -> Property   property       Net, System, PNML, .net -> Model
-//! (Model, Property) -> Task                     what is looked for, free of operators that one engine alone knows
-//! Task -> Finding                               by an Engine: structural, stubborn, explicit, coverability, temporal
-//! Finding -> Answer                             the verdict, a run, and evidence that `certificate::verify` checks again
+//! text, XML, a law -> Property      Net, System, PNML, .net -> Model
+//! (Model, Property) -> Task         what is looked for, free of operators of one engine alone
+//! Task -> Finding                   by an Engine, one of those below
+//! Finding -> Answer                 verdict, run, evidence that `certificate::verify` checks again
 //! ```
 //!
 //! ```
@@ -24,6 +24,7 @@
 //! ```
 
 mod auto;
+mod budget;
 mod clauses;
 mod engine;
 mod engines;
@@ -36,7 +37,8 @@ mod report;
 mod timed;
 mod unused;
 
-pub use engine::{Budget, Engine, Extent, Finding, Found, Reason, Task};
+pub use budget::Budget;
+pub use engine::{Engine, Extent, Finding, Found, Reason, Task};
 pub use engines::{Coverability, Explicit, Structural, Stubborn, Temporal};
 pub use known::Known;
 pub use laws::{laws, question};

@@ -1,6 +1,6 @@
 //! What no run of a model uses.
 
-use super::engine::Budget;
+use super::budget::Budget;
 use super::timed;
 use super::{Checker, Model, Options};
 use crate::coverability::{CoverabilitySet, Tokens};

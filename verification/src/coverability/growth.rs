@@ -1,11 +1,10 @@
 //! Boundedness.
 
 use super::search::{Order, Search};
-use super::word::Sequence;
+use super::word::Growth;
 use super::{Limit, Limits, Unfinished};
 use crate::bounds::bounds;
 use crate::pt::Pt;
-use cotama_core::net::PlaceId;
 
 /// How many markings are met one after the other before another order is tried.
 pub(super) const FIRST: u64 = 1_000;
@@ -19,18 +18,6 @@ pub enum Bounded {
     No(Growth),
     /// A limit was reached before either was shown.
     Unknown(Unfinished),
-}
-
-/// Why a net is unbounded: after `stem` fires from the initial marking, `pump` can fire again and
-/// again.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Growth {
-    /// How to get there.
-    pub stem: Sequence,
-    /// What can be repeated; it takes tokens from no place.
-    pub pump: Sequence,
-    /// Places that grow, and by how much each time; sorted, never empty.
-    pub grows: Vec<(PlaceId, u64)>,
 }
 
 /// Whether a net is bounded. Sums of tokens that never grow, see [`bounds`](crate::bounds::bounds),

@@ -3,9 +3,9 @@
 //!
 //! | item | what it answers |
 //! | --- | --- |
-//! | [`bounded`] | whether the markings are finitely many; otherwise a sequence that can be repeated for ever |
-//! | [`coverable`], [`reaches`] | whether a marking with at least so many tokens is reachable, and a way to one |
-//! | [`CoverabilitySet`] | the maximal markings: exact bounds of places and of sums, dead transitions |
+//! | [`bounded`] | whether the markings are finitely many; else a sequence that repeats for ever |
+//! | [`coverable`], [`reaches`] | whether so many tokens or more can be there, and a way |
+//! | [`CoverabilitySet`] | the maximal markings: bounds of places and of sums, dead transitions |
 //!
 //! Markings are passed through as in the tree of Karp and Miller (R. M. Karp, R. E. Miller,
 //! Parallel program schemata, J. Computer and System Sciences 3, 1969): when a marking is greater
@@ -54,11 +54,11 @@ mod set;
 mod tokens;
 mod word;
 
-pub use growth::{Bounded, Growth, bounded};
+pub use growth::{Bounded, bounded};
 pub use question::{Coverable, coverable, is_upward_closed, reaches};
 pub use set::CoverabilitySet;
 pub use tokens::Tokens;
-pub use word::Sequence;
+pub use word::{Growth, Sequence};
 
 use std::fmt;
 

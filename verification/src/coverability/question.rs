@@ -52,7 +52,9 @@ pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Cov
 ///     Question::Formula(goal) => goal,
 ///     _ => panic!("not a formula"),
 /// };
-/// let Some(Coverable::Yes(way)) = reaches(&net, &goal("heap >= 5"), &Limits::default()) else { panic!() };
+/// let Some(Coverable::Yes(way)) = reaches(&net, &goal("heap >= 5"), &Limits::default()) else {
+///     panic!()
+/// };
 /// assert_eq!(way.firings, Some(vec![TransitionId(0); 3]));
 /// assert_eq!(reaches(&net, &goal("heap = 5"), &Limits::default()), None);
 /// ```

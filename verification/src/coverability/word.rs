@@ -2,7 +2,7 @@
 
 use super::tokens::Tokens;
 use crate::pt::Pt;
-use cotama_core::net::TransitionId;
+use cotama_core::net::{PlaceId, TransitionId};
 
 /// A firing sequence of a net.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,6 +12,18 @@ pub struct Sequence {
     /// The transitions; `None` when there are more than
     /// [`Limits::firings`](super::Limits::firings).
     pub firings: Option<Vec<TransitionId>>,
+}
+
+/// Why a net is unbounded: after `stem` fires from the initial marking, `pump` can fire again and
+/// again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Growth {
+    /// How to get there.
+    pub stem: Sequence,
+    /// What can be repeated; it takes tokens from no place.
+    pub pump: Sequence,
+    /// Places that grow, and by how much each time; sorted, never empty.
+    pub grows: Vec<(PlaceId, u64)>,
 }
 
 /// A part of a sequence.

@@ -124,7 +124,8 @@ impl Teller<'_> {
             let by =
                 self.fired(at).map_or_else(String::new, |it| name(&self.pt().transitions, it.0));
             notes.push(format!(
-                "{} comes after {} ms, and its clock was started anew at {} ms by {by}, at step {at}.",
+                "{} comes after {} ms, and its clock was started anew at {} ms by {by}, at step \
+                 {at}.",
                 name(&self.pt().transitions, transition as u32),
                 within.earliest,
                 self.along.dates[at - 1],

@@ -2,7 +2,7 @@
 
 use super::text::change;
 use super::timeline::timeline;
-use super::words::{counted, printable};
+use super::words::{counted, escape, printable};
 use super::{Diagnosis, Step, Tokens};
 use std::fmt::Write as _;
 
@@ -13,27 +13,33 @@ const TAIL: usize = 200;
 const STYLE: &str = "\
 :root{color-scheme:light dark}
 body{margin:0;background:#fff}
-.diagnosis{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#d0d7de;--fill:#eef3f9;--bar:#3b6ea5;--count:#fff;\
+.diagnosis{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#d0d7de;--fill:#eef3f9;--bar:#3b6ea5;\
+--count:#fff;\
 --hot:#c2410c;--good:#1a7f4b;--glow:#fff3e6;\
-background:var(--paper);color:var(--ink);font:15px/1.5 Helvetica,Arial,'Liberation Sans',system-ui,sans-serif;\
+background:var(--paper);color:var(--ink);font:15px/1.5 Helvetica,Arial,'Liberation Sans',system-ui,\
+sans-serif;\
 max-width:1100px;margin:0 auto;padding:24px}
 @media screen and (prefers-color-scheme:dark){body{background:#14181d}
-.diagnosis{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#343c46;--fill:#222b36;--bar:#6ea8e0;--count:#10151b;\
+.diagnosis{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#343c46;--fill:#222b36;\
+--bar:#6ea8e0;--count:#10151b;\
 --hot:#fb923c;--good:#4ac27f;--glow:#33230f}}
 .diagnosis h1{font-size:20px;line-height:1.35;margin:0 0 12px;overflow-wrap:anywhere}
 .diagnosis h2{font-size:15px;margin:28px 0 8px}
 .diagnosis .net{color:var(--quiet);margin:0 0 4px}
-.diagnosis code{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:.9em;background:var(--fill);\
+.diagnosis code{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:.9em;\
+background:var(--fill);\
 border-radius:4px;padding:1px 4px;overflow-wrap:anywhere}
 .diagnosis .cause{border-left:4px solid var(--hot);background:var(--glow);padding:8px 14px;margin:0}
 .diagnosis .holds .cause{border-color:var(--good);background:var(--fill)}
 .diagnosis .cause p{margin:2px 0}
 .diagnosis .scroll{overflow-x:auto}
 .diagnosis table{border-collapse:collapse;width:100%}
-.diagnosis th{text-align:left;font-weight:600;color:var(--quiet);border-bottom:1px solid var(--line)}
+.diagnosis th{text-align:left;font-weight:600;color:var(--quiet);\
+border-bottom:1px solid var(--line)}
 .diagnosis th,.diagnosis td{padding:4px 12px 4px 0;vertical-align:top}
 .diagnosis td{border-bottom:1px solid var(--line)}
-.diagnosis td.number{color:var(--quiet);text-align:right;width:3em;font-variant-numeric:tabular-nums}
+.diagnosis td.number{color:var(--quiet);text-align:right;width:3em;\
+font-variant-numeric:tabular-nums}
 .diagnosis tr.last td{background:var(--glow)}
 .diagnosis tr.note td{color:var(--quiet);font-style:italic}
 .diagnosis .more{color:var(--good)}
@@ -74,7 +80,8 @@ impl Diagnosis {
         let about = format!("{}{space}{}", printable(&self.net), printable(&self.doc));
         let _ = write!(
             out,
-            "<section class=\"diagnosis\">\n<div class=\"{class}\">\n<p class=\"net\">{}</p>\n<h1>{}</h1>\n",
+            "<section class=\"diagnosis\">\n<div class=\"{class}\">\n<p class=\"net\">{}</p>\n\
+             <h1>{}</h1>\n",
             escape(&about),
             sentence(&self.summary)
         );
@@ -208,7 +215,8 @@ impl Diagnosis {
 pub(super) fn page(title: &str, section: &str) -> String {
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
-         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}</title>\n\
+         <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}\
+         </title>\n\
          <style>\n{STYLE}</style>\n</head>\n<body>\n{section}</body>\n</html>\n",
         escape(title)
     )
@@ -237,25 +245,6 @@ pub(super) fn sentence(text: &str) -> String {
             let _ = write!(out, "<code>{}</code>", escape(part));
         } else {
             out.push_str(&escape(part));
-        }
-    }
-    out
-}
-
-/// Text for HTML and XML, in elements and in attributes. What XML has no way to write becomes
-/// U+FFFD.
-pub(super) fn escape(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            '\0'..='\x08' | '\x0b' | '\x0c' | '\x0e'..='\x1f' | '\u{fffe}' | '\u{ffff}' => {
-                out.push('\u{fffd}');
-            }
-            _ => out.push(c),
         }
     }
     out

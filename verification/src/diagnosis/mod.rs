@@ -14,7 +14,8 @@
 //! use cotama_verification::{property, pt::Pt};
 //!
 //! let mut net = OwnedNet::new("valve", "");
-//! let [shut, open] = [("shut", 1), ("open", 0)].map(|it| net.place(OwnedPlace::new(it.0, it.1)).unwrap());
+//! let [shut, open] =
+//!     [("shut", 1), ("open", 0)].map(|it| net.place(OwnedPlace::new(it.0, it.1)).unwrap());
 //! net.transition(OwnedTransition::new("turn").take(shut, 1).give(open, 1)).unwrap();
 //! let pt = Pt::from(&net.view().net());
 //! let property = property::parse("AG !open", &pt).unwrap();
@@ -33,6 +34,7 @@ mod question;
 mod run;
 mod sheet;
 mod shrink;
+mod step;
 mod story;
 mod text;
 mod timeline;
@@ -42,6 +44,7 @@ mod words;
 
 pub use run::{NotARun, Run};
 pub use shrink::shrink;
+pub use step::{AtomTrack, Change, Meaning, Step, Tokens, Track, Turn};
 pub use unused::{Never, Unused};
 pub use vacuity::{Vacuity, vacuous};
 
@@ -51,7 +54,7 @@ use crate::tpn::{Date, Schedule};
 use claim::Along;
 use cotama_core::net::{Net, TransitionId};
 use picture::Picture;
-use serde::{Serialize, Serializer};
+use serde::Serialize;
 use std::collections::BTreeSet;
 
 /// The most places whose tokens are followed.
@@ -143,101 +146,6 @@ pub struct Diagnosis {
     mirrors: BTreeSet<String>,
     #[serde(skip)]
     picture: Option<Picture>,
-}
-
-/// A marked place.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Tokens {
-    /// The place.
-    pub place: String,
-    /// How many tokens.
-    pub tokens: u32,
-}
-
-/// A firing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Step {
-    /// The transition.
-    pub transition: String,
-    /// The event that it needs.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub event: Option<String>,
-    /// What it emits.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub outputs: Vec<String>,
-    /// When it fires.
-    #[serde(
-        rename = "at_ms",
-        serialize_with = "milliseconds",
-        skip_serializing_if = "Option::is_none"
-    )]
-    pub at: Option<Date>,
-    /// What it changes.
-    pub changes: Vec<Change>,
-    /// Which atoms of the property it makes true or false.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub turns: Vec<Turn>,
-}
-
-/// How a firing changes a place.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Change {
-    /// The place.
-    pub place: String,
-    /// Tokens before.
-    pub before: u32,
-    /// Tokens after.
-    pub after: u32,
-}
-
-/// An atom of the property that becomes true or false.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Turn {
-    /// The atom.
-    pub atom: String,
-    /// Whether it holds after the firing.
-    pub holds: bool,
-}
-
-/// The tokens of a place, from the initial marking to the one after the last firing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Track {
-    /// The place.
-    pub place: String,
-    /// Its tokens.
-    pub tokens: Vec<u32>,
-}
-
-/// An atom of the property, from the initial marking to the one after the last firing.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct AtomTrack {
-    /// The atom.
-    pub atom: String,
-    /// Whether it holds.
-    pub holds: Vec<bool>,
-    /// Whether it only says that a place is marked.
-    #[serde(skip)]
-    is_mark: bool,
-}
-
-/// What a place or a transition means.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Meaning {
-    /// Its name.
-    pub name: String,
-    /// Its documentation.
-    pub doc: String,
-}
-
-#[allow(clippy::ref_option, reason = "serde asks for it")]
-fn milliseconds<S: Serializer>(at: &Option<Date>, serializer: S) -> Result<S::Ok, S::Error> {
-    match at {
-        Some(Date { parts, per_unit: 1 }) => serializer.serialize_u64(*parts),
-        // A double holds eighths of a millisecond for longer than any run takes.
-        #[allow(clippy::cast_precision_loss, reason = "it is for display")]
-        Some(date) => serializer.serialize_f64(date.parts as f64 / date.per_unit as f64),
-        None => serializer.serialize_none(),
-    }
 }
 
 impl Diagnosis {

@@ -1,9 +1,8 @@
 //! The net, drawn as a run leaves it.
 
 use super::Step;
-use super::sheet::Frame;
 use crate::export::drawing::Style;
-use crate::export::svg::{self, Highlight};
+use crate::export::svg::{self, Highlight, Part};
 use crate::pt::Pt;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Net, PlaceId, TransitionId};
@@ -12,6 +11,14 @@ use std::fmt::Write as _;
 
 /// Larger nets are not drawn: nobody would find anything.
 const LARGEST: usize = 60;
+
+/// A drawing with a line above it.
+pub(super) struct Frame {
+    pub(super) caption: String,
+    pub(super) part: Part,
+    /// Whether it is what a run leads to.
+    pub(super) is_last: bool,
+}
 
 /// A small net, a marking of it, and what to point at.
 #[derive(Clone, Debug, PartialEq, Eq)]

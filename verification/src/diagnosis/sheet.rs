@@ -1,8 +1,9 @@
 //! A diagnosis as a drawing of its own.
 
+use super::picture::Frame;
 use super::words::printable;
 use super::{Diagnosis, Unused};
-use crate::export::svg::{Part, STYLE, bold_width, escape, short, width};
+use crate::export::svg::{STYLE, bold_width, escape, short, width};
 use cotama_core::net::Net;
 use std::fmt::Write as _;
 
@@ -21,19 +22,12 @@ const FRAMES: usize = 9;
 const MORE_STYLE: &str = "\
 .cotama .heading{font-size:17px;font-weight:600}
 .cotama .said{font-size:13px}
-.cotama .mono{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:12px;white-space:pre}
+.cotama .mono{font-family:'DejaVu Sans Mono',Menlo,Consolas,monospace;font-size:12px;\
+white-space:pre}
 .cotama .caption{font-size:12px;font-weight:600}
 .cotama .frame{fill:none;stroke:#d0d7de;stroke:var(--fill);stroke-width:2}
 .cotama .frame.last{stroke:#c2410c;stroke:var(--hot)}
 ";
-
-/// A drawing with a line above it.
-pub(super) struct Frame {
-    pub(super) caption: String,
-    pub(super) part: Part,
-    /// Whether it is what a run leads to.
-    pub(super) is_last: bool,
-}
 
 /// Lines and frames, one below the other.
 struct Sheet {
@@ -187,7 +181,8 @@ impl Sheet {
                 let _ = write!(
                     self.out,
                     "<text class=\"caption\" x=\"{x}\" y=\"{}\">{}</text>\n\
-                     <rect class=\"frame{last}\" x=\"{x}\" y=\"{}\" width=\"{widest}\" height=\"{height}\" rx=\"6\"/>\n\
+                     <rect class=\"frame{last}\" x=\"{x}\" y=\"{}\" width=\"{widest}\" \
+                     height=\"{height}\" rx=\"6\"/>\n\
                      <g transform=\"translate({} {})\">\n{}</g>\n",
                     top + 12,
                     escape(&caption),
@@ -206,8 +201,9 @@ impl Sheet {
         let Self { out, y, width } = self;
         let height = y + MARGIN;
         format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title\">\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" \
+             height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-labelledby=\"title\">\n\
              <title id=\"title\">{}</title>\n<style>\n{STYLE}{MORE_STYLE}</style>\n\
              <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n{out}</svg>\n",
             escape(title)

@@ -1,6 +1,6 @@
 //! How tokens come and go along a run, as bars.
 
-use super::html::escape;
+use super::words::escape;
 use super::{AtomTrack, Diagnosis, Track};
 use std::fmt::Write as _;
 
@@ -46,8 +46,8 @@ pub(super) fn timeline(diagnosis: &Diagnosis) -> Option<String> {
     let (width, height) = (left + count * cell + 12, TOP + rows * ROW + 26);
     let _ = write!(
         bars.out,
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"timeline\" width=\"{width}\" height=\"{height}\" \
-         viewBox=\"0 0 {width} {height}\" role=\"img\">\n\
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"timeline\" width=\"{width}\" \
+         height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\">\n\
          <title>Tokens after each step</title>\n",
     );
     bars.axis(diagnosis, rows);

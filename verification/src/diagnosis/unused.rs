@@ -1,8 +1,8 @@
 //! What no run uses.
 
-use super::html::{code, escape, page, sentence};
+use super::html::{code, page, sentence};
 use super::picture::Picture;
-use super::words::{name, printable, short_list};
+use super::words::{escape, name, printable, short_list};
 use crate::pt::Pt;
 use cotama_core::net::{Net, PlaceId, TransitionId};
 use serde::Serialize;
@@ -44,7 +44,8 @@ impl<'n> Unused<'n> {
     /// net.transition(OwnedTransition::new("ring").take(smoke, 1)).unwrap();
     /// let pt = Pt::from(&net.view().net());
     /// let unused = Unused::new(&pt, &[false], &[false]);
-    /// let text = "1 of 1 transition never fires:\n  `ring`  needs `smoke`, which is never marked\n\
+    /// let text = "1 of 1 transition never fires:\n  \
+    ///             `ring`  needs `smoke`, which is never marked\n\
     ///             1 of 1 place is never marked:\n  `smoke`  no transition marks it\n";
     /// assert_eq!(unused.to_string(), text);
     /// ```
@@ -116,7 +117,8 @@ impl<'n> Unused<'n> {
         let heads: Vec<_> = lines.lines().filter(|it| !it.starts_with(' ')).collect();
         let heads = heads.join(" ").replace(':', ".");
         let mut out = format!(
-            "<section class=\"diagnosis\">\n<div class=\"fails\">\n<p class=\"net\">{}</p>\n<h1>{}</h1>\n</div>\n",
+            "<section class=\"diagnosis\">\n<div class=\"fails\">\n<p class=\"net\">{}</p>\n<h1>{}\
+             </h1>\n</div>\n",
             escape(&printable(&self.pt.name)),
             sentence(&heads)
         );

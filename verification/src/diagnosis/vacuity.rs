@@ -31,7 +31,8 @@ pub struct Vacuity {
 /// let Question::Formula(formula) = &property.question else { panic!("not a formula") };
 /// let asked = vacuous(formula);
 /// assert_eq!(asked[0].formula.display(&pt).to_string(), "AG fault <= 0");
-/// let words = "`AG (fault -> AF stopped)` holds vacuously: `fault` is never marked, so `AF stopped` is never put to the test.";
+/// let words = "`AG (fault -> AF stopped)` holds vacuously: `fault` is never marked, \
+///              so `AF stopped` is never put to the test.";
 /// assert_eq!(asked[0].words(&property.name, &pt), words);
 /// ```
 pub fn vacuous(formula: &Formula) -> Vec<Vacuity> {

@@ -6,27 +6,15 @@
 //! is left to chance, but not which markings a level has, nor what is counted.
 
 use super::block::Block;
-use super::goal::Packed;
+use super::plan::Plan;
 use super::space::{Space, TooNarrow};
 use super::worker::{Shared, Tally, Worker, lock};
-use super::{Limit, Limits, Progress};
-use crate::pt::Pt;
+use super::{Limit, Progress};
 use std::sync::atomic::Ordering::Relaxed;
 use std::thread::{self, Scope};
 
 /// Threads are worth their start for so many blocks each.
 const BLOCKS_OF_A_THREAD: usize = 4;
-
-/// What is done while markings are passed through.
-#[derive(Clone, Copy)]
-pub(super) struct Plan<'p> {
-    pub(super) pt: &'p Pt,
-    pub(super) limits: &'p Limits,
-    pub(super) jobs: usize,
-    pub(super) progress: &'p dyn Fn(Progress),
-    /// Stop after the first level that has one of these.
-    pub(super) goal: Option<Packed<'p>>,
-}
 
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@
 //! | [`statespace`] | how many markings are reachable, and what is counted of them |
 //! | [`reach`] | whether a marking with a property is reachable, and a shortest way to one |
 //! | [`Graph`] | the markings and the arcs between them, to be passed through again |
-//! | [`Liveness`] | liveness and reversibility, from the strongly connected components of the graph |
+//! | [`Liveness`] | liveness and reversibility, from strongly connected components |
 //!
 //! Markings are packed into machine words by bounds that [`bounds`](crate::bounds::bounds) proves,
 //! in widths that are tried out elsewhere. A search ends with all markings, or at one of its
@@ -41,6 +41,7 @@ mod implied;
 mod layout;
 mod liveness;
 mod markings;
+mod plan;
 mod reach;
 mod space;
 mod statespace;

@@ -1,9 +1,10 @@
 //! Whether a marking is reachable, and a shortest way to it.
 
 use super::block::Block;
-use super::explore::{End, Plan, explore};
+use super::explore::{End, explore};
 use super::goal::Goal;
 use super::layout::Width;
+use super::plan::Plan;
 use super::space::{Search, Space, TooNarrow, search};
 use super::table::Table;
 use super::{Limit, Limits, Progress};

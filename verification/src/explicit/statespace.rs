@@ -1,8 +1,9 @@
 //! How large a net is.
 
-use super::explore::{End, Plan, explore};
+use super::explore::{End, explore};
 use super::growth::{Growth, growth};
 use super::layout::Width;
+use super::plan::Plan;
 use super::space::{Search, Space, TooNarrow, search};
 use super::{Limit, Limits, Progress};
 use crate::pt::Pt;

@@ -16,7 +16,8 @@ use std::fmt::{self, Write as _};
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();
 /// let on = net.place(OwnedPlace::new("on", 0)).unwrap();
-/// net.transition(OwnedTransition::new("press").take(off, 1).give(on, 1).within(0, Some(20))).unwrap();
+/// net.transition(OwnedTransition::new("press").take(off, 1).give(on, 1).within(0, Some(20)))
+///     .unwrap();
 /// let graph = dot::write(&net.view().net(), Style::Auto);
 /// assert!(graph.contains(r#"p0 -> p1 [label="0..20 ms"];"#));
 /// ```

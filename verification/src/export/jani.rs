@@ -53,7 +53,8 @@ pub fn write(net: &Net<'_>) -> String {
         variables: identifiers(net.places.iter().map(|place| place.name), "", &[]),
         actions: identifiers(net.transitions.iter().map(|transition| transition.name), "", &[]),
     };
-    let mut text = serde_json::to_string_pretty(&writer.model()).unwrap_or_default(); // strings and numbers: no error
+    // strings and numbers: no error
+    let mut text = serde_json::to_string_pretty(&writer.model()).unwrap_or_default();
     text.push('\n');
     text
 }

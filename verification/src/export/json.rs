@@ -22,7 +22,8 @@ pub const MAX_ARCS: usize = 1000;
 ///   "places": [{ "name": "off", "doc": "", "initial": 1, "bound": 1, "role": "state" }],
 ///   "events": [{ "name": "press", "doc": "" }], "outputs": [],
 ///   "transitions": [{ "name": "t", "doc": "", "line": 0, "on": "press",
-///     "take": [{ "place": "off", "weight": 1 }], "read": [], "give": [{ "place": "off", "weight": 1 }],
+///     "take": [{ "place": "off", "weight": 1 }], "read": [],
+///     "give": [{ "place": "off", "weight": 1 }],
 ///     "emits": [], "within": { "earliest": 0, "latest": null }, "priority": 0 }],
 ///   "ignored": [{ "event": "press", "place": "off" }],
 ///   "laws": [{ "reachable": "off" }, "settles"] }
@@ -39,7 +40,8 @@ pub const MAX_ARCS: usize = 1000;
 /// has a [defect](Net::defect), or the text is beyond the limits: it then refuses the text. An id
 /// that the net does not have is written as a number.
 pub fn write(net: &Net<'_>) -> String {
-    let mut text = serde_json::to_string_pretty(&Document::of(net)).unwrap_or_default(); // strings and numbers: no error
+    // strings and numbers: no error
+    let mut text = serde_json::to_string_pretty(&Document::of(net)).unwrap_or_default();
     text.push('\n');
     text
 }
@@ -60,7 +62,10 @@ pub fn write(net: &Net<'_>) -> String {
 /// assert_eq!(json::read(&text), Ok(net));
 ///
 /// let error = json::read(&text.replace(r#""place": "off""#, r#""place": "of""#)).unwrap_err();
-/// assert_eq!(error.to_string(), "transition `burn out` names the place `of`, which the net does not have");
+/// assert_eq!(
+///     error.to_string(),
+///     "transition `burn out` names the place `of`, which the net does not have"
+/// );
 /// ```
 ///
 /// # Errors
@@ -160,15 +165,19 @@ fn fault(defect: Defect) -> &'static str {
         Defect::TooLong => "has more entries than ids can count",
         Defect::UnknownId { .. } => "names something that the net does not have",
         Defect::Arcs { .. } => {
-            "has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` together"
+            "has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` \
+             together"
         }
         Defect::Interval { .. } => {
             "has an interval that ends before it begins, or after 4294967294 ms"
         }
         Defect::Place { .. } => {
-            "has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
+            "has more tokens at the start than its bound, or does not sum to the bound with the \
+             place that it complements"
         }
         Defect::Law => "has an arc of weight 0 in an invariant, or a place twice in one",
+        Defect::Twice { .. } => "have one name twice",
+        _ => "does not fit together",
     }
 }
 
@@ -187,6 +196,8 @@ fn place_of(defect: Defect, net: &OwnedNet) -> String {
             None => format!("transition {transition}"),
         },
         Defect::Law => "a law".to_owned(),
+        Defect::Twice { list, .. } => list.to_owned(),
+        _ => "the net".to_owned(),
     }
 }
 

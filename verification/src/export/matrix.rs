@@ -16,7 +16,13 @@ use std::fmt::Write as _;
 /// in hexadecimal, so that
 ///
 /// ```text
-/// table = pandas.read_csv("net.tsv", sep="\t", comment="#", index_col=[0, 1], keep_default_na=False)
+/// table = pandas.read_csv(
+///     "net.tsv",
+///     sep = "\t",
+///     comment = "#",
+///     index_col = [0, 1],
+///     keep_default_na = False,
+/// )
 /// table.loc["incidence"].to_numpy()
 /// ```
 ///

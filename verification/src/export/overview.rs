@@ -29,7 +29,8 @@ impl Way {
 /// name. A dashed line leads from a net to one that `sees` its places or its mailboxes.
 ///
 /// ```
-/// let drawing = cotama_verification::export::overview::write(&cotama_models::cotama::delivery::SYSTEM);
+/// let drawing =
+///     cotama_verification::export::overview::write(&cotama_models::cotama::delivery::SYSTEM);
 /// assert!(drawing.starts_with("<svg xmlns=") && drawing.contains("start_drive"));
 /// ```
 pub fn write(system: &System<'_>) -> String {

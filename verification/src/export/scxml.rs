@@ -14,9 +14,9 @@ use machine::{Machine, Timing};
 /// | of the net | in the chart |
 /// | --- | --- |
 /// | state place | `<state>`; ignored events are a comment |
-/// | other place | `<data>`: a boolean where it can be seen to stay at 0 or 1, else a number of tokens |
-/// | complement | no variable: its tokens are the bound less those of the place, so are its guards |
-/// | transition that moves | `<transition target=..>`, also from a state to itself: it leaves and enters |
+/// | other place | `<data>`: a boolean where it surely stays at 0 or 1, else a number |
+/// | complement | no variable: its tokens are the bound less those of the place |
+/// | transition that moves | `<transition target=..>`, also from a state to itself |
 /// | transition that stays | `<transition>` without a target: nothing is left or entered |
 /// | tokens needed, changed | `cond`, `<assign>` |
 /// | event | `event`; without one the transition is eventless |
@@ -54,7 +54,10 @@ use machine::{Machine, Timing};
 ///
 /// net.transition(OwnedTransition::new("burn out").take(on, 1)).unwrap();
 /// let error = scxml::write(&net.view().net()).unwrap_err();
-/// assert_eq!(error.to_string(), "transition `burn out` takes `on` and gives no state: it must give exactly one");
+/// assert_eq!(
+///     error.to_string(),
+///     "transition `burn out` takes `on` and gives no state: it must give exactly one"
+/// );
 /// ```
 ///
 /// # Errors

@@ -7,6 +7,7 @@
 //! whatever is there.
 
 mod scene;
+mod style;
 mod text;
 
 use super::drawing::{Figure, Flow, Kind, Label, Style};
@@ -16,6 +17,7 @@ use scene::{ENTRY, INITIAL, LOOP, SPACE, Scene};
 use std::fmt::Write as _;
 use text::{Block, Face, NAME};
 
+pub(crate) use style::STYLE;
 pub(crate) use text::short;
 pub use text::{bold_width, escape, width};
 
@@ -81,34 +83,6 @@ pub(crate) fn part(net: &Net<'_>, style: Style, highlight: &Highlight<'_>, prefi
     Part { width: scene.layout.width, height: scene.layout.height, text: out.text }
 }
 
-/// Colours are said twice: first for programs that do not know custom properties.
-pub(crate) const STYLE: &str = "\
-.cotama{--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--line:#4b5561;--fill:#eef3f9;--hot:#c2410c;--glow:#ffedd5;\
-color-scheme:light dark;font-family:Helvetica,Arial,'Liberation Sans',system-ui,sans-serif}
-@media screen and (prefers-color-scheme:dark){.cotama{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#8b96a3;\
---fill:#222b36;--hot:#fb923c;--glow:#4a2712}}
-.cotama .paper{fill:#fff;fill:var(--paper)}
-.cotama text{fill:#1b1f24;fill:var(--ink);font-size:11px}
-.cotama .name{font-size:13px}
-.cotama .state .name,.cotama .strong{font-weight:600}
-.cotama .middle{text-anchor:middle}
-.cotama .end{text-anchor:end}
-.cotama .quiet{fill:#57606a;fill:var(--quiet)}
-.cotama .sources{fill:#57606a;fill:var(--quiet);font-style:italic}
-.cotama .line{fill:none;stroke:#4b5561;stroke:var(--line);stroke-width:1.2}
-.cotama .read .line{stroke-dasharray:4 3}
-.cotama .head,.cotama .start{fill:#4b5561;fill:var(--line)}
-.cotama .state rect{fill:#eef3f9;fill:var(--fill);stroke:#4b5561;stroke:var(--line);stroke-width:1.2}
-.cotama .place circle.rim{fill:#fff;fill:var(--paper);stroke:#1b1f24;stroke:var(--ink);stroke-width:1.3}
-.cotama .shared circle.rim{stroke-dasharray:4 3}
-.cotama .token,.cotama .transition rect{fill:#1b1f24;fill:var(--ink)}
-.cotama .hot .line{stroke:#c2410c;stroke:var(--hot);stroke-width:2}
-.cotama .hot .head,.cotama .hot .token,.cotama .transition.hot rect,.cotama text.hot,.cotama text.hot tspan\
-{fill:#c2410c;fill:var(--hot)}
-.cotama .state.hot rect,.cotama .place.hot circle.rim\
-{fill:#ffedd5;fill:var(--glow);stroke:#c2410c;stroke:var(--hot);stroke-width:2}
-";
-
 struct Svg<'p> {
     text: String,
     /// What identifiers begin with.
@@ -127,9 +101,11 @@ impl Svg<'_> {
         let doc =
             if figure.doc.is_empty() { kind.to_owned() } else { format!("{kind}. {}", figure.doc) };
         self.add(format_args!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" height=\"{height}\" \
-             viewBox=\"0 0 {width} {height}\" role=\"img\" aria-labelledby=\"title desc\">\n\
-             <title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n<style>\n{STYLE}</style>\n\
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"cotama\" width=\"{width}\" \
+             height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-labelledby=\"title desc\">\n\
+             <title id=\"title\">{}</title>\n<desc id=\"desc\">{}</desc>\n<style>\n{STYLE}\
+             </style>\n\
              <rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>\n",
             escape(figure.name),
             escape(&doc),
@@ -351,7 +327,8 @@ impl Svg<'_> {
                 let style = format!("font-size:{size}px");
                 let base = y + size / 3;
                 return self.add(format_args!(
-                    "<text class=\"count middle\" style=\"{style}\" x=\"{x}\" y=\"{base}\">{more}</text>"
+                    "<text class=\"count middle\" style=\"{style}\" x=\"{x}\" y=\"{base}\">{more}\
+                     </text>"
                 ));
             }
         };

@@ -82,7 +82,12 @@ impl Rounds {
     /// use cotama_verification::flat::{self, Looks};
     ///
     /// let mut rounds = flat::rounds(&delivery::SYSTEM)?;
-    /// rounds.watch("secured", Looks::AtEnd, ("gs.global_event.waiting", "gs.Security | gs.Safe"), 2)?;
+    /// rounds.watch(
+    ///     "secured",
+    ///     Looks::AtEnd,
+    ///     ("gs.global_event.waiting", "gs.Security | gs.Safe"),
+    ///     2,
+    /// )?;
     /// assert!(rounds.watch("lost", Looks::AtEnd, ("gs.Lost", "gs.Safe"), 2).is_err());
     /// # Ok::<(), cotama_verification::flat::FlatError>(())
     /// ```
@@ -148,7 +153,10 @@ impl Rounds {
     fn can_be_seen(&self, formula: &Formula) -> bool {
         let bounded =
             |sum: &Linear| sum.weights.iter().all(|&(place, _)| self.known.bound(place) < NO_BOUND);
-        let seen = |it: &Formula| !matches!(it, Formula::Atom(atom) if !matches!(atom, Atom::AtMost(sum) if bounded(sum)));
+        let seen = |it: &Formula| match it {
+            Formula::Atom(atom) => matches!(atom, Atom::AtMost(sum) if bounded(sum)),
+            _ => true,
+        };
         formula.is_state() && !formula.any(&|it| !seen(it))
     }
 }

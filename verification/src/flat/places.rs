@@ -1,6 +1,7 @@
 //! The places of a system: those of its nets, and two for each mailbox.
 
-use super::{Flat, FlatError};
+use super::FlatError;
+use super::interleaving::Flat;
 use cotama_core::net::owned::OwnedPlace;
 use cotama_core::net::{EventId, Place, PlaceId, Role};
 use cotama_core::system::{Delivery, Of, Target};

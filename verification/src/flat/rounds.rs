@@ -13,8 +13,9 @@
 //! priorities and the order of transitions decide here too.
 
 use super::branch::{Branch, Held, Known, branches};
+use super::interleaving::Flat;
 use super::turn::{Answer, Moves, Play};
-use super::{Flat, FlatError, MOST_TRANSITIONS};
+use super::{FlatError, MOST_TRANSITIONS};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace};
 use cotama_core::net::{EventId, OutputId, PlaceId, TransitionId};
 use cotama_core::system::{Delivery, Of, System};

@@ -1,8 +1,9 @@
 //! How a system acts: the rules of [`Player`](cotama_core::player::Player), over markings that are
 //! known in part.
 
+use super::FlatError;
 use super::branch::{Branch, Sum};
-use super::{Flat, FlatError};
+use super::interleaving::Flat;
 use cotama_core::net::owned::OwnedPlace;
 use cotama_core::net::{EventId, Law, Net, OutputId, PlaceId, Role, Transition};
 use cotama_core::player::SETTLE;

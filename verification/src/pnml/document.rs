@@ -2,8 +2,8 @@
 //! looked up.
 
 use super::error::{Span, Spanned};
-use super::own::{OwnArc, OwnNet, OwnPlace, OwnTransition};
 use cotama_core::net::Within;
+use cotama_core::net::owned::OwnedSignal;
 use std::borrow::Cow;
 use std::collections::HashMap;
 
@@ -77,4 +77,61 @@ pub(super) struct RawArc<'a> {
     /// It takes nothing, and has no arc back.
     pub(super) test: bool,
     pub(super) own: OwnArc,
+}
+
+/// What the net-level part says.
+#[derive(Default)]
+pub(super) struct OwnNet<'a> {
+    pub(super) name: Option<String>,
+    pub(super) doc: String,
+    pub(super) events: Vec<(Text<'a>, OwnedSignal)>,
+    pub(super) outputs: Vec<(Text<'a>, OwnedSignal)>,
+    pub(super) ignored: Vec<(Text<'a>, Text<'a>)>,
+    pub(super) laws: Vec<RawLaw<'a>>,
+}
+
+/// A law by the ids of its places.
+pub(super) enum RawLaw<'a> {
+    Invariant { sum: Vec<(Text<'a>, u32)>, equals: u32 },
+    NeverBoth(Text<'a>, Text<'a>),
+    Reachable(Text<'a>),
+    AlwaysCan(Text<'a>),
+    HandlesAll,
+    Settles,
+    DeadlockFree { end: Option<Text<'a>> },
+    Deterministic,
+}
+
+pub(super) struct OwnPlace<'a> {
+    pub(super) span: Span,
+    pub(super) name: Option<String>,
+    pub(super) doc: String,
+    pub(super) bound: Option<u32>,
+    pub(super) role: RawRole<'a>,
+}
+
+#[derive(Default)]
+pub(super) enum RawRole<'a> {
+    #[default]
+    State,
+    Data,
+    Complement(Text<'a>),
+    Shared,
+    Mailbox,
+}
+
+pub(super) struct OwnTransition<'a> {
+    pub(super) name: Option<String>,
+    pub(super) doc: String,
+    pub(super) line: Option<u32>,
+    pub(super) on: Option<Text<'a>>,
+    pub(super) emits: Option<Text<'a>>,
+    pub(super) within: Option<Within>,
+    pub(super) priority: i16,
+}
+
+/// How many of the tokens on an arc belong to a read arc.
+#[derive(Clone, Copy, Default)]
+pub(super) struct OwnArc {
+    pub(super) read: u32,
 }

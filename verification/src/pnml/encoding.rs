@@ -1,6 +1,7 @@
 //! From the bytes of a file to its text.
 
-use super::error::{Finding, Span, quoted};
+use super::error::{Finding, Span};
+use crate::source::quoted;
 use std::borrow::Cow;
 
 /// The text of a file without its byte order mark; or as much of it as could be decoded, and why
@@ -97,7 +98,10 @@ fn utf8(bytes: &[u8]) -> Result<&str, (String, Finding)> {
         let readable = String::from_utf8_lossy(&bytes[..at]);
         let span = Span { start: at, end: at + char::REPLACEMENT_CHARACTER.len_utf8() };
         let finding = Finding::new(span, format!("the byte 0x{:02X} is not UTF-8", bytes[at]))
-            .help("save the file as UTF-8, or declare its encoding, as in `<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>`");
+            .help(
+                "save the file as UTF-8, or declare its encoding, as in `<?xml version=\"1.0\" \
+                encoding=\"ISO-8859-1\"?>`",
+            );
         (format!("{readable}\u{fffd}"), finding)
     })
 }

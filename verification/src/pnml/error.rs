@@ -1,21 +1,10 @@
 //! What is wrong with a PNML file, where, and what to do about it.
 
-use std::fmt::{self, Write as _};
-use std::ops::Range;
+use crate::source::{Location, said};
+use std::fmt;
 
 /// How many errors of one file are kept; the rest are counted.
 pub const MAX_DIAGNOSTICS: usize = 100;
-
-/// A part of a file, for people and for programs.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Location {
-    /// The line of its start, from 1.
-    pub line: usize,
-    /// The column of its start in characters, from 1.
-    pub column: usize,
-    /// Its bytes in [`PnmlErrors::text`]; both ends lie between characters.
-    pub span: Range<usize>,
-}
 
 /// One error of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -85,11 +74,9 @@ impl fmt::Display for PnmlErrors {
         let file = &self.source_name;
         for (index, diagnostic) in self.diagnostics.iter().enumerate() {
             let separator = if index == 0 { "" } else { "\n" };
-            let Location { line, column, .. } = diagnostic.at;
-            write!(f, "{separator}{file}:{line}:{column}: {}", diagnostic.message)?;
-            if let Some(help) = &diagnostic.help {
-                write!(f, "\n  help: {help}")?;
-            }
+            let Diagnostic { at, message, help, .. } = diagnostic;
+            f.write_str(separator)?;
+            said(f, file, (at.line, at.column), message, help.as_deref())?;
             if let Some(Location { line, column, .. }) = diagnostic.related {
                 write!(f, "\n  see: {file}:{line}:{column}")?;
             }
@@ -202,24 +189,4 @@ impl From<Finding> for Findings {
     fn from(finding: Finding) -> Self {
         Self { list: vec![finding], omitted: 0 }
     }
-}
-
-/// A text of the file as a message shows it: in backticks, cut, and without characters that a
-/// terminal obeys.
-pub(super) fn quoted(text: &str) -> String {
-    const SHOWN: usize = 40;
-    let obeyed = |c: char| {
-        c.is_control()
-            || matches!(c, '\u{200e}'..='\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
-    };
-    let mut shown = String::from("`");
-    for c in text.chars().take(SHOWN) {
-        if obeyed(c) {
-            let _ = write!(shown, "{}", c.escape_default()); // writing to a String cannot fail
-        } else {
-            shown.push(c);
-        }
-    }
-    shown.push_str(if text.chars().nth(SHOWN).is_some() { "…`" } else { "`" });
-    shown
 }

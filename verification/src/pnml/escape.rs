@@ -1,7 +1,8 @@
 //! Texts with any character in XML 1.0, which cannot hold them all.
 
 use super::encoding::is_xml;
-use super::error::{Finding, Span, quoted};
+use super::error::{Finding, Span};
+use crate::source::quoted;
 use std::borrow::Cow;
 use std::fmt::{self, Write as _};
 

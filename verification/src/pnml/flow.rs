@@ -134,7 +134,8 @@ pub(super) fn add_arcs(
             if sum.read > read_in(1 - direction, sum.place) {
                 findings.push(
                     Finding::new(sum.span, "a read arc whose tokens do not all come back").help(
-                        "give the arc there and the arc back the same `read`, or remove `<toolspecific>`",
+                        "give the arc there and the arc back the same `read`, or remove `\
+                         <toolspecific>`",
                     ),
                 );
             }

@@ -1,21 +1,11 @@
 //! What the labels of nodes and arcs say: numbers, kinds of arcs, intervals.
 
 use super::document::Text;
-use super::error::{Finding, Span, Spanned, quoted};
-use super::parser::{Context, Parser};
+use super::error::{Finding, Span, Spanned};
+use super::state::{Context, Label, Parser};
 use super::xml::WHITESPACE;
+use crate::source::quoted;
 use cotama_core::net::Within;
-
-/// An element whose text counts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Label {
-    Name,
-    InitialMarking,
-    Inscription,
-    ArcType,
-    Capacity,
-    Timed,
-}
 
 impl<'a> Parser<'a> {
     /// Takes the text of a label to the object that is open.
@@ -43,8 +33,8 @@ impl<'a> Parser<'a> {
                 _ => self.document.name = Some(text.value),
             },
             Label::InitialMarking => {
-                let tokens =
-                    number(&text).and_then(|tokens| u32::try_from(tokens).map_err(|_| too_large(&text)));
+                let tokens = number(&text)
+                    .and_then(|tokens| u32::try_from(tokens).map_err(|_| too_large(&text)));
                 if let (Some(tokens), Some(place)) =
                     (self.findings.keep(tokens), self.document.places.last_mut())
                 {
@@ -54,11 +44,13 @@ impl<'a> Parser<'a> {
             Label::Inscription => {
                 let weight = number(&text).and_then(|weight| match weight {
                     0 => Err(Finding::new(text.span, "an arc of weight 0").help(
-                        "remove the arc; if it is meant to forbid tokens, it is not an arc of a P/T net",
+                        "remove the arc; if it is meant to forbid tokens, it is not an arc of a \
+                         P/T net",
                     )),
                     weight => Ok(weight),
                 });
-                if let (Some(value), Some(arc)) = (self.findings.keep(weight), self.document.arcs.last_mut())
+                if let (Some(value), Some(arc)) =
+                    (self.findings.keep(weight), self.document.arcs.last_mut())
                 {
                     arc.weight = Some(Spanned { value, span: text.span });
                 }
@@ -67,10 +59,18 @@ impl<'a> Parser<'a> {
                 let test = self.is_test(&text);
                 self.document.arcs.last_mut().map(|arc| std::mem::replace(&mut arc.test, test));
             }
-            Label::Capacity if number(&text).is_ok_and(|capacity| capacity == 0) => {} // PIPE: no limit
+            // PIPE: no limit
+            Label::Capacity if number(&text).is_ok_and(|capacity| capacity == 0) => {}
             Label::Capacity => self.findings.push(
-                Finding::new(text.span, "a place with a capacity, which a P/T net of PNML does not have")
-                    .help("add a complement place that holds the room that is left, and remove the capacity"),
+                Finding::new(
+                    text.span,
+                    "a place with a capacity, which a P/T net of PNML does not \
+                    have",
+                )
+                .help(
+                    "add a complement place that holds the room that is left, and remove the \
+                        capacity",
+                ),
             ),
             Label::Timed if text.value == "true" => self.findings.push(
                 Finding::new(text.span, "a transition with a random delay, which is not read")
@@ -116,7 +116,8 @@ impl<'a> Parser<'a> {
                     format!("an interval with an open end: {}", quoted(&self.closure)),
                 )
                 .help(
-                    "only closed intervals are read: give the first and the last moment that belong to it",
+                    "only closed intervals are read: give the first and the last moment that \
+                     belong to it",
                 ));
             }
         }

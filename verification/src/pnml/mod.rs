@@ -81,10 +81,12 @@ mod nodes;
 mod own;
 mod parser;
 mod resolve;
+mod state;
 mod write;
 mod xml;
 
-pub use error::{Diagnostic, Location, MAX_DIAGNOSTICS, PnmlErrors};
+pub use crate::source::Location;
+pub use error::{Diagnostic, MAX_DIAGNOSTICS, PnmlErrors};
 pub use write::{write, write_for_tina};
 
 use cotama_core::net::owned::OwnedNet;

@@ -1,7 +1,8 @@
 //! What the ids of a file stand for, through references to it on other pages.
 
 use super::document::{Object, Reference, Text};
-use super::error::{Finding, Findings, Span, quoted};
+use super::error::{Finding, Findings, Span};
+use crate::source::quoted;
 use cotama_core::net::PlaceId;
 use std::borrow::Cow;
 use std::collections::HashMap;

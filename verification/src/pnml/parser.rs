@@ -1,64 +1,16 @@
 //! From tags to the parts of a net: which element may stand where, and what its text says.
 
 use super::Limits;
-use super::document::{Document, Object, RawArc, RawPlace, RawTransition, Reference, Text};
-use super::error::{Finding, Findings, Span, Spanned, quoted};
+use super::document::{Document, Object, OwnArc, RawArc, RawPlace, RawTransition, Reference, Text};
+use super::error::{Finding, Findings, Span, Spanned};
 use super::escape::trimmed;
-use super::label::Label;
-use super::own;
+use super::own::missing;
+use super::state::{Context, Label, Parser};
 use super::xml::{Tag, Token, Xml, tag as shown, too_long};
+use crate::source::quoted;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-
-/// Where the parser stands: one for each open element.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Context {
-    Pnml,
-    Net,
-    Page,
-    Place,
-    Transition,
-    Arc,
-    Reference,
-    Label(Label, Span),
-    /// `<text>` or `<value>`, the content of a label.
-    Text,
-    Delay,
-    Interval(Span),
-    /// A bound of an interval.
-    Bound,
-    /// `<toolspecific tool="cotama">`.
-    OwnNet,
-    OwnPlace,
-    OwnTransition,
-    OwnArc,
-    /// An element inside of that.
-    Own,
-    /// `<invariant>` inside of that.
-    OwnInvariant,
-    /// Nothing in here is read.
-    Skipped,
-}
-
-pub(super) struct Parser<'a> {
-    xml: Xml<'a>,
-    limits: Limits,
-    pub(super) document: Document<'a>,
-    pub(super) findings: Findings,
-    pub(super) contexts: Vec<Context>,
-    /// The text of the label or bound that is being read.
-    text: Option<Text<'a>>,
-    /// The labels that the open object has so far.
-    labels: Vec<Label>,
-    pub(super) bounds: Vec<Text<'a>>,
-    pub(super) closure: Cow<'a, str>,
-    net: Option<Span>,
-    coloured: Option<Span>,
-    objects: usize,
-    /// An object could not be kept, so ids may be missing.
-    incomplete: bool,
-}
 
 /// Reads the parts of the one P/T net of a file. With findings there is a document only if no part
 /// is missing.
@@ -255,7 +207,7 @@ impl<'a> Parser<'a> {
         if let (Some(source), Some(target)) =
             (self.required(tag, "source"), self.required(tag, "target"))
         {
-            let own = own::OwnArc::default();
+            let own = OwnArc::default();
             self.document.arcs.push(RawArc {
                 span: tag.span,
                 source,
@@ -320,7 +272,7 @@ impl<'a> Parser<'a> {
     fn required(&mut self, tag: &Tag<'a>, name: &str) -> Option<Text<'a>> {
         let value = tag.get(name).cloned();
         if value.is_none() {
-            self.findings.push(own::missing(tag, name));
+            self.findings.push(missing(tag, name));
             self.incomplete = true;
         }
         value
@@ -422,7 +374,8 @@ fn is_coloured(of: &str) -> bool {
 
 fn coloured(span: Span) -> Finding {
     Finding::new(span, "a coloured (high-level) net").help(
-        "unfold it into a P/T net first; the Model Checking Contest gives most of its nets in both forms",
+        "unfold it into a P/T net first; the Model Checking Contest gives most of its nets in both \
+         forms",
     )
 }
 

@@ -1,12 +1,12 @@
 //! From the parts of a file to a net: ids become positions, arcs come to their transitions.
 
 use super::Imported;
-use super::document::{Document, RawPlace, Text};
-use super::error::{Finding, Findings, Span, quoted};
+use super::document::{Document, OwnPlace, OwnTransition, RawLaw, RawPlace, RawRole, Text};
+use super::error::{Finding, Findings, Span};
 use super::flow::add_arcs;
 use super::names::unique;
 use super::nodes::Nodes;
-use super::own::{OwnPlace, OwnTransition, RawLaw, RawRole};
+use crate::source::quoted;
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
 use cotama_core::net::{Arc, EventId, Ignored, OutputId, Place, PlaceId, Role, Within};
 use std::borrow::Cow;

@@ -200,7 +200,8 @@ fn delay(f: &mut Formatter<'_>, it: &Transition<'_>) -> fmt::Result {
     let closure = if latest.is_some() { "closed" } else { "closed-open" };
     write!(
         f,
-        "<delay><interval xmlns=\"http://www.w3.org/1998/Math/MathML\" closure=\"{closure}\"><cn>{earliest}</cn>"
+        "<delay><interval xmlns=\"http://www.w3.org/1998/Math/MathML\" closure=\"{closure}\">\
+         <cn>{earliest}</cn>"
     )?;
     match latest {
         Some(latest) => write!(f, "<cn>{latest}</cn>")?,

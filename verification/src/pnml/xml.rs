@@ -8,7 +8,8 @@
 
 use super::Limits;
 use super::encoding::is_xml;
-use super::error::{Finding, Span, Spanned, quoted};
+use super::error::{Finding, Span, Spanned};
+use crate::source::quoted;
 use quick_xml::errors::{Error, IllFormedError, SyntaxError};
 use quick_xml::events::Event;
 use quick_xml::events::attributes::{AttrError, Attributes};
@@ -346,8 +347,10 @@ fn reference(name: &str, span: Span) -> Result<char, Finding> {
         if name.starts_with('#') {
             Finding::new(span, format!("{shown} is not a character of XML")).help("remove it")
         } else if is_name(name) {
-            Finding::new(span, format!("the entity {shown} is not known"))
-                .help("only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such as `&#228;` are")
+            Finding::new(span, format!("the entity {shown} is not known")).help(
+                "only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such as \
+                    `&#228;` are",
+            )
         } else {
             bare_ampersand(span.start)
         }

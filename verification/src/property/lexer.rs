@@ -1,6 +1,7 @@
 //! The words of the property language.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
+use crate::source::quoted;
 use std::fmt::Write as _;
 use std::ops::Range;
 

@@ -17,13 +17,14 @@
 //! assert_eq!(line, "FORMULA never-two TRUE TECHNIQUES EXPLICIT");
 //! ```
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::linear::{Comparison, Sum};
 use super::names::{Ids, Names};
 use super::operand::too_large;
 use super::xml::{Element, Xml, decode};
 use super::{Atom, Formula, MAX_DEPTH, Property, PropertyError, Question};
 use crate::pt::Pt;
+use crate::source::quoted;
 use cotama_core::net::PlaceId;
 use std::collections::HashSet;
 use std::ops::Range;
@@ -105,8 +106,18 @@ impl<'a> File<'a> {
         match self.xml.child()? {
             Some(set) if set.name == "property-set" => {}
             Some(other) => {
-                return Err(Fault::new(other.span.clone(), format!("the file is one of {}", other.shown()))
-                    .help("a property file of the Model Checking Contest has one `<property-set>` element"));
+                return Err(Fault::new(
+                    other.span.clone(),
+                    format!(
+                        "the file is one of \
+                    {}",
+                        other.shown()
+                    ),
+                )
+                .help(
+                    "a property file of the Model Checking Contest has one `<property-set>` \
+                        element",
+                ));
             }
             None => return Ok(Vec::new()),
         }

@@ -18,7 +18,10 @@
 //! assert_eq!(formula.display(&lamp).to_string(), "AG !(on & off)");
 //!
 //! let error = property::parse("EF onn", &lamp).unwrap_err();
-//! assert_eq!(error.to_string(), "property:1:4: there is no place `onn`\n  help: did you mean `on`?");
+//! assert_eq!(
+//!     error.to_string(),
+//!     "property:1:4: there is no place `onn`\n  help: did you mean `on`?"
+//! );
 //! ```
 //!
 //! # The language
@@ -26,7 +29,7 @@
 //! | question | asks |
 //! | --- | --- |
 //! | a formula | [`Question::Formula`] |
-//! | a formula of CTL, and then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
+//! | CTL, then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
 //! | `bounds(p1 + p2)` | [`Question::Bound`] |
 //! | `bound(t -> p)` | [`Question::Response`] |
 //! | `live`, `quasi_live`, `stable`, `one_safe` | [`Question::Liveness`], [`Question::QuasiLiveness`], [`Question::StableMarking`], [`Question::OneSafe`] |

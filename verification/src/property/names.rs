@@ -1,9 +1,10 @@
 //! Places and transitions by the names that a property calls them.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::lexer::written;
 use crate::pnml::Imported;
 use crate::pt::Pt;
+use crate::source::quoted;
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::HashMap;
 use std::ops::Range;

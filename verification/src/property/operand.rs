@@ -1,10 +1,11 @@
 //! What stands between operators: comparisons, numbers, names, and what is in parentheses.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::lexer::{Token, is_reserved};
 use super::linear::{Comparison, Sum};
 use super::parser::{Join, Parser, Value, What};
 use super::{Atom, Formula};
+use crate::source::quoted;
 use cotama_core::net::TransitionId;
 use std::ops::Range;
 

@@ -1,11 +1,12 @@
 //! From a text of the language to a property.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
 use super::lexer::{Lexeme, Token, is_reserved, lexemes};
 use super::linear::Sum;
 use super::names::{Ids, Names};
 use super::{Assumptions, Atom, Ctl, Formula, Linear, Property, PropertyError, Question};
 use crate::pt::Pt;
+use crate::source::quoted;
 use std::ops::Range;
 
 /// The longest text, in bytes.
@@ -40,8 +41,10 @@ pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
 fn of_ctl(formula: Formula, span: Range<usize>) -> Result<Formula, Fault> {
     match Ctl::new(&formula) {
         Some(_) => Ok(formula),
-        None => Err(Fault::new(span, "assumptions are made for formulas of CTL only")
-            .help("put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, and leave out limits of time")),
+        None => Err(Fault::new(span, "assumptions are made for formulas of CTL only").help(
+            "put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, and \
+                leave out limits of time",
+        )),
     }
 }
 
@@ -119,8 +122,15 @@ impl Value {
     pub(super) fn sum(self) -> Result<Sum, Fault> {
         match self.what {
             What::Sum(sum) => Ok(sum),
-            What::Formula(_) => Err(Fault::new(self.span, "this is a statement, and a number is expected")
-                .help("`+`, `-`, `*` and comparisons are for numbers of tokens; join statements with `&`, `|`, `->` or `<->`")),
+            What::Formula(_) => Err(Fault::new(
+                self.span,
+                "this is a statement, and a number is \
+                expected",
+            )
+            .help(
+                "`+`, `-`, `*` and comparisons are for numbers of tokens; join statements \
+                    with `&`, `|`, `->` or `<->`",
+            )),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The elements and texts of an XML file, bounded, each with its place in the file. Entities other
 //! than the five of XML are refused, so nothing grows. Attributes and namespaces mean nothing here.
 
-use super::error::{Fault, quoted};
+use super::error::Fault;
+use crate::source::quoted;
 use quick_xml::errors::{Error, IllFormedError};
 use quick_xml::events::Event;
 use quick_xml::reader::Reader;
@@ -154,7 +155,8 @@ impl<'a> Xml<'a> {
                     let Some(character) = character else {
                         let shown = quoted(&format!("&{};", &*reference));
                         return Err(Fault::new(span, format!("{shown} is not known")).help(
-                            "only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such as `&#228;` are",
+                            "only `&lt;`, `&gt;`, `&amp;`, `&quot;`, `&apos;` and characters such \
+                             as `&#228;` are",
                         ));
                     };
                     return self.content(character.encode_utf8(&mut [0; 4]), span);

@@ -1,7 +1,11 @@
 //! A net while it is reduced.
 
-use super::{Goal, trail::Record};
-use crate::pt::{Lists, Pt};
+use super::Goal;
+use super::record::Record;
+use super::supply::Supply;
+use super::trail::{Tokens, Trail};
+use crate::pt::{Bounds, Lists, Pt};
+use cotama_core::net::PlaceId;
 use std::collections::BTreeSet;
 
 /// Numbers by place or by transition, sorted.
@@ -187,11 +191,65 @@ impl Draft {
         self.present[place as usize] = false;
     }
 
-    /// The transitions that are left as lists of what they need and change.
-    pub(super) fn lists(&self) -> (Lists<u32>, Lists<i64>) {
-        (
+    /// What is left, as a net of which no place is filled yet.
+    pub(super) fn supply(&self) -> Supply {
+        Supply::new(
+            self.initial.clone(),
             Lists::new(self.transitions().map(|(_, it)| it.needs.iter().copied())),
             Lists::new(self.transitions().map(|(_, it)| it.effects.iter().copied())),
         )
+    }
+
+    fn roots(&self) -> Vec<u32> {
+        self.transitions().map(|(_, it)| it.step).collect()
+    }
+
+    /// Begins a new layer, above one that is supplied.
+    pub(super) fn supplied(&mut self, supply: Supply, names: &mut Vec<String>) {
+        let roots = self.roots();
+        *names = self.record.names(&roots, names);
+        self.record.supplied(roots, supply);
+        for (at, it) in self.moves.iter_mut().flatten().enumerate() {
+            it.step = at as u32;
+        }
+    }
+
+    /// The reduced net and the way back.
+    pub(super) fn finished(self, pt: &Pt, below: &[String]) -> (Pt, Trail) {
+        let places = self.places();
+        let roots = self.roots();
+        let mut values = vec![None; self.present.len()];
+        let mut id = vec![0; self.present.len()];
+        for (at, &place) in places.iter().enumerate() {
+            id[place as usize] = at as u32;
+            values[place as usize] =
+                Some(Tokens { constant: 0, weights: vec![(PlaceId(at as u32), 1)] });
+        }
+        let lowered =
+            |row: &[(u32, i64)]| row.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>();
+        let needs = self
+            .transitions()
+            .map(|(_, it)| it.needs.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>());
+        let (needs, effects) =
+            (Lists::new(needs), Lists::new(self.transitions().map(|(_, it)| lowered(&it.effects))));
+        let given = |(_, it): (u32, &Move)| {
+            let gives =
+                it.effects.iter().filter(|&&(place, by)| by + i64::from(it.need(place)) > 0);
+            let reads = it.needs.iter().filter(|&&(place, _)| it.effect(place) == 0);
+            it.needs.len() + gives.count() + reads.count()
+        };
+        let net = Pt {
+            name: pt.name.clone(),
+            places: places.iter().map(|&it| pt.places[it as usize].clone()).collect(),
+            transitions: self.record.names(&roots, below),
+            initial: places.iter().map(|&it| self.initial[it as usize]).collect(),
+            consumers: needs.reversed(places.len()),
+            changers: effects.reversed(places.len()),
+            arcs: self.transitions().map(given).sum(),
+            bounds: Bounds::default(),
+            needs,
+            effects,
+        };
+        (net, self.record.trail(roots, values))
     }
 }

@@ -10,7 +10,8 @@
 //! use cotama_verification::{pt::Pt, reductions::{Goal, Keep, reduce}};
 //!
 //! let mut net = OwnedNet::new("fall", "");
-//! let [a, b, c] = ["a", "b", "c"].map(|it| net.place(OwnedPlace::new(it, (it == "a").into())).unwrap());
+//! let [a, b, c] =
+//!     ["a", "b", "c"].map(|it| net.place(OwnedPlace::new(it, (it == "a").into())).unwrap());
 //! net.transition(OwnedTransition::new("slip").take(a, 1).give(b, 1)).unwrap();
 //! net.transition(OwnedTransition::new("fall").take(b, 1).give(c, 1)).unwrap();
 //! let net = Pt::from(&net.view().net());
@@ -18,7 +19,10 @@
 //! let reduced = reduce(&net, &Keep::new(Goal::Deadlock));
 //! assert!(reduced.net.transitions.is_empty());
 //! let dead = reduced.trail.lift(&net, &[]).unwrap();
-//! assert_eq!(dead.iter().map(|it| net.transitions[it.0 as usize].as_str()).collect::<Vec<_>>(), ["slip", "fall"]);
+//! assert_eq!(
+//!     dead.iter().map(|it| net.transitions[it.0 as usize].as_str()).collect::<Vec<_>>(),
+//!     ["slip", "fall"]
+//! );
 //! ```
 //!
 //! Every rule with its conditions and source is described at [`Rule`]. The sources:
@@ -32,16 +36,20 @@
 mod agglomerate;
 mod components;
 mod draft;
+mod filled;
 mod implied;
+mod lift;
 mod places;
+mod record;
 mod rule;
 mod slice;
 mod supply;
 mod trail;
 mod transitions;
 
+pub use lift::LiftError;
 pub use rule::Rule;
-pub use trail::{LiftError, Tokens, Trail};
+pub use trail::{Tokens, Trail};
 
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
@@ -172,8 +180,8 @@ fn apply(rule: Rule, draft: &mut Draft, names: &mut Vec<String>) -> usize {
         Rule::Slice => slice::slice(draft),
         Rule::Suffix => slice::suffix(draft),
         Rule::AlwaysEnabled => transitions::always_enabled(draft),
-        Rule::Source => supply::sources(draft, names),
-        Rule::FreeCycle => supply::free_cycles(draft, names),
+        Rule::Source => filled::sources(draft, names),
+        Rule::FreeCycle => filled::free_cycles(draft, names),
         Rule::PostAgglomeration | Rule::PreAgglomeration | Rule::FreeAgglomeration => {
             agglomerate::agglomerate(draft, rule)
         }

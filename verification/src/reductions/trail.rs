@@ -1,11 +1,10 @@
 //! From a reduced net back to the original one.
 
-use super::{draft::Draft, supply::Supply};
-use crate::bounds::Bounds;
-use crate::pt::{Lists, Pt};
+use super::lift::{LiftError, MAX_LENGTH};
+use super::supply::Supply;
+use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::BTreeMap;
-use std::fmt;
 
 /// `constant + sum of weight * tokens`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -25,38 +24,16 @@ impl Tokens {
     }
 }
 
-/// Why a run was not lifted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LiftError {
-    /// It is no run of the reduced net, or these are not the nets of this trail.
-    NotARun,
-    /// It would have more than [`Trail::MAX_LENGTH`] firings.
-    TooLong,
-}
-
-impl fmt::Display for LiftError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NotARun => f.write_str("this is no run of the reduced net"),
-            Self::TooLong => {
-                write!(f, "the run of the original net has more than {} firings", Trail::MAX_LENGTH)
-            }
-        }
-    }
-}
-
-impl std::error::Error for LiftError {}
-
 /// How a reduced net came to be, to go back from it.
 #[derive(Clone, Debug)]
 pub struct Trail {
-    layers: Vec<Layer>,
-    values: Vec<Option<Tokens>>,
+    pub(super) layers: Vec<Layer>,
+    pub(super) values: Vec<Option<Tokens>>,
 }
 
 /// What a transition stands for.
 #[derive(Clone, Debug)]
-enum Step {
+pub(super) enum Step {
     /// A transition of the layer below.
     Below(u32),
     /// These, one after the other, each so many times.
@@ -65,20 +42,20 @@ enum Step {
 
 /// Rules after one another that put runs together from those below.
 #[derive(Clone, Debug)]
-struct Layer {
-    steps: Vec<Step>,
+pub(super) struct Layer {
+    pub(super) steps: Vec<Step>,
     /// The steps of the transitions at the top.
-    roots: Vec<u32>,
+    pub(super) roots: Vec<u32>,
     /// What fires before anything else, each so many times.
-    start: Vec<(u32, u32)>,
+    pub(super) start: Vec<(u32, u32)>,
     /// What fires in the end as long as it can, the last ones first.
-    rests: Vec<Vec<u32>>,
+    pub(super) rests: Vec<Vec<u32>>,
     /// What fires in between where tokens are missing below.
-    supply: Option<Supply>,
+    pub(super) supply: Option<Supply>,
 }
 
 impl Layer {
-    fn new(transitions: usize, supply: Option<Supply>) -> Self {
+    pub(super) fn new(transitions: usize, supply: Option<Supply>) -> Self {
         let steps = (0..transitions as u32).map(Step::Below).collect();
         Self { steps, roots: Vec::new(), start: Vec::new(), rests: Vec::new(), supply }
     }
@@ -92,7 +69,7 @@ impl Layer {
             }
             match self.steps.get(step as usize).ok_or(LiftError::NotARun)? {
                 Step::Below(transition) => {
-                    if run.len() + times as usize > Trail::MAX_LENGTH {
+                    if run.len() + times as usize > MAX_LENGTH {
                         return Err(LiftError::TooLong);
                     }
                     run.extend(std::iter::repeat_n(*transition, times as usize));
@@ -110,7 +87,7 @@ impl Layer {
 
 impl Trail {
     /// The most firings of a lifted run.
-    pub const MAX_LENGTH: usize = 1 << 24;
+    pub const MAX_LENGTH: usize = MAX_LENGTH;
 
     /// The tokens of a place of the original net, told from the places of the reduced one; `None`
     /// when they cannot be. They can for every place that was to be kept visible.
@@ -230,7 +207,7 @@ fn rest(
             let mut fired = Vec::new();
             layer.expand(step, 1, &mut fired)?;
             while let Some(after) = replayed(original, marking.clone(), &fired) {
-                if run.len() + fired.len() > Trail::MAX_LENGTH {
+                if run.len() + fired.len() > MAX_LENGTH {
                     return Err(LiftError::TooLong);
                 }
                 run.extend(&fired);
@@ -240,118 +217,4 @@ fn rest(
         }
     }
     Ok(())
-}
-
-/// A trail while it is written.
-#[derive(Clone, Debug)]
-pub(super) struct Record {
-    layers: Vec<Layer>,
-    top: Layer,
-    /// `tokens of place = these`, from when it was written on.
-    values: Vec<(u32, Tokens)>,
-}
-
-impl Record {
-    pub(super) fn new(transitions: usize) -> Self {
-        Self { layers: Vec::new(), top: Layer::new(transitions, None), values: Vec::new() }
-    }
-
-    /// A step that stands for one after another, each so many times.
-    pub(super) fn step(&mut self, first: (u32, u32), second: (u32, u32)) -> u32 {
-        self.top.steps.push(Step::Steps([first, second]));
-        self.top.steps.len() as u32 - 1
-    }
-
-    pub(super) fn at_start(&mut self, step: u32, times: u32) {
-        self.top.start.push((step, times));
-    }
-
-    pub(super) fn at_rest(&mut self, steps: Vec<u32>) {
-        self.top.rests.push(steps);
-    }
-
-    pub(super) fn value(&mut self, place: u32, constant: i64, weights: &[(u32, i64)]) {
-        let weights = weights.iter().map(|&(place, weight)| (PlaceId(place), weight)).collect();
-        self.values.push((place, Tokens { constant, weights }));
-    }
-
-    /// How a transition is called that stands for these.
-    fn name(&self, step: u32, below: &[String]) -> String {
-        let (mut names, mut stack) = (Vec::new(), vec![step]);
-        while let Some(step) = stack.pop() {
-            match &self.top.steps[step as usize] {
-                _ if names.len() == 8 => return names.join(".") + "...",
-                Step::Below(transition) => names.push(below[*transition as usize].as_str()),
-                Step::Steps([first, second]) => stack.extend([second.0, first.0]),
-            }
-        }
-        names.join(".")
-    }
-
-    /// The names of the transitions of a draft, of which `below` are those of the layer below.
-    pub(super) fn names(&self, roots: &[u32], below: &[String]) -> Vec<String> {
-        roots.iter().map(|&step| self.name(step, below)).collect()
-    }
-}
-
-impl Draft {
-    fn roots(&self) -> Vec<u32> {
-        self.transitions().map(|(_, it)| it.step).collect()
-    }
-
-    /// Begins a new layer, above one that is supplied.
-    pub(super) fn supplied(&mut self, supply: Supply, names: &mut Vec<String>) {
-        let roots = self.roots();
-        *names = self.record.names(&roots, names);
-        let top = std::mem::replace(&mut self.record.top, Layer::new(roots.len(), Some(supply)));
-        self.record.layers.push(Layer { roots, ..top });
-        for (at, it) in self.moves.iter_mut().flatten().enumerate() {
-            it.step = at as u32;
-        }
-    }
-
-    /// The reduced net and the way back.
-    pub(super) fn finished(self, pt: &Pt, below: &[String]) -> (Pt, Trail) {
-        let places = self.places();
-        let roots = self.roots();
-        let mut values = vec![None; self.present.len()];
-        let mut id = vec![0; self.present.len()];
-        for (at, &place) in places.iter().enumerate() {
-            id[place as usize] = at as u32;
-            values[place as usize] =
-                Some(Tokens { constant: 0, weights: vec![(PlaceId(at as u32), 1)] });
-        }
-        let lowered =
-            |row: &[(u32, i64)]| row.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>();
-        let needs = self
-            .transitions()
-            .map(|(_, it)| it.needs.iter().map(|it| (id[it.0 as usize], it.1)).collect::<Vec<_>>());
-        let (needs, effects) =
-            (Lists::new(needs), Lists::new(self.transitions().map(|(_, it)| lowered(&it.effects))));
-        let given = |(_, it): (u32, &super::draft::Move)| {
-            let gives =
-                it.effects.iter().filter(|&&(place, by)| by + i64::from(it.need(place)) > 0);
-            let reads = it.needs.iter().filter(|&&(place, _)| it.effect(place) == 0);
-            it.needs.len() + gives.count() + reads.count()
-        };
-        let net = Pt {
-            name: pt.name.clone(),
-            places: places.iter().map(|&it| pt.places[it as usize].clone()).collect(),
-            transitions: self.record.names(&roots, below),
-            initial: places.iter().map(|&it| self.initial[it as usize]).collect(),
-            consumers: needs.reversed(places.len()),
-            changers: effects.reversed(places.len()),
-            arcs: self.transitions().map(given).sum(),
-            bounds: Bounds::default(),
-            needs,
-            effects,
-        };
-        let mut record = self.record;
-        record.layers.push(Layer { roots, ..record.top });
-        let mut trail = Trail { layers: record.layers, values };
-        for (place, value) in record.values.iter().rev() {
-            trail.values[*place as usize] = trail.tokens(value);
-        }
-        (net, trail)
-    }
 }

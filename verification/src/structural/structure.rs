@@ -26,8 +26,20 @@ use cotama_core::net::{PlaceId, TransitionId};
 /// for name in ["a", "b"] {
 ///     let idle = net.place(OwnedPlace::new(&format!("{name} idle"), 1)).unwrap();
 ///     let busy = net.place(OwnedPlace::new(&format!("{name} busy"), 0)).unwrap();
-///     net.transition(OwnedTransition::new(&format!("{name} takes")).take(idle, 1).take(tool, 1).give(busy, 1)).unwrap();
-///     net.transition(OwnedTransition::new(&format!("{name} gives")).take(busy, 1).give(idle, 1).give(tool, 1)).unwrap();
+///     net.transition(
+///         OwnedTransition::new(&format!("{name} takes"))
+///             .take(idle, 1)
+///             .take(tool, 1)
+///             .give(busy, 1),
+///     )
+///     .unwrap();
+///     net.transition(
+///         OwnedTransition::new(&format!("{name} gives"))
+///             .take(busy, 1)
+///             .give(idle, 1)
+///             .give(tool, 1),
+///     )
+///     .unwrap();
 /// }
 /// let net = Pt::from(&net.view().net());
 /// let mut structure = Structure::new(&net, Limits::default());

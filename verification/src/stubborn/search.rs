@@ -40,7 +40,10 @@ const PATIENCE: usize = 4;
 /// let Question::Formula(formula) = property.question else { panic!("not a formula") };
 /// let goal = Reachability::new(&formula).unwrap().goal;
 /// let reached = reach_reduced(&lamps, &goal, &Limits::default(), &|_| ()).unwrap();
-/// assert_eq!(reached, Reached::Trace { transitions: vec![TransitionId(0), TransitionId(1)], states: 3 });
+/// assert_eq!(
+///     reached,
+///     Reached::Trace { transitions: vec![TransitionId(0), TransitionId(1)], states: 3 }
+/// );
 /// ```
 pub fn reach_reduced(
     pt: &Pt,

@@ -3,24 +3,28 @@
 //! | item | what it answers |
 //! | --- | --- |
 //! | [`answer`] | any formula of CTL or LTL, by the engine that suits it |
-//! | [`ctl`] | where a formula of CTL holds, of all runs or of fair ones, with ranks and a run as evidence |
+//! | [`ctl`] | where a formula of CTL holds, on all or on fair runs, with a run as evidence |
 //! | [`all_runs`], [`some_runs`] | formulas of LTL, with a lasso as evidence |
 //!
 //! Runs are maximal: they go on for ever, or end in a deadlock, whose marking lasts.
 
+mod answer;
 mod automaton;
 mod ctl;
 mod emptiness;
 mod fairness;
+mod labelling;
 mod ltl;
 mod product;
 mod run;
 mod verdict;
 mod witness;
 
-pub use ctl::{CtlAnswer, Witness, ctl};
+pub use answer::answer;
+pub(crate) use answer::answer_with;
+pub use ctl::{CtlAnswer, ctl};
 pub use fairness::Fairness;
 pub use ltl::{all_runs, some_runs};
 pub use run::{Rest, Run};
-pub(crate) use verdict::answer_with;
-pub use verdict::{Reason, Verdict, answer};
+pub use verdict::{Reason, Verdict};
+pub use witness::Witness;

@@ -1,9 +1,19 @@
 //! One run that shows why a formula of CTL holds, or does not.
 
-use super::ctl::{Labelling, Witness};
+use super::labelling::Labelling;
 use super::run::{Rest, Run};
 use crate::property::CtlNode;
 use cotama_core::net::TransitionId;
+
+/// A run as evidence.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Witness {
+    /// The run: a counterexample when the verdict is no.
+    pub run: Run,
+    /// Whether it suffices; otherwise where it ends something is left to show that takes more than
+    /// one run.
+    pub is_complete: bool,
+}
 
 /// A run from the initial marking that shows the verdict; `None` when no run is needed, or when
 /// none can begin to show it.

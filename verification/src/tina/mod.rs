@@ -3,7 +3,11 @@
 //! ```
 //! use cotama_verification::tina;
 //!
-//! let net = tina::read("lamp.net", b"net lamp  tr press [0,w[ off -> on  tr fade ]2,5] on -> off  pl off (1)").unwrap();
+//! let net = tina::read(
+//!     "lamp.net",
+//!     b"net lamp  tr press [0,w[ off -> on  tr fade ]2,5] on -> off  pl off (1)",
+//! )
+//! .unwrap();
 //! assert_eq!(net.transitions()[1].interval.to_string(), "]2,5]");
 //! assert_eq!(tina::read("lamp.net", tina::write(&net).as_bytes()), Ok(net));
 //! ```

@@ -1,8 +1,9 @@
 //! Declarations, put on top of each other.
 
 use super::Limits;
-use super::error::{Finding, quoted};
+use super::error::Finding;
 use super::token::{Token, Tokens};
+use crate::source::quoted;
 use crate::tpn::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use std::collections::HashMap;
@@ -362,8 +363,10 @@ impl<'t> Parser<'t> {
             };
             self.take()?;
             if read && self.token == Token::Sign('-') {
-                return Err(Finding::new(sign, "inhibitor arcs are not read")
-                    .help("for a place with a bound, read the place that holds what it lacks to its bound"));
+                return Err(Finding::new(sign, "inhibitor arcs are not read").help(
+                    "for a place with a bound, read the place that holds what it lacks to \
+                        its bound",
+                ));
             }
             let weight = self.number("the weight of the arc")?;
             self.arc(transition, at, inputs, read, Arc { place, weight })?;

@@ -1,6 +1,7 @@
 //! The words and signs of a file.
 
-use super::error::{Finding, quoted};
+use super::error::Finding;
+use crate::source::quoted;
 use std::borrow::Cow;
 
 /// A word or a sign.
@@ -73,8 +74,17 @@ impl<'t> Tokens<'t> {
                 }
                 _ => {
                     let shown = quoted(first.encode_utf8(&mut [0; 4]));
-                    return Err(Finding::new(start, format!("the character {shown} cannot stand here"))
-                        .help("a name with other characters than letters, digits, `'` and `_` needs braces: `{a b}`"));
+                    return Err(Finding::new(
+                        start,
+                        format!(
+                            "the character {shown} cannot stand \
+                        here"
+                        ),
+                    )
+                    .help(
+                        "a name with other characters than letters, digits, `'` and `_` \
+                            needs braces: `{a b}`",
+                    ));
                 }
             };
             self.at += length;

@@ -2,10 +2,10 @@
 //!
 //! | function | answers |
 //! | --- | --- |
-//! | [`classes`] | the state class graph: how many classes, edges, markings, deadlocks; bounded or not |
+//! | [`classes`] | the state class graph: its size, deadlocks, bounded or not |
 //! | [`untimed`] | how many markings there would be without time |
-//! | [`bound`], [`bound_from_start`] | the least and the most time from a firing, or the start, to a marked place |
-//! | [`reach`], [`deadlock`] | whether some marking can be reached, and when to fire what to get there |
+//! | [`bound`], [`bound_from_start`] | least and most time to a marked place |
+//! | [`reach`], [`deadlock`] | whether a marking can be reached, and what to fire when |
 //! | [`schedule`] | dates for a firing sequence |
 //! | [`from_net`], [`to_net`] | a [`Net`](cotama_core::net::Net) as a time net, and back |
 //!
@@ -17,6 +17,7 @@ mod bound;
 mod classes;
 mod convert;
 mod domain;
+mod explore;
 mod growth;
 mod index;
 mod markings;
@@ -25,8 +26,9 @@ mod response;
 mod schedule;
 mod untimed;
 
-pub use classes::{ClassId, Classes, classes};
+pub use classes::{ClassId, Classes};
 pub use convert::{Converted, Difference, NotANet, from_net, to_net};
+pub use explore::classes;
 pub use net::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
 pub(crate) use response::measured;
 pub use response::{Response, Time, bound, bound_from_start};

@@ -1,7 +1,6 @@
 //! A net whose transitions have a clock each.
 
-use crate::bounds::Bounds;
-use crate::pt::{Lists, Pt};
+use crate::pt::{Bounds, Lists, Pt};
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use std::collections::HashSet;
 use std::fmt;

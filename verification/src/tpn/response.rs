@@ -63,7 +63,8 @@ pub enum Response {
 /// use cotama_verification::tina;
 /// use cotama_verification::tpn::{Limits, Response, Time, bound};
 ///
-/// let text = b"pl idle (1)  tr ask [0,w[ idle -> asked  tr think ]1,4] asked -> known  tr tell [2,3] known -> idle";
+/// let text = b"pl idle (1)  tr ask [0,w[ idle -> asked  tr think ]1,4] asked -> known  \
+///              tr tell [2,3] known -> idle";
 /// let net = tina::read("oracle.net", text).unwrap();
 /// let (ask, idle) = (net.transition("ask").unwrap(), net.place("idle").unwrap());
 /// let known = Response::Between { min: Time::Finite(3), max: Time::Finite(7) };

@@ -82,7 +82,9 @@ impl std::error::Error for NoSchedule {}
 /// ```
 /// use cotama_verification::{tina, tpn};
 ///
-/// let net = tina::read("lamp.net", b"pl off (1)  tr press [3,5] off -> on  tr fade ]2,3[ on -> off").unwrap();
+/// let net =
+///     tina::read("lamp.net", b"pl off (1)  tr press [3,5] off -> on  tr fade ]2,3[ on -> off")
+///         .unwrap();
 /// let [press, fade] = ["press", "fade"].map(|it| net.transition(it).unwrap());
 /// let run = tpn::schedule(&net, &[press, fade, press]).unwrap();
 /// let dates: Vec<_> = run.steps.iter().map(|step| step.date.to_string()).collect();
@@ -123,7 +125,11 @@ pub enum Reach {
 /// ```
 /// use cotama_verification::{tina, tpn};
 ///
-/// let net = tina::read("race.net", b"tr fast [1,2] idle -> won  tr slow ]2,3] idle -> lost  pl idle (1)").unwrap();
+/// let net = tina::read(
+///     "race.net",
+///     b"tr fast [1,2] idle -> won  tr slow ]2,3] idle -> lost  pl idle (1)",
+/// )
+/// .unwrap();
 /// let lost = net.place("lost").unwrap().0 as usize;
 /// let reach = tpn::reach(&net, |tokens| tokens[lost] > 0, &tpn::Limits::default());
 /// assert_eq!(reach, tpn::Reach::Unreachable { classes: 2 }); // without time it can

@@ -22,7 +22,8 @@ fn the_battery_can_break() {
     assert_eq!(breaks().evidence, Evidence::Graph(4));
     assert_eq!(
         shown(&breaks()),
-        "net battery (3 places, 3 transitions): E(F(1 <= broken)) is true\n  by passing through 4 markings"
+        "net battery (3 places, 3 transitions): E(F(1 <= broken)) is true\n  by passing through 4 \
+         markings"
     );
 }
 
@@ -47,7 +48,9 @@ fn another_net_another_question_or_another_number_is_refused() {
             ),
             (
                 "/question",
-                json!({"formula": {"A": {"F": {"at_most": {"constant": 1, "weights": [["broken", -1]]}}}}}),
+                json!({"formula":
+                    {"A": {"F": {"at_most": {"constant": 1, "weights": [["broken", -1]]}}}}
+                }),
                 opposite,
             ),
             (
@@ -124,6 +127,7 @@ fn the_questions_about_the_whole_net_have_answers() {
     }
     assert_eq!(
         shown(&bound(2, true)),
-        "net battery (3 places, 3 transitions): bounds(full + broken) = 2 is true\n  by passing through 4 markings"
+        "net battery (3 places, 3 transitions): bounds(full + broken) = 2 is true\n  by passing \
+         through 4 markings"
     );
 }

@@ -15,7 +15,8 @@ fn every_transition_fires_once() {
     let certificate = Certificate::of(&track, "", Question::QuasiLive, true, each);
     assert_eq!(
         shown(&certificate),
-        "net track (5 places, 4 transitions): quasi_live is true\n  by 4 parts, the first by a trace of 0 firings"
+        "net track (5 places, 4 transitions): quasi_live is true\n  by 4 parts, the first by a \
+         trace of 0 firings"
     );
     let trace = |fire: &[&str]| json!({"trace": {"fire": fire, "then": "state"}});
     all_refused(
@@ -75,12 +76,14 @@ fn a_number_of_tokens_is_attained_and_never_exceeded() {
             (
                 "/question/bound/most",
                 json!(1),
-                "evidence.each[0].refutation.cases[0]: no contradiction: the constant is not above 0",
+                "evidence.each[0].refutation.cases[0]: no contradiction: the constant is not above \
+                 0",
             ),
             (
                 "/question/bound/places",
                 json!(["empty", "broken", "broken", "broken"]),
-                "evidence.each[0].refutation.cases[0]: no contradiction: a place has a negative weight",
+                "evidence.each[0].refutation.cases[0]: no contradiction: a place has a negative \
+                 weight",
             ),
             ("/question/bound/places/0", json!("lost"), "question: there is no `lost`"),
         ],
@@ -116,7 +119,8 @@ fn one_place_never_changes_or_each_place_does() {
             (
                 "/evidence/one/part",
                 json!(1),
-                "evidence.one.by.refutation.cases[1]: no contradiction: a place has a negative weight",
+                "evidence.one.by.refutation.cases[1]: no contradiction: a place has a negative \
+                 weight",
             ),
             (
                 "/net/transitions/0/give/0/1",
@@ -173,7 +177,8 @@ fn what_is_no_certificate_is_told_by_line_and_column() {
     assert_eq!(error(""), "certificate: EOF while parsing a value at line 1 column 0");
     assert_eq!(
         error("{\n  \"shema\": 1}"),
-        "certificate: unknown field `shema`, expected one of `schema`, `net`, `property`, `question`, `verdict`, `evidence` at line 2 column 9"
+        "certificate: unknown field `shema`, expected one of `schema`, `net`, `property`, \
+         `question`, `verdict`, `evidence` at line 2 column 9"
     );
     let deep = format!("{{\"question\": {{\"formula\": {}", "{\"not\": ".repeat(10_000));
     assert_eq!(error(&deep), "certificate: recursion limit exceeded at line 1 column 1026");

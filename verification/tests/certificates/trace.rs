@@ -122,7 +122,8 @@ fn until_is_watched_on_the_way() {
         Certificate::of(&battery, "", question, true, Evidence::trace(&battery, &[0, 0]));
     assert_eq!(
         shown(&certificate),
-        "net battery (3 places, 3 transitions): E((1 <= full) U (2 <= empty)) is true\n  by a trace of 2 firings"
+        "net battery (3 places, 3 transitions): E((1 <= full) U (2 <= empty)) is true\n  by a \
+         trace of 2 firings"
     );
     all_refused(
         &certificate,

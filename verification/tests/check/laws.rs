@@ -95,8 +95,11 @@ fn plays_in<const W: usize>(net: &Net<'_>, steps: &[Step]) -> bool {
         match net.transitions[step.transition.0 as usize].on {
             Some(event) => {
                 let outcome = player.offer_with(now, &event.into(), &mut observer);
-                if !matches!(outcome, Outcome::Fired { transition, .. } if transition.id == step.transition)
-                {
+                let as_planned = match outcome {
+                    Outcome::Fired { transition, .. } => transition.id == step.transition,
+                    _ => false,
+                };
+                if !as_planned {
                     return false;
                 }
             }

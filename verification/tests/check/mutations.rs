@@ -4,10 +4,9 @@ use crate::nets::markings;
 use crate::oracle;
 use crate::random::Random;
 use cotama_core::net::{PlaceId, TransitionId};
-use cotama_verification::bounds::Bounds;
 use cotama_verification::certificate::{self, Certificate, verify};
 use cotama_verification::property::{Atom, Formula, Linear, Question};
-use cotama_verification::pt::{Lists, Pt};
+use cotama_verification::pt::{Bounds, Lists, Pt};
 use serde_json::{Value, json};
 
 /// What became of changed certificates.

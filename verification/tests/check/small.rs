@@ -63,7 +63,10 @@ fn run_shows(space: &Space<'_>, property: &Property, answer: &Answer) -> bool {
         let formula = formula.simplified();
         // What is said of what can be said of runs is shown in more ways than one run can tell.
         let quantified = |it: &Formula| matches!(it, Formula::Exists(_) | Formula::All(_));
-        let single = matches!(&formula, Formula::Exists(path) | Formula::All(path) if !path.any(&quantified));
+        let single = match &formula {
+            Formula::Exists(path) | Formula::All(path) => !path.any(&quantified),
+            _ => false,
+        };
         let shown = replay::shows(space, &formula, *holds, run);
         assert!(shown || !single, "{}\n{run:?}\n{:#?}", property.name, space.net);
     }

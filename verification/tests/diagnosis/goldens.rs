@@ -137,7 +137,8 @@ fn other_questions_have_their_own_words() {
     let bound = "\
 `bounds(belt_a + belt_b)`: after 3 firings `belt_a` + `belt_b` hold 4 tokens.
 `load_one` fired: it raised `belt_a` + `belt_b` to the most.
-`belt_a` + `belt_b` grew to 1 at step 1 (`load_one`), 3 at step 2 (`load_pair`) and 4 at step 3 (`load_one`).
+`belt_a` + `belt_b` grew to 1 at step 1 (`load_one`), 3 at step 2 (`load_pair`) and 4 at step 3 \
+(`load_one`).
 ";
     assert_eq!(say("bounds(belt_a + belt_b)", true, &["load_one", "load_pair", "load_one"]), bound);
     let one_safe = "\
@@ -147,13 +148,15 @@ it is so from the start.
 ";
     assert_eq!(say("one_safe", false, &[]), one_safe);
     let response = "\
-`bound(load_one -> shipped)`: `load_one` fires after 1 firing, and `shipped` is marked after 2 firings.
+`bound(load_one -> shipped)`: `load_one` fires after 1 firing, and `shipped` is marked after 2 \
+firings.
 
 
 ";
     assert_eq!(say("bound(load_one -> shipped)", true, &["load_one", "unload_b"]), response);
     let witness = "\
-`EF (shipped = 2 & crates <= 3)` holds: after 3 firings `shipped` holds 2 tokens and `crates` holds 3 tokens.
+`EF (shipped = 2 & crates <= 3)` holds: after 3 firings `shipped` holds 2 tokens and `crates` \
+holds 3 tokens.
 `unload_a` fired while `crates` held 3 tokens: it raised `shipped` from 1 to 2.
 `shipped` grew to 1 at step 2 (`unload_a`) and 2 at step 3 (`unload_a`).
 ";

@@ -22,16 +22,9 @@ use cotama_verification::temporal::{self, Verdict};
 use cotama_verification::tpn;
 use std::path::Path;
 
-/// Compares with a file of `tests/golden/diagnosis`, or writes it.
+/// Compares with a file of `tests/golden/diagnosis`.
 fn golden(file: &str, text: &str) {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/diagnosis").join(file);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(&path, text).unwrap();
-    }
-    let expected = std::fs::read_to_string(&path)
-        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    let help = "set UPDATE_GOLDEN=1 and look at the difference";
-    assert!(text == expected, "{} is out of date: {help}\n{text}", path.display());
+    cotama_golden::compare(Path::new("tests/golden/diagnosis").join(file), text);
 }
 
 fn parse(pt: &Pt, text: &str) -> Property {

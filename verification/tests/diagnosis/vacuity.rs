@@ -40,7 +40,7 @@ fn an_alternative_that_makes_no_difference_is_said() {
     let text = "AG (driving | logged | standing)";
     let Question::Formula(formula) = parse(&pt, text).question else { panic!("not a formula") };
     let words: Vec<String> = vacuous(&formula).iter().map(|it| it.words(text, &pt)).collect();
-    let second = "`AG (driving | logged | standing)` holds vacuously: `AG (driving | standing)` holds already, \
-                  so `logged` makes no difference.";
+    let second = "`AG (driving | logged | standing)` holds vacuously: `AG (driving | standing)` \
+        holds already, so `logged` makes no difference.";
     assert_eq!(words[1], second);
 }

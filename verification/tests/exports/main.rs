@@ -5,6 +5,7 @@
 
 mod nets;
 mod properties;
+mod random;
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Defect, Role, TransitionId};
@@ -55,8 +56,8 @@ fn philosophers_are_several_machines() {
     check_all("philosophers", &net);
     assert_eq!(
         refusal(&net),
-        "more than one token in the states at the start (1 in `fork_0`, 1 in `fork_1`, 1 in `fork_2`, \
-         1 in `thinks_0`, 1 in `thinks_1`, 1 in `thinks_2`): there must be exactly one"
+        "more than one token in the states at the start (1 in `fork_0`, 1 in `fork_1`, 1 in \
+         `fork_2`, 1 in `thinks_0`, 1 in `thinks_1`, 1 in `thinks_2`): there must be exactly one"
     );
 }
 
@@ -190,7 +191,8 @@ fn json_that_is_no_net_is_refused_with_the_reason() {
     );
     assert_eq!(
         json_refusal("\"priority\": 0", "\"prioriti\": 0"),
-        "line 134, column 16: unknown field `prioriti`, expected one of `name`, `doc`, `line`, `on`, `take`, `read`, `give`, `emits`, `within`, `priority`"
+        "line 134, column 16: unknown field `prioriti`, expected one of `name`, `doc`, `line`, \
+         `on`, `take`, `read`, `give`, `emits`, `within`, `priority`"
     );
     assert_eq!(json_refusal("\"initial\": 1,", ""), "line 12, column 5: missing field `initial`");
     assert_eq!(
@@ -219,11 +221,13 @@ fn json_that_is_no_net_is_refused_with_the_reason() {
     );
     assert_eq!(
         json_refusal("\"weight\": 1", "\"weight\": 0"),
-        "transition `start` has an arc of weight 0, or names a place twice in `give`, or in `take` and `read` together"
+        "transition `start` has an arc of weight 0, or names a place twice in `give`, or in `take` \
+         and `read` together"
     );
     assert_eq!(
         json_refusal("\"initial\": 1", "\"initial\": 2"),
-        "place `closed` has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
+        "place `closed` has more tokens at the start than its bound, or does not sum to the bound \
+         with the place that it complements"
     );
     assert_eq!(
         json_refusal("\"within\": null", "\"within\": { \"earliest\": 2, \"latest\": 1 }"),

@@ -31,7 +31,8 @@ fn read(file: &str) -> Result<Vec<Property>, PropertyError> {
 /// A file with one formula.
 fn file(formula: &str) -> String {
     format!(
-        "<?xml version=\"1.0\"?>\n<property-set xmlns=\"http://mcc.lip6.fr/\">\n<property><id>one</id>\n<description>?</description>\n\
+        "<?xml version=\"1.0\"?>\n<property-set xmlns=\"http://mcc.lip6.fr/\">\n<property><id>one\
+         </id>\n<description>?</description>\n\
          <formula>{formula}</formula></property>\n</property-set>\n"
     )
 }
@@ -45,29 +46,68 @@ fn written(formula: &str) -> String {
 
 #[test]
 fn every_element_is_read() {
-    let p = "<integer-le><integer-constant>1</integer-constant><tokens-count><place>p</place></tokens-count></integer-le>";
+    let p = "<integer-le><integer-constant>1</integer-constant><tokens-count><place>p</place>\
+        </tokens-count></integer-le>";
     let t = "<is-fireable><transition>t</transition></is-fireable>";
     let sum = "<tokens-count><place>p</place><place> q </place></tokens-count>";
     for (element, text) in [
         (format!("<exists-path><finally>{p}</finally></exists-path>"), "EF p"),
-        (format!("<all-paths><globally><negation>{t}</negation></globally></all-paths>"), "AG !fireable(t)"),
+        (
+            format!("<all-paths><globally><negation>{t}</negation></globally></all-paths>"),
+            "AG \
+            !fireable(t)",
+        ),
         (format!("<all-paths><next>{t}</next></all-paths>"), "AX fireable(t)"),
-        (format!("<exists-path><until><before>{p}</before><reach>{t}</reach></until></exists-path>"), "E[p U fireable(t)]"),
+        (
+            format!(
+                "<exists-path><until><before>{p}</before><reach>{t}</reach></until>\
+            </exists-path>"
+            ),
+            "E[p U fireable(t)]",
+        ),
         (format!("<all-paths><globally><finally>{p}</finally></globally></all-paths>"), "AG F p"),
         (format!("<conjunction>{p}{t}<deadlock/></conjunction>"), "p & fireable(t) & deadlock"),
         (format!("<disjunction>{p}<true/><false></false></disjunction>"), "p | true | false"),
         (format!("<conjunction>{p}</conjunction>"), "p"),
         (format!("<implication>{p}{t}</implication>"), "!p | fireable(t)"),
         (format!("<equivalence>{p}{t}</equivalence>"), "p & fireable(t) | !p & !fireable(t)"),
-        (format!("<exclusive-disjunction>{p}{t}</exclusive-disjunction>"), "!(p & fireable(t) | !p & !fireable(t))"),
-        (format!("<integer-lt>{sum}<integer-constant>3</integer-constant></integer-lt>"), "p + q <= 2"),
-        (format!("<integer-ge>{sum}<integer-constant>3</integer-constant></integer-ge>"), "p + q >= 3"),
-        (format!("<integer-gt>{sum}<integer-constant>3</integer-constant></integer-gt>"), "p + q >= 4"),
-        (format!("<integer-eq>{sum}<integer-constant>3</integer-constant></integer-eq>"), "p + q = 3"),
-        (format!("<integer-ne>{sum}<integer-constant>-3</integer-constant></integer-ne>"), "p + q + 3 != 0"),
         (
-            "<integer-le><integer-product><integer-constant>2</integer-constant><tokens-count><place>p</place></tokens-count></integer-product>\
-             <integer-difference><integer-sum><integer-constant>7</integer-constant></integer-sum><tokens-count><place>q</place></tokens-count></integer-difference></integer-le>".into(),
+            format!("<exclusive-disjunction>{p}{t}</exclusive-disjunction>"),
+            "!(p & fireable(t) | !p \
+            & !fireable(t))",
+        ),
+        (
+            format!("<integer-lt>{sum}<integer-constant>3</integer-constant></integer-lt>"),
+            "p + q \
+            <= 2",
+        ),
+        (
+            format!("<integer-ge>{sum}<integer-constant>3</integer-constant></integer-ge>"),
+            "p + q \
+            >= 3",
+        ),
+        (
+            format!("<integer-gt>{sum}<integer-constant>3</integer-constant></integer-gt>"),
+            "p + q \
+            >= 4",
+        ),
+        (
+            format!("<integer-eq>{sum}<integer-constant>3</integer-constant></integer-eq>"),
+            "p + q = \
+            3",
+        ),
+        (
+            format!("<integer-ne>{sum}<integer-constant>-3</integer-constant></integer-ne>"),
+            "p + q \
+            + 3 != 0",
+        ),
+        (
+            "<integer-le><integer-product><integer-constant>2</integer-constant><tokens-count>\
+             <place>p</place></tokens-count></integer-product>\
+             <integer-difference><integer-sum><integer-constant>7</integer-constant></integer-sum>\
+             <tokens-count><place>q</place></tokens-count></integer-difference>\
+             </integer-le>"
+                .into(),
             "2 * p + q <= 7",
         ),
         ("<place-bound><place>p</place><place>q</place></place-bound>".into(), "bounds(p + q)"),
@@ -163,7 +203,8 @@ fn broken_files_are_refused_with_their_place_and_what_to_do() {
         file("<is-fireable><transition><b>t</b></transition></is-fireable>"),
         file("<integer-le><integer-constant>1</integer-constant></integer-le>"),
         file(
-            "<integer-le><integer-constant>one</integer-constant><integer-constant>1</integer-constant></integer-le>",
+            "<integer-le><integer-constant>one</integer-constant><integer-constant>1\
+             </integer-constant></integer-le>",
         ),
         file("<integer-le><true/><integer-constant>1</integer-constant></integer-le>"),
         file("<place-bound><place>p</place><place>p</place></place-bound>"),
@@ -194,11 +235,7 @@ fn broken_files_are_refused_with_their_place_and_what_to_do() {
     let not_text =
         mcc::read("file.xml", b"<property-set>\n\xff", &net(), Ids::default()).unwrap_err();
     writeln!(said, "{not_text}").unwrap();
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/properties/files.txt");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, &said).unwrap();
-    }
-    assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said);
+    cotama_golden::compare("tests/golden/properties/files.txt", &said);
 }
 
 #[test]

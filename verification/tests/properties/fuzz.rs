@@ -152,13 +152,19 @@ const ELEMENTS: [&str; 24] = [
 
 #[test]
 fn twenty_thousand_mutated_files_are_read_or_refused() {
-    let file = "\u{feff}<?xml version=\"1.0\"?>\n<property-set xmlns=\"http://mcc.lip6.fr/\"><property><id>a</id><description>é</description>
-        <formula><all-paths><globally><disjunction><integer-le><tokens-count><place>p0</place><place>p1</place></tokens-count>
-        <integer-sum><integer-constant>3</integer-constant><integer-constant>9223372036854775804</integer-constant></integer-sum></integer-le>
-        <exists-path><until><before><true/></before><reach><is-fireable><transition>t0</transition></is-fireable></reach></until></exists-path>
+    let file = "\u{feff}<?xml version=\"1.0\"?>\n<property-set xmlns=\"http://mcc.lip6.fr/\">\
+        <property><id>a</id><description>é</description>
+        <formula><all-paths><globally><disjunction><integer-le><tokens-count><place>p0</place>\
+        <place>p1</place></tokens-count>
+        <integer-sum><integer-constant>3</integer-constant><integer-constant>9223372036854775804\
+        </integer-constant></integer-sum></integer-le>
+        <exists-path><until><before><true/></before><reach><is-fireable><transition>t0</transition>\
+        </is-fireable></reach></until></exists-path>
         </disjunction></globally></all-paths></formula></property><!-- b -->
-        <property><id>b</id><formula><place-bound><place>p0</place></place-bound></formula></property>
-        <property><id>c</id><formula><equivalence><deadlock/><negation><false></false></negation></equivalence></formula></property></property-set>";
+        <property><id>b</id><formula><place-bound><place>p0</place></place-bound></formula>\
+        </property>
+        <property><id>c</id><formula><equivalence><deadlock/><negation><false></false></negation>\
+        </equivalence></formula></property></property-set>";
     let mut random = Random(22);
     let net = net(&mut random);
     assert_eq!(mcc::read("file", file.as_bytes(), &net, Ids::default()).map(|it| it.len()), Ok(3));

@@ -284,11 +284,7 @@ fn broken_texts_are_refused_with_their_place_and_what_to_do() {
         }
         .unwrap();
     }
-    let golden = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden/properties/errors.txt");
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::write(golden, &said).unwrap();
-    }
-    assert_eq!(std::fs::read_to_string(golden).unwrap_or_default(), said);
+    cotama_golden::compare("tests/golden/properties/errors.txt", &said);
 }
 
 /// What a text of this depth becomes, on a stack of 1 MiB.
@@ -332,7 +328,8 @@ fn a_text_may_be_long_and_no_longer() {
     let error = parse(&"p".repeat(MAX_TEXT + 1), &net()).unwrap_err();
     assert_eq!(
         error.to_string(),
-        "property:1:1: the text has 1048577 bytes, more than 1048576\n  help: ask for its parts one by one"
+        "property:1:1: the text has 1048577 bytes, more than 1048576\n  help: ask for its parts \
+         one by one"
     );
 }
 

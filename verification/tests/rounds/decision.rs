@@ -26,7 +26,8 @@ pub(crate) const LOSSES: [(&str, &str); 5] = [
     ("wifi", "to.Full | to.Degraded"),
     (
         "vital",
-        "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded",
+        "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | \
+         to.Degraded",
     ),
 ];
 
@@ -55,25 +56,26 @@ pub(crate) const ASKED: [Asked; 10] = [
     Asked {
         name: "GS2",
         observers: &[],
-        always: "round -> (ls.Idle | gs.DriveA | gs.DriveB) & (ls.Idle & (gs.DriveA | gs.DriveB) -> \
-                 ls.start_drive.waiting | gs.drive_done.waiting)",
+        always: "round -> (ls.Idle | gs.DriveA | gs.DriveB) & (ls.Idle & (gs.DriveA | gs.DriveB) \
+            -> ls.start_drive.waiting | gs.drive_done.waiting)",
     },
     Asked { name: "GS4", observers: &[], always: "round & (gs.Security | gs.Safe) -> ls.Idle" },
     Asked {
         name: "LS1",
         observers: &[],
         always: "round -> ls.Idle + ls.Planning + ls.Following + ls.HandOver + ls.Teleprogrammed + \
-                 ls.Teleoperated + ls.End = 1 & pf.Off + ls.Following = 1 & to.Off + ls.Teleoperated = 1",
+                 ls.Teleoperated + ls.End = 1 & pf.Off + ls.Following = 1 & to.Off + \
+                 ls.Teleoperated = 1",
     },
     // The round of the failure is the first one, so one more is left.
     Asked { name: "LS3", observers: &[HARD, ANSWER], always: "answer <= 1" },
     Asked {
         name: "LS5",
         observers: &[],
-        always: "round & ls.End -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | \
-                 cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | \
-                 cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | ls.local_event.waiting | \
-                 gs.global_event.waiting)",
+        always: "round & ls.End -> !(cs.ambiguous.waiting | cs.camera.waiting | \
+            cs.collision.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
+            cs.slow.waiting | cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | \
+            ls.local_event.waiting | gs.global_event.waiting)",
     },
     Asked { name: "AS2", observers: &[], always: "" },
     Asked { name: "AS3", observers: &[], always: "" },
@@ -81,9 +83,9 @@ pub(crate) const ASKED: [Asked; 10] = [
     Asked {
         name: "CS4",
         observers: &[],
-        always: "turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | pf.adapt_sonar.waiting | \
-                 pf.adapt_bump.waiting) & !env.vital) & !(to.adapt_sonar.waiting & !(env.camera & env.wifi & \
-                 env.vital))",
+        always: "turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | \
+            pf.adapt_sonar.waiting | pf.adapt_bump.waiting) & !env.vital) & \
+            !(to.adapt_sonar.waiting & !(env.camera & env.wifi & env.vital))",
     },
     Asked {
         name: "CS5",

@@ -144,7 +144,8 @@ fn the_small_checker_is_convinced_of_27_requirements_at_once() {
 }
 
 #[test]
-#[ignore = "195 s of one core when compiled with --release: the small checker passes through all markings, plainly"]
+#[ignore = "195 s of one core when compiled with --release: the small checker passes through all \
+    markings, plainly"]
 fn the_small_checker_is_convinced_of_each_of_the_others() {
     let others = REQUIREMENTS.iter().filter(|it| it.asked.is_some_and(|it| !is_quick(&it)));
     let known = all_known(others, true);

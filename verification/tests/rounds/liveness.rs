@@ -16,9 +16,10 @@ const WAITS: [&str; 5] =
 
 /// No run goes on for ever in which, from some time on, no failure comes and the drive does not
 /// end: wherever neither has happened yet, one of them will.
-const ENDS: &str = "AG AF (ls.Idle | gom.vital_flag.waiting | gom.wifi_flag.waiting | gom.camera_flag.waiting | \
-    gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
-    gom.bumper_flag.waiting | gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting)";
+const ENDS: &str = "AG AF (ls.Idle | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
+    gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
+    gom.mcl_flag.waiting | gom.drift_flag.waiting | gom.bumper_flag.waiting | \
+    gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting)";
 
 fn formula(text: &str, pt: &Pt) -> Formula {
     let Question::Formula(formula) = parse(text, pt).unwrap().question else { panic!("{text}") };

@@ -22,13 +22,5 @@ mod steps;
 
 /// Compares a table with the one that is kept.
 fn golden(name: &str, text: &str) {
-    let path =
-        std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/golden/rounds").join(name);
-    if std::env::var_os("UPDATE_GOLDEN").is_some() {
-        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
-        std::fs::write(&path, text).unwrap();
-        return;
-    }
-    let stored = std::fs::read_to_string(&path).unwrap_or_default();
-    assert!(stored == text, "{name} differs; UPDATE_GOLDEN=1 writes it anew. It is now:\n{text}");
+    cotama_golden::compare(std::path::Path::new("tests/golden/rounds").join(name), text);
 }

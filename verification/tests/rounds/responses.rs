@@ -47,9 +47,9 @@ fn a_hard_failure_is_answered_after_two_rounds() {
 fn every_report_is_read_in_the_round_after_it() {
     assert_eq!(
         holds(
-            "AG (turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | \
-             cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
-             cs.vital.waiting | cs.wifi_lost.waiting))"
+            "AG (turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting \
+             | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | \
+             cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting))"
         ),
         Verdict::Holds(true)
     );

@@ -89,24 +89,37 @@ proptest! {
         let found = place_semiflows(&pt, 1_000);
         prop_assert!(found.complete);
         let all: Vec<_> = found.flows.iter().map(|it| dense(it, pt.places.len())).collect();
-        prop_assert!(all.iter().all(|it| is_flow(&rows, it) && it.iter().all(|&weight| weight >= 0)));
-        let within = |small: &[i128], large: &[i128]| small.iter().zip(large).all(|(&a, &b)| a == 0 || b > 0);
+        prop_assert!(
+            all.iter().all(|it| is_flow(&rows, it) && it.iter().all(|&weight| weight >= 0))
+        );
+        let within = |small: &[i128], large: &[i128]| {
+            small.iter().zip(large).all(|(&a, &b)| a == 0 || b > 0)
+        };
         for (at, one) in all.iter().enumerate() {
             prop_assert!(all.iter().enumerate().all(|(it, other)| it == at || !within(one, other)));
         }
         // Any flow with small weights contains one of them.
         for code in 1..4_usize.pow(pt.places.len() as u32) {
-            let flow: Vec<_> = (0..pt.places.len()).map(|at| (code >> (2 * at) & 3) as i128).collect();
+            let flow: Vec<_> =
+                (0..pt.places.len()).map(|at| (code >> (2 * at) & 3) as i128).collect();
             prop_assert!(!is_flow(&rows, &flow) || all.iter().any(|it| within(it, &flow)));
         }
         let cycles = transition_semiflows(&pt, 1_000);
         prop_assert!(cycles.complete);
-        prop_assert!(cycles.flows.iter().all(|it| is_flow(&transposed(&rows), &dense(it, pt.transitions.len()))));
+        prop_assert!(
+            cycles
+                .flows
+                .iter()
+                .all(|it| is_flow(&transposed(&rows), &dense(it, pt.transitions.len())))
+        );
         prop_assert!(cycles.flows.iter().flatten().all(|it| it.1 > 0));
     }
 
     #[test]
-    fn a_limit_on_rows_leaves_fewer_semiflows_but_no_wrong_ones(pt in any_net(), limit in 0..8_usize) {
+    fn a_limit_on_rows_leaves_fewer_semiflows_but_no_wrong_ones(
+        pt in any_net(),
+        limit in 0..8_usize,
+    ) {
         let some = place_semiflows(&pt, limit);
         let all = place_semiflows(&pt, 1_000);
         prop_assert!(some.flows.iter().all(|it| all.flows.contains(it)));

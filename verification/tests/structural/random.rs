@@ -63,7 +63,8 @@ proptest! {
             prop_assert_eq!(&bound.weights, &[(PlaceId(place as u32), 1)]);
             prop_assert!(markings.iter().all(|it| i64::from(it[place]) <= bound.at_most));
         }
-        let weights: Vec<_> = (0..).map(PlaceId).zip(weights).take(pt.places.len()).filter(|it| it.1 != 0).collect();
+        let weights: Vec<_> =
+            (0..).map(PlaceId).zip(weights).take(pt.places.len()).filter(|it| it.1 != 0).collect();
         if let Some(bound) = structure.upper_bound(&weights) {
             prop_assert!(bound.holds(&pt, structure.dead()));
             let above = Linear { constant: -bound.at_most, weights };
@@ -73,7 +74,9 @@ proptest! {
             Answer::Impossible(proof) => {
                 prop_assert!(markings.iter().flatten().all(|&it| it <= 1));
                 prop_assert_eq!(proof.len(), pt.places.len());
-                prop_assert!(proof.iter().all(|it| it.at_most <= 1 && it.holds(&pt, structure.dead())));
+                prop_assert!(
+                    proof.iter().all(|it| it.at_most <= 1 && it.holds(&pt, structure.dead()))
+                );
             }
             Answer::Reachable(trace) => prop_assert!(replay(&pt, &trace).iter().any(|&it| it > 1)),
             Answer::Unknown(_) => {}
@@ -89,7 +92,9 @@ proptest! {
                 prop_assert!(markings.iter().all(|it| enabled(&pt, it).next().is_some()));
                 prop_assert!(proof.holds(&pt, structure.dead()));
             }
-            Answer::Reachable(trace) => prop_assert!(enabled(&pt, &replay(&pt, &trace)).next().is_none()),
+            Answer::Reachable(trace) => {
+                prop_assert!(enabled(&pt, &replay(&pt, &trace)).next().is_none());
+            }
             Answer::Unknown(_) => {}
         }
     }
@@ -100,12 +105,18 @@ proptest! {
         structure.find_dead_transitions();
         prop_assert!(structure.dead().holds(&pt));
         for marking in explore(&pt, 500).0 {
-            prop_assert!(enabled(&pt, &marking).all(|it| structure.dead().can_fire(TransitionId(it))));
+            prop_assert!(
+                enabled(&pt, &marking).all(|it| structure.dead().can_fire(TransitionId(it)))
+            );
         }
     }
 
     #[test]
-    fn small_limits_are_an_answer((pt, goal) in with_goal(), work in 0..200_u64, nodes in 0..4_u32) {
+    fn small_limits_are_an_answer(
+        (pt, goal) in with_goal(),
+        work in 0..200_u64,
+        nodes in 0..4_u32,
+    ) {
         let mut structure = Structure::new(&pt, Limits { work, nodes });
         let (markings, _) = explore(&pt, 500);
         if let Answer::Impossible(proof) = structure.reach(&goal) {

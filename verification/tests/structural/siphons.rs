@@ -54,7 +54,8 @@ fn ids(places: &[PlaceId]) -> Vec<u32> {
 proptest! {
     #[test]
     fn the_greatest_ones_contain_all_others(pt in any_net(), code in 0..32_usize) {
-        let among: Vec<u32> = (0..pt.places.len() as u32).filter(|it| code >> it & 1 == 1).collect();
+        let among: Vec<u32> =
+            (0..pt.places.len() as u32).filter(|it| code >> it & 1 == 1).collect();
         let places: Vec<_> = among.iter().map(|&it| PlaceId(it)).collect();
         let siphons = union(subsets(&among).into_iter().filter(|it| is_siphon(&pt, it)));
         let traps = union(subsets(&among).into_iter().filter(|it| is_trap(&pt, it)));
@@ -69,7 +70,11 @@ proptest! {
             subsets(&all).into_iter().filter(|it| !it.is_empty() && is_siphon(&pt, it)).collect();
         let within = |small: &[u32], large: &[u32]| small.iter().all(|it| large.contains(it));
         let mut minimal: Vec<_> =
-            siphons.iter().filter(|it| !siphons.iter().any(|other| other != *it && within(other, it))).cloned().collect();
+            siphons
+                .iter()
+                .filter(|it| !siphons.iter().any(|other| other != *it && within(other, it)))
+                .cloned()
+                .collect();
         minimal.sort();
         let found = minimal_siphons(&pt, 100, 1_000_000);
         prop_assert!(found.complete);
@@ -78,12 +83,16 @@ proptest! {
         prop_assert_eq!(places, minimal);
         for siphon in &found.siphons {
             let marked = |set: &Vec<u32>| set.iter().any(|&it| pt.initial[it as usize] > 0);
-            let best = subsets(&ids(&siphon.places)).into_iter().filter(|it| is_trap(&pt, it) && marked(it));
+            let best = subsets(&ids(&siphon.places))
+                .into_iter()
+                .filter(|it| is_trap(&pt, it) && marked(it));
             match &siphon.trap {
                 None => prop_assert_eq!(best.count(), 0),
                 Some(trap) => {
                     let trap = ids(&trap.places);
-                    prop_assert!(is_trap(&pt, &trap) && marked(&trap) && within(&trap, &ids(&siphon.places)));
+                    prop_assert!(
+                        is_trap(&pt, &trap) && marked(&trap) && within(&trap, &ids(&siphon.places))
+                    );
                     prop_assert!(best.into_iter().all(|it| it == trap || !within(&it, &trap)));
                 }
             }
@@ -95,10 +104,13 @@ proptest! {
         let (markings, _) = explore(&pt, 300);
         let never = never_marked(&pt);
         prop_assert!(markings.iter().all(|it| never.iter().all(|place| it[place.0 as usize] == 0)));
-        let traps = minimal_siphons(&pt, 100, 1_000_000).siphons.into_iter().filter_map(|it| it.trap);
+        let traps =
+            minimal_siphons(&pt, 100, 1_000_000).siphons.into_iter().filter_map(|it| it.trap);
         for trap in traps {
             prop_assert!(trap.holds(&pt, |_| true));
-            prop_assert!(markings.iter().all(|it| trap.places.iter().any(|place| it[place.0 as usize] > 0)));
+            prop_assert!(
+                markings.iter().all(|it| trap.places.iter().any(|place| it[place.0 as usize] > 0))
+            );
         }
     }
 

@@ -55,7 +55,8 @@ fn what_fires_by_itself_fires_at_once() {
 #[test]
 fn a_net_goes_there_and_back() {
     let time = net(
-        "net n  tr a : {what it does} [3,8] p?2 q*3 -> r  tr b [7,w[ r ->  pl p : place (2)  pl q (9)",
+        "net n  tr a : {what it does} [3,8] p?2 q*3 -> r  tr b [7,w[ r ->  pl p : place (2)  pl q \
+         (9)",
     );
     let back = to_net(&time).unwrap();
     assert_eq!(back.view().net().defect(), None);

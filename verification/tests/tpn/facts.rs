@@ -71,10 +71,9 @@ fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
 /// with `resting` one.
 #[test]
 fn classes_that_differ_in_one_earliest_date_alone_are_told_apart() {
-    let net = net(
-        "tr step [0,1] walking -> walking  tr rest [0,1] walking -> resting  tr alarm [300000,900000] armed ->\n\
-                   pl walking (1)  pl armed (1)",
-    );
+    let net = net("tr step [0,1] walking -> walking  tr rest [0,1] walking -> resting  tr alarm \
+         [300000,900000] armed ->\n\
+                   pl walking (1)  pl armed (1)");
     let classes = tpn::classes(&net, &Limits::default());
     assert_eq!(
         (classes.classes(), classes.markings(), classes.bounded()),

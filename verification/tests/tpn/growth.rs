@@ -29,7 +29,8 @@ fn a_consumer_that_is_too_slow_is_found_out() {
 #[test]
 fn a_larger_marking_alone_proves_nothing() {
     // Two items of one lot can meet, and lots come too slowly for more.
-    let paced = "tr make [5,5] p -> p item*2  tr use [1,2] item -> done  tr clear [0,0] done*2 ->  pl p (1)";
+    let paced = "tr make [5,5] p -> p item*2  tr use [1,2] item -> done  tr clear [0,0] done*2 ->  \
+        pl p (1)";
     assert_eq!(bounded(paced), (Some(true), Some(false)));
     // The second token makes `both` urgent, which ends all growth.
     let urgent = "tr make [1,1] p -> p item  tr both [0,0] item*2 p ->  pl p (1)";
@@ -45,7 +46,8 @@ fn growth_that_time_forbids_is_no_growth() {
 #[test]
 fn what_is_not_proved_is_not_known() {
     // Each lap takes one token more than the last: nothing repeats as it was, though tokens grow.
-    let laps = "tr go [1,1] p a -> p b*2  tr turn [0,0] p b*1000000 -> q  tr back [1,1] p b -> p a  pl p (1)  pl a (1)";
+    let laps = "tr go [1,1] p a -> p b*2  tr turn [0,0] p b*1000000 -> q  tr back [1,1] p b -> p \
+        a  pl p (1)  pl a (1)";
     let net = net(laps);
     let limits = Limits { classes: 200, ..LIMITS };
     let classes = tpn::classes(&net, &limits);
@@ -56,7 +58,8 @@ fn what_is_not_proved_is_not_known() {
 #[test]
 fn a_net_that_is_bounded_without_time_is_bounded_whatever_the_limit() {
     let net = net(
-        "tr t [1,2] a -> b  tr u [3,4] a' -> b'  tr v [2,9] b -> a  tr w [1,7] b' -> a'  pl a (1)  pl a' (1)",
+        "tr t [1,2] a -> b  tr u [3,4] a' -> b'  tr v [2,9] b -> a  tr w [1,7] b' -> a'  pl a (1)  \
+         pl a' (1)",
     );
     let classes = tpn::classes(&net, &Limits { classes: 5, ..LIMITS });
     assert_eq!(

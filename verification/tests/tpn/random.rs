@@ -89,7 +89,8 @@ impl Random {
                         vec![Arc { place: PlaceId((first + at % length) as u32), weight: 1 }]
                     };
                     let interval = self.interval(open);
-                    let upper = interval.upper.or(Some(interval.lower + 2)); // without end no response has one
+                    // without end no response has one
+                    let upper = interval.upper.or(Some(interval.lower + 2));
                     transitions.push(TimeTransition {
                         interval: Interval { upper, ..interval },
                         take: arc(at),

@@ -104,7 +104,8 @@ fn limits_are_kept() {
     let refusal = |limits| read(limits).unwrap_err().to_string();
     assert_eq!(
         refusal(Limits { bytes: 10, ..usual }),
-        "n.net:1:1: the file has 32 bytes, more than 10\n  help: raise the limit, or make the net smaller"
+        "n.net:1:1: the file has 32 bytes, more than 10\n  help: raise the limit, or make the net \
+         smaller"
     );
     assert_eq!(refusal(Limits { name: 8, ..usual }), "n.net:1:4: a name is longer than 8 bytes");
     assert_eq!(
@@ -173,7 +174,8 @@ proptest! {
 
     #[test]
     fn no_text_makes_the_reader_fail_other_than_with_an_error(
-        text in "((pl|tr|net|nt|a|b|7|7K|\\{x|\\}|\\\\|:|->|[\\[\\],*?!()-]|[0-9]{1,20}|w|#|\n| |\\PC) ?){0,30}",
+        text in "((pl|tr|net|nt|a|b|7|7K|\\{x|\\}|\\\\|:|->|[\\[\\],*?!()-]|[0-9]{1,20}|w|#|\n| \
+            |\\PC) ?){0,30}",
     ) {
         if let Err(error) = tina::read("n.net", text.as_bytes()) {
             prop_assert!(error.line <= 1 + text.matches('\n').count());

@@ -23,7 +23,8 @@ fn the_start_is_measured_as_a_firing_is() {
 #[test]
 fn times_side_by_side_are_not_added() {
     let net = net(
-        "tr fork [0,0] p -> a b  tr a [1,9] a -> a'  tr b [3,4] b -> b'  tr join [0,0] a' b' -> end  pl p (1)",
+        "tr fork [0,0] p -> a b  tr a [1,9] a -> a'  tr b [3,4] b -> b'  tr join [0,0] a' b' -> \
+         end  pl p (1)",
     );
     assert_eq!(bound(&net, "fork", "end"), "3..9");
     assert_eq!(bound(&net, "a", "end"), "0..3"); // b may be behind, by less than 4 - 1
@@ -34,11 +35,13 @@ fn times_side_by_side_are_not_added() {
 fn clocks_that_run_since_before_count() {
     // The alarm is due 10 after the start, whenever the fault comes.
     let net = net(
-        "tr fault [2,7] sane -> faulty  tr look [10,10] clock faulty?1 -> alarm  pl sane (1)  pl clock (1)",
+        "tr fault [2,7] sane -> faulty  tr look [10,10] clock faulty?1 -> alarm  pl sane (1)  pl \
+         clock (1)",
     );
     assert_eq!(bound(&net, "fault", "alarm"), "10..10"); // a read arc enables it no sooner
     let polled = crate::net(
-        "tr fault [2,7] sane -> faulty  tr look [10,10] clock -> looked  tr tell [0,0] looked faulty -> alarm\n\
+        "tr fault [2,7] sane -> faulty  tr look [10,10] clock -> looked  tr tell [0,0] looked \
+         faulty -> alarm\n\
                              pl sane (1)  pl clock (1)",
     );
     assert_eq!(bound(&polled, "fault", "alarm"), "3..8");
@@ -73,7 +76,8 @@ fn a_deadlock_and_a_time_without_end_are_endless() {
 fn each_firing_starts_its_own_measurement() {
     // Asked again each 2, answered 5 after the first time asked of each lot.
     let net = net(
-        "tr ask [2,2] p n -> p  tr answer [5,5] q -> r  tr again [0,0] r -> q  pl p (1)  pl n (9)  pl q (1)",
+        "tr ask [2,2] p n -> p  tr answer [5,5] q -> r  tr again [0,0] r -> q  pl p (1)  pl n (9)  \
+         pl q (1)",
     );
     assert_eq!(bound(&net, "ask", "r"), "0..5");
 }
@@ -81,7 +85,8 @@ fn each_firing_starts_its_own_measurement() {
 #[test]
 fn a_marking_that_lasts_no_time_counts() {
     let net = net(
-        "tr go [1,1] p -> a  tr pass [0,0] a -> b  tr on [0,0] b -> c  tr end [9,9] c -> p  pl p (1)",
+        "tr go [1,1] p -> a  tr pass [0,0] a -> b  tr on [0,0] b -> c  tr end [9,9] c -> p  pl p \
+         (1)",
     );
     assert_eq!(bound(&net, "go", "b"), "0..0");
     assert_eq!(bound(&net, "pass", "a"), "10..10"); // not the one before
@@ -148,7 +153,9 @@ fn clocks_that_run_side_by_side_keep_their_distance() {
     // `on` comes one unit after `off`, which takes away what would mark the place two units after
     // `ask`.
     let net =
-        net("pl one (1)  pl two (1)  pl idle (1)  tr ask [0,10] idle -> asked  tr answer [0,2] asked -> told
-         tr off [10,10] one -> ended  tr drop [0,0] ended asked -> dropped  tr on [11,11] two -> told");
+        net("pl one (1)  pl two (1)  pl idle (1)  tr ask [0,10] idle -> asked  tr answer [0,2] \
+            asked -> told
+         tr off [10,10] one -> ended  tr drop [0,0] ended asked -> dropped  tr on [11,11] two -> \
+         told");
     assert_eq!(bound(&net, "ask", "told"), "0..3");
 }

@@ -38,11 +38,15 @@ fn open_bounds_give_fractions_as_coarse_as_they_can_be() {
     assert_eq!(dates(&integers, "a").unwrap(), "2");
     // Three firings strictly inside of one unit leave four gaps.
     let quarters = net(
-        "tr a ]0,w[ p3 -> p2  tr b ]0,w[ p2 -> p1  tr c ]0,w[ p1 -> p0  tr end [1,1] e -> f  tr d ]0,w[ p0 -> \
-                        pl p3 (1)  pl e (1)",
+        "tr a ]0,w[ p3 -> p2  tr b ]0,w[ p2 -> p1  tr c ]0,w[ p1 -> p0  tr end [1,1] e -> f  tr d \
+         ]0,w[ p0 -> pl p3 (1)  pl e (1)",
     );
     assert_eq!(dates(&quarters, "a b c end").unwrap(), "0.25 0.5 0.75 1");
-    assert_eq!(dates(&quarters, "a b c d").unwrap(), "0.25 0.5 0.75 1"); // at 1, just before the end
+    assert_eq!(
+        dates(&quarters, "a b c d").unwrap(),
+        "0.25 0.5 0.75 \
+        1"
+    ); // at 1, just before the end
 }
 
 #[test]
@@ -80,8 +84,10 @@ fn dates_that_no_integer_holds_are_said_to_be_too_large() {
 #[test]
 fn a_way_to_a_deadlock_has_dates() {
     let net = net(
-        "tr take_a [0,3] idle1 a -> has1  tr take_b [2,5] has1 b -> both1  tr back1 [1,1] both1 -> idle1 a b\n\
-                   tr take_b' [1,4] idle2 b -> has2  tr take_a' [2,5] has2 a -> both2  tr back2 [1,1] both2 -> idle2 a b\n\
+        "tr take_a [0,3] idle1 a -> has1  tr take_b [2,5] has1 b -> both1  tr back1 [1,1] both1 -> \
+         idle1 a b\n\
+                   tr take_b' [1,4] idle2 b -> has2  tr take_a' [2,5] has2 a -> both2  tr back2 \
+                   [1,1] both2 -> idle2 a b\n\
                    pl idle1 (1)  pl idle2 (1)  pl a (1)  pl b (1)",
     );
     let Reach::Reached(run) = deadlock(&net, &Limits::default()) else { panic!("no deadlock") };
@@ -99,7 +105,8 @@ fn a_way_to_a_deadlock_has_dates() {
 #[test]
 fn what_cannot_be_reached_was_looked_for_in_all_classes() {
     let net = net("tr send [0,3] client -> waiting request  tr serve [2,4] request -> answer\n\
-                   tr receive [0,1] answer waiting -> client  tr give_up [6,9] waiting -> failed  pl client (1)");
+                   tr receive [0,1] answer waiting -> client  tr give_up [6,9] waiting -> failed  \
+                   pl client (1)");
     let failed = net.place("failed").unwrap().0 as usize;
     let limits = Limits::default();
     assert_eq!(reach(&net, |it| it[failed] > 0, &limits), Reach::Unreachable { classes: 3 });
@@ -112,7 +119,8 @@ fn what_cannot_be_reached_was_looked_for_in_all_classes() {
 #[test]
 fn a_long_run_has_dates_too() {
     let net = net(
-        "tr tick [10,10] clock -> clock  tr move ]0,3[ a -> b  tr back [1,w[ b -> a  tr count [7,7] c -> c n\n\
+        "tr tick [10,10] clock -> clock  tr move ]0,3[ a -> b  tr back [1,w[ b -> a  tr count \
+         [7,7] c -> c n\n\
                    pl clock (1)  pl a (1)  pl c (1)",
     );
     let n = net.place("n").unwrap().0 as usize;

@@ -1,7 +1,7 @@
 //! What a supervised run tells its trace: what is new in [`Run`](crate::supervised::Run), round
 //! after round.
 
-use super::telling::Objective;
+use super::objective::Objective;
 use super::{CLOCKS, PERIOD, World};
 use crate::record::Recorder;
 use crate::supervised::{self, Conduct};

@@ -2,7 +2,7 @@
 //! planned with and told.
 
 use super::{CLOCKS, Failure, World};
-use crate::run;
+use crate::run::PlanCause;
 use crate::supervised::Conduct;
 use cotama_core::player::Program;
 use cotama_models::cotama::recovery::{Event, Player, State};
@@ -96,7 +96,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let named =
             |it: Module| self.mission.hardware.iter().position(|kind| kind.name == it.name());
         let hardware = left.without(before).iter().find_map(named);
-        let again = hardware.map(|hardware| run::Cause::Returned { hardware });
+        let again = hardware.map(|hardware| PlanCause::Returned { hardware });
         if again.is_some_and(|again| self.planning.plan(again, at, left).is_err()) {
             return; // the plan in force goes on
         }

@@ -2,7 +2,8 @@
 //! `smc_scan_*`).
 //!
 //! ```text
-//! cd tests/compare/read_exports && cargo run --release -- ../../../verification/tests/golden/exports/*.{jani,scxml}
+//! cd tests/compare/read_exports
+//! cargo run --release -- ../../../verification/tests/golden/exports/*.{jani,scxml}
 //! ```
 //!
 //! SCAN reads a dialect of either format. What it does not know is taken away or put in its terms

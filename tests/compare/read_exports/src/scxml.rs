@@ -99,7 +99,8 @@ impl Dialect {
                 self.events.extend(get("event"));
                 if get("target").is_none() {
                     self.changes
-                        .insert("<transition> without a target: one to its own state, so timers start again");
+                        .insert("<transition> without a target: one to its own state, so timers \
+                            start again");
                     attributes.push(("target".to_owned(), self.state.clone()));
                 }
             }

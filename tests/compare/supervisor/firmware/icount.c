@@ -3,8 +3,8 @@
  *   gcc -O2 -fPIC -shared -o libicount.so icount.c
  *   qemu-system-arm ... -plugin ./libicount.so,mark=0xADDRESS -d plugin -D COUNTS
  *
- * ADDRESS is that of a function of the image. Its first call opens a region, the second closes it and writes the number
- * of instructions between them on a line, and so on.
+ * ADDRESS is that of a function of the image. Its first call opens a region, the second closes it
+ * and writes the number of instructions between them on a line, and so on.
  *
  * Declares what it uses of plugin interface 1 itself, since Debian has no package with the header.
  */
@@ -23,7 +23,8 @@ size_t qemu_plugin_tb_n_insns(const struct qemu_plugin_tb *);
 struct qemu_plugin_insn *qemu_plugin_tb_get_insn(const struct qemu_plugin_tb *, size_t);
 uint64_t qemu_plugin_insn_vaddr(const struct qemu_plugin_insn *);
 void qemu_plugin_register_vcpu_insn_exec_inline(struct qemu_plugin_insn *, int, void *, uint64_t);
-void qemu_plugin_register_vcpu_insn_exec_cb(struct qemu_plugin_insn *, void (*)(unsigned, void *), int, void *);
+void qemu_plugin_register_vcpu_insn_exec_cb(
+    struct qemu_plugin_insn *, void (*)(unsigned, void *), int, void *);
 void qemu_plugin_outs(const char *);
 
 __attribute__((visibility("default"))) int qemu_plugin_version = 1;
@@ -56,7 +57,8 @@ static void on_translation(uint64_t id, struct qemu_plugin_tb *block)
     }
 }
 
-__attribute__((visibility("default"))) int qemu_plugin_install(uint64_t id, const void *info, int argc, char **argv)
+__attribute__((visibility("default"))) int qemu_plugin_install(
+    uint64_t id, const void *info, int argc, char **argv)
 {
     (void)info;
     for (int i = 0; i < argc; i++)

@@ -11,7 +11,8 @@ net! {
         places { Idle: 1, Planning, Following, Asking, Teleprogramming, Teleoperating, End }
         flags { camera: true, wifi: true, pending }
         events {
-            StartDrive, PathReady, GoalReached, LocalEvent, OpTeleprogram, OpTeleoperate, OpWaypoints, OpPath,
+            StartDrive, PathReady, GoalReached, LocalEvent, OpTeleprogram, OpTeleoperate,
+            OpWaypoints, OpPath,
             OpGoalReached, GsAbort, CameraLost, CameraBack, WifiLost, WifiBack, Report, ReportDone,
         }
         groups { Driving: Planning & Following & Asking & Teleprogramming & Teleoperating; }

@@ -11,7 +11,8 @@ net! {
         places { Idle: 1, Planning, Following, Asking, Teleprogramming, Teleoperating, End }
         flags { camera: true, wifi: true, pending }
         events {
-            StartDrive, PathReady, GoalReached, LocalEvent, OpTeleprogram, OpTeleoperate, OpWaypoints, OpPath,
+            StartDrive, PathReady, GoalReached, LocalEvent, OpTeleprogram, OpTeleoperate,
+            OpWaypoints, OpPath,
             OpGoalReached, GsAbort, CameraLost, CameraBack, WifiLost, WifiBack, Report, ReportDone,
         }
         groups { Driving: Planning & Following & Asking & Teleprogramming & Teleoperating; }
@@ -40,7 +41,7 @@ net! {
             ReportDone   on ReportDone [pending]:           _ => _ do pending = false;
             NoPath:                                         Planning => Asking after 10_000 ms;
             NoChoice:                                       Asking => Idle after 60_000 ms;
-            NoDrawing:                                      Teleprogramming => Asking after 300_000 ms;
+            NoDrawing:                                  Teleprogramming => Asking after 300_000 ms;
             NoDriving:                                      Teleoperating => Asking after 30_000 ms;
         }
     }

@@ -1,17 +1,18 @@
-//! The checker of certificates. This folder is all of it, in fewer than 400 lines; no engine has a
-//! part in it.
+//! The checker of certificates. This folder is all of it: fewer than 400 lines, and no engine.
 //!
 //! What it shares with the rest of the crate decides nothing about evidence: the data types of a
-//! file, their reading with numbers for names (`read.rs`), weighted sums (`sum.rs`), and the words
-//! of the answer ([`Verified`]). Here is what evidence has to show; in `truth` the firing rule,
-//! what questions mean and where formulas hold; in `refutation` proofs without markings.
+//! file, their reading with numbers for names (`read.rs`), weighted sums (`sum.rs`), the words of
+//! the answer ([`Verified`]). Here is what evidence has to show; in `truth` the firing rule, what
+//! questions mean and where formulas hold; in `refutation` proofs without markings.
 
 mod refutation;
 mod truth;
 
-use super::read::{self, Checked, Numbered, at, each, ensure, error, marking_bytes};
+use super::read::{self, Claim, Numbered, marking_bytes};
 use super::sum::Marking;
-use super::{Evidence, Formula, Growth, Question, Verified, VerifyError};
+use super::verified::{Checked, at, each, ensure, error};
+use super::{Evidence, Formula, Question, Verified, VerifyError};
+use Evidence::{Each, Graph, Growth, Lasso, One, Refutation, State, Trace};
 use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};
 use truth::Space;
 
@@ -21,92 +22,83 @@ pub(super) use refutation::Known;
 /// Checks a certificate.
 ///
 /// # Errors
-///
 /// When the text is no certificate, is beyond the limits of [this module](self), or does not show
 /// what it claims. A certificate that is refused does not show that its verdict is wrong.
 pub fn verify(text: &str) -> Result<Verified, VerifyError> {
     let read = read::certificate(text)?;
     let net = Numbered::new(&read.net).map_err(at("net"))?;
     let shown = match (&read.question, &read.evidence) {
-        (Question::Unbounded { places }, Evidence::Growth(by)) if read.verdict => {
-            net.grows(places, by)
-        }
+        (Question::Unbounded { places }, Growth(by)) if read.verdict => net.grows(places, by),
         (question, by) => {
             let formula = net.meaning(question).map_err(at("question"))?;
-            net.prove(&net.initial, &formula, read.verdict, by)
+            net.prove(&net.initial, (&formula, read.verdict), by)
         }
     };
     shown.map(|()| Verified::of(&read)).map_err(at("evidence"))
 }
 
-const MISFIT: &str = "this kind of evidence does not fit the claim";
-
-/// The operands of `a U b`, as which a path formula is read that holds, or does not: `F b` is `true
-/// U b`, and `!G b` is `F !b`. Last, whether the second one is to hold.
-fn until(path: &Formula, holds: bool) -> Checked<(Option<&Formula>, &Formula, bool)> {
-    match (path, holds) {
-        (Not(path), _) => until(path, !holds),
-        (Finally(goal), true) | (Globally(goal), false) => Ok((None, goal, holds)),
-        (Until(both), true) => Ok((Some(&both.0), &both.1, true)),
-        _ => Err(error(MISFIT)),
+/// A claim about a path as `a U b`: its `a`, unless that is `true`, and the claim `b`.
+fn until((path, truth): Claim<'_>) -> Option<(Option<&Formula>, Claim<'_>)> {
+    match (path, truth) {
+        (Not(path), _) => until((path, !truth)),
+        (Finally(goal), true) | (Globally(goal), false) => Some((None, (goal, truth))),
+        (Until(both), true) => Some((Some(&both.0), (&both.1, true))),
+        _ => None,
     }
 }
 
 impl Numbered<'_> {
-    /// That the formula has this truth at this marking, by this evidence.
-    fn prove(&self, from: &Marking, formula: &Formula, truth: bool, by: &Evidence) -> Checked<()> {
+    /// That the claim is so at this marking, by this evidence.
+    fn prove(&self, from: &Marking, claim: Claim<'_>, by: &Evidence) -> Checked<()> {
+        let (formula, truth) = claim;
+        let misfit = || error("this kind of evidence does not fit the claim");
         // Whether something is claimed of every part, marking or run; else of one.
         let every = truth == matches!(formula, And(_) | All(_) | AllNext(_));
         match (by, formula) {
             (Evidence::None, _) => Err(error("there is no evidence")),
-            (_, Not(inner)) => self.prove(from, inner, !truth, by),
-            (Evidence::State, _) => self.shows(&Space::of(from), formula, truth),
-            (Evidence::Graph(count), _) => self
-                .graph(from, *count)
-                .and_then(|it| self.shows(&it, formula, truth))
-                .map_err(at(".graph")),
-            (Evidence::Each(by), And(parts) | Or(parts)) if every => {
+            (_, Not(inner)) => self.prove(from, (inner, !truth), by),
+            (State, _) => self.shows(&Space::of(from), claim),
+            (Graph(count), _) => {
+                self.graph(from, *count).and_then(|it| self.shows(&it, claim)).map_err(at(".graph"))
+            }
+            (Each(by), And(parts) | Or(parts)) if every => {
                 let (all, claims) = (by.len(), parts.len());
-                ensure(
-                    all == claims,
-                    format_args!("there are {all} parts of evidence for {claims} claims"),
-                )?;
+                let other = format!("there are {all} parts of evidence for {claims} claims");
+                ensure(all == claims, other)?;
                 let shown =
-                    each(by.iter().zip(parts), |(by, part)| self.prove(from, part, truth, by));
+                    each(by.iter().zip(parts), |(by, it)| self.prove(from, (it, truth), by));
                 shown.map(drop).map_err(at(".each"))
             }
-            (Evidence::One(one), And(parts) | Or(parts)) if !every => {
+            (One(one), And(parts) | Or(parts)) if !every => {
                 let none = || error(format_args!("there are {} parts", parts.len()));
                 let part = parts.get(one.part).ok_or_else(none).map_err(at(".one.part"))?;
-                self.prove(from, part, truth, &one.by).map_err(at(".one.by"))
+                self.prove(from, (part, truth), &one.by).map_err(at(".one.by"))
             }
-            (Evidence::Trace(it), ExistsNext(goal) | AllNext(goal))
-                if !every && it.fire.len() == 1 =>
-            {
+            (Trace(it), ExistsNext(goal) | AllNext(goal)) if !every && it.fire.len() == 1 => {
                 let (_, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
-                self.prove(&end, goal, truth, &it.then).map_err(at(".trace.then"))
+                self.prove(&end, (goal, truth), &it.then).map_err(at(".trace.then"))
             }
-            (Evidence::Trace(it), Exists(path) | All(path)) if !every => {
-                let (first, goal, holds) = until(path, truth)?;
+            (Trace(it), Exists(path) | All(path)) if !every => {
+                let (first, goal) = until((path, truth)).ok_or_else(misfit)?;
                 let (way, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
-                let first =
-                    |at: &_| first.map_or(Ok(()), |it| self.shows(&Space::of(at), it, true));
-                each(&way, first).map_err(at(".trace.fire"))?;
-                self.prove(&end, goal, holds, &it.then).map_err(at(".trace.then"))
+                let kept = |at| first.map_or(Ok(()), |it| self.shows(&Space::of(at), (it, true)));
+                each(&way, kept).map_err(at(".trace.fire"))?;
+                self.prove(&end, goal, &it.then).map_err(at(".trace.then"))
             }
-            (Evidence::Lasso(it), Exists(path) | All(path)) if !every => {
-                self.run(from, it).and_then(|it| self.shows(&it, path, truth)).map_err(at(".lasso"))
+            (Lasso(it), Exists(path) | All(path)) if !every => {
+                let run = self.run(from, it);
+                run.and_then(|it| self.shows(&it, (path, truth))).map_err(at(".lasso"))
             }
-            (Evidence::Refutation(by), Exists(path) | All(path)) if every => {
-                let (_, goal, holds) = until(path, !truth)?;
-                self.refute(from, goal, holds, by).map_err(at(".refutation"))
+            (Refutation(by), Exists(path) | All(path)) if every => {
+                let (_, goal) = until((path, !truth)).ok_or_else(misfit)?;
+                self.refute(from, goal, by).map_err(at(".refutation"))
             }
-            _ => Err(error(MISFIT)),
+            _ => Err(misfit()),
         }
     }
 
     /// That what can be repeated takes nothing away, and adds tokens to some of these places.
-    fn grows(&self, places: &[String], by: &Growth) -> Checked<()> {
+    fn grows(&self, places: &[String], by: &super::Growth) -> Checked<()> {
         let (_, before) = self.way(&self.initial, &by.stem).map_err(at(".growth.stem"))?;
         let (_, after) = self.way(&before, &by.pump).map_err(at(".growth.pump"))?;
         let kept = before.iter().zip(&after).all(|(before, after)| before <= after);

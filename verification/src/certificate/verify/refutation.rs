@@ -1,11 +1,11 @@
 //! Proofs that no reachable marking is a goal.
 
-use super::{Checked, Marking, Numbered, at, each, ensure, error};
+use super::{Checked, Claim, Marking, Numbered, at, each, ensure, error};
+use crate::certificate::Formula::{self, And, AtMost, Not, Or};
 use crate::certificate::sum::{ONE, Sum};
-use crate::certificate::{Case, Fact, Formula, Linear, Refutation};
+use crate::certificate::{Case, Fact, Linear, Refutation};
 
-/// What is known of a marking: sums that are at most 0, and lists of which something holds, or does
-/// not.
+/// What is known of a marking: sums that are at most 0, and lists with a part of this truth.
 #[derive(Default)]
 pub(crate) struct Known<'a> {
     pub(crate) sums: Vec<Sum>,
@@ -13,22 +13,15 @@ pub(crate) struct Known<'a> {
 }
 
 impl Numbered<'_> {
-    /// That no marking reachable from this one is a goal: one where this formula holds, or does
-    /// not.
-    pub(super) fn refute(
-        &self,
-        from: &Marking,
-        goal: &Formula,
-        holds: bool,
-        by: &Refutation,
-    ) -> Checked<()> {
+    /// That no marking reachable from this one is a goal: one where the claim is so.
+    pub(super) fn refute(&self, from: &Marking, goal: Claim<'_>, by: &Refutation) -> Checked<()> {
         let dead = each(&by.dead, |it| self.transition(&it.0)).map_err(at(".dead"))?;
         let facts = each(&by.facts, |it| self.fact(from, it, &dead)).map_err(at(".facts"))?;
         let never = |(it, by): (&usize, &(String, Vec<_>))| {
-            self.close(&facts, &self.enabling(*it)?, true, &by.1)
+            self.close(&facts, (&self.enabling(*it)?, true), &by.1)
         };
         each(dead.iter().zip(&by.dead), never).map_err(at(".dead"))?;
-        self.close(&facts, goal, holds, &by.cases).map_err(at(".cases"))
+        self.close(&facts, goal, &by.cases).map_err(at(".cases"))
     }
 
     /// A fact, as a sum that is at most 0. Dead transitions break nothing.
@@ -48,27 +41,24 @@ impl Numbered<'_> {
         Ok(fact)
     }
 
-    /// That the goal does not hold, or fail to, where the facts do.
-    fn close(&self, facts: &[Sum], goal: &Formula, holds: bool, cases: &[Case]) -> Checked<()> {
+    /// That the goal is not so where the facts hold.
+    fn close(&self, facts: &[Sum], goal: Claim<'_>, cases: &[Case]) -> Checked<()> {
         let cut = |it: &Case| if let Case::Cut(it) = it { it.clone() } else { Linear::trap(&[]) };
-        let cuts: Vec<Formula> = cases.iter().map(|it| Formula::AtMost(cut(it))).collect();
+        let cuts: Vec<Formula> = cases.iter().map(|it| AtMost(cut(it))).collect();
         let mut known = Known { sums: facts.to_vec(), lists: Vec::new() };
         // What is left to refute: how much is known there, and what else is assumed.
-        let mut left = vec![(facts.len(), 0, goal, holds)];
+        let mut left = vec![(facts.len(), 0, goal)];
         for (n, case) in cases.iter().enumerate() {
-            let (sums, lists, formula, truth) =
-                left.pop().ok_or_else(|| error("there are too many"))?;
+            let (sums, lists, claim) = left.pop().ok_or_else(|| error("there are too many"))?;
             known.sums.truncate(sums);
             known.lists.truncate(lists);
-            self.assume(formula, truth, &mut known)?;
-            let here = |formula, truth| (known.sums.len(), known.lists.len(), formula, truth);
+            self.assume(claim, &mut known)?;
+            let here = |it, truth| (known.sums.len(), known.lists.len(), (it, truth));
+            let here_at = |it| at(format_args!("[{n}]"))(it);
             match case {
-                Case::Contradiction(by) => {
-                    self.contradiction(&known.sums, by).map_err(at(format!("[{n}]")))?;
-                }
+                Case::Contradiction(by) => self.contradiction(&known.sums, by).map_err(here_at)?,
                 Case::Split(or) => {
-                    let none =
-                        || at(format!("[{n}]"))(error(format_args!("there is no open `or` {or}")));
+                    let none = || here_at(error(format_args!("there is no open `or` {or}")));
                     let (parts, truth) = *known.lists.get(*or).ok_or_else(none)?;
                     left.extend(parts.iter().rev().map(|it| here(it, truth)));
                 }
@@ -80,26 +70,18 @@ impl Numbered<'_> {
     }
 
     /// Puts this with what is known; of what is not about one marking, nothing.
-    pub(crate) fn assume<'a>(
-        &self,
-        it: &'a Formula,
-        truth: bool,
-        known: &mut Known<'a>,
-    ) -> Checked<()> {
+    pub(crate) fn assume<'a>(&self, (it, truth): Claim<'a>, known: &mut Known<'a>) -> Checked<()> {
         match it {
-            Formula::AtMost(linear) => {
+            AtMost(linear) => {
                 self.hold(64 * (1 + linear.weights.len()))?;
                 let sum = self.linear(linear)?;
                 known.sums.push(if truth { sum } else { sum.opposite()? });
             }
-            Formula::Not(a) => self.assume(a, !truth, known)?,
-            Formula::And(parts) | Formula::Or(parts) => {
-                if truth == matches!(it, Formula::And(_)) || parts.len() == 1 {
-                    parts.iter().try_for_each(|it| self.assume(it, truth, known))?;
-                } else {
-                    known.lists.push((parts, truth));
-                }
+            Not(a) => self.assume((a, !truth), known)?,
+            And(parts) | Or(parts) if truth == matches!(it, And(_)) || parts.len() == 1 => {
+                parts.iter().try_for_each(|it| self.assume((it, truth), known))?;
             }
+            And(parts) | Or(parts) => known.lists.push((parts, truth)),
             _ => {}
         }
         Ok(())
@@ -115,10 +97,8 @@ impl Numbered<'_> {
             all.add((*factor).into(), sum)?;
         }
         let above = all.0.remove(&ONE) > Some(0);
-        ensure(
-            all.0.values().all(|it| *it >= 0),
-            "no contradiction: a place has a negative weight",
-        )?;
+        let negative = "no contradiction: a place has a negative weight";
+        ensure(all.0.values().all(|it| *it >= 0), negative)?;
         ensure(above, "no contradiction: the constant is not above 0")
     }
 }

@@ -1,6 +1,6 @@
 //! The firing rule, what questions mean, and where formulas hold.
 
-use super::{Checked, Marking, Numbered, at, each, ensure, error, marking_bytes};
+use super::{Checked, Claim, Marking, Numbered, at, each, ensure, error, marking_bytes};
 use crate::certificate::Formula::{self, All, AllNext, And, AtMost, Exists, ExistsNext, Fireable};
 use crate::certificate::Formula::{Finally, Globally, Next, Not, Or, Until};
 use crate::certificate::{Lasso, Question};
@@ -27,24 +27,23 @@ impl Numbered<'_> {
         let (places, transitions) = (self.net.places.iter(), self.net.transitions.iter());
         let fireable = transitions.map(|it| Fireable(vec![it.name.clone()]));
         let (always, reached) = (Formula::always, Formula::reached);
-        let (at_least, fewer) = (Formula::at_least, Formula::fewer);
+        let (at_least, at_most) = (Formula::at_least, Formula::at_most);
+        let stays = |(place, now): &(String, u32)| {
+            let (place, now) = (from_ref(place), i64::from(*now));
+            always(And(vec![at_least(now, place), at_most(now, place)]))
+        };
         self.written_out(&match question {
             Question::Formula(formula) => formula.clone(),
             Question::Bound { places, most } => {
-                // No file has enough places to hold as many tokens as do not fit.
-                let more = most.saturating_add(1);
-                And(vec![always(fewer(more, places)), reached(at_least(*most, places))])
+                And(vec![always(at_most(*most, places)), reached(at_least(*most, places))])
             }
             Question::Unbounded { .. } => return Err(error("only growth can show it")),
             Question::Live => And(fireable.map(|it| always(reached(it))).collect()),
             Question::QuasiLive => And(fireable.map(reached).collect()),
-            Question::Stable => Or(places
-                .map(|(place, now)| {
-                    let (place, now) = (from_ref(place), i64::from(*now));
-                    always(And(vec![at_least(now, place), fewer(now + 1, place)]))
-                })
-                .collect()),
-            Question::OneSafe => always(And(places.map(|it| fewer(2, from_ref(&it.0))).collect())),
+            Question::Stable => Or(places.map(stays).collect()),
+            Question::OneSafe => {
+                always(And(places.map(|it| at_most(1, from_ref(&it.0))).collect()))
+            }
         })
     }
 
@@ -58,9 +57,7 @@ impl Numbered<'_> {
     fn fire(&self, from: &Marking, transition: usize) -> Checked<Marking> {
         let ([take, give], mut after) = (&self.arcs[transition], from.clone());
         self.spend(4 * from.len() + give.len())?;
-        for (place, weight) in take {
-            after[*place] -= weight;
-        }
+        take.iter().for_each(|(place, weight)| after[*place] -= weight);
         for (place, weight) in give {
             let sum = after[*place].checked_add(*weight);
             after[*place] = sum.ok_or_else(|| error("numbers get too large"))?;
@@ -81,8 +78,7 @@ impl Numbered<'_> {
         Ok((way, now))
     }
 
-    /// The run: the last marking leads back to the end of the stem, where it stays when that is a
-    /// deadlock.
+    /// The run: the last marking leads back to the end of the stem, a deadlock to itself.
     pub(super) fn run(&self, from: &Marking, lasso: &Lasso) -> Checked<Space> {
         let (mut run, start) = self.way(from, &lasso.stem).map_err(at(".stem"))?;
         let (cycle, end) = self.way(&start, &lasso.cycle).map_err(at(".loop"))?;
@@ -119,8 +115,8 @@ impl Numbered<'_> {
         Ok(Space(Kind::Graph, markings, next))
     }
 
-    /// That a formula has this truth at the first marking, or of the run from there.
-    pub(super) fn shows(&self, space: &Space, formula: &Formula, truth: bool) -> Checked<()> {
+    /// That the claim is so at the first marking, or of the run from there.
+    pub(super) fn shows(&self, space: &Space, (formula, truth): Claim<'_>) -> Checked<()> {
         ensure(self.label(space, formula)?[0] == truth, "the opposite of what is claimed is so")
     }
 
@@ -161,26 +157,19 @@ impl Numbered<'_> {
         let (label, anywhere) = (|it| self.label(space, it), vec![true; space.1.len()]);
         match path {
             Not(path) => self.on_runs(space, path, !every).map(not),
-            Finally(a) => self.until(space, &anywhere, label(a)?, every),
-            Globally(a) => self.until(space, &anywhere, not(label(a)?), !every).map(not),
-            Until(both) => self.until(space, &label(&both.0)?, label(&both.1)?, every),
+            Finally(a) => self.until(space, [anywhere, label(a)?], every),
+            Globally(a) => self.until(space, [anywhere, not(label(a)?)], !every).map(not),
+            Until(both) => self.until(space, [label(&both.0)?, label(&both.1)?], every),
             _ => Err(error("is not of CTL")),
         }
     }
 
     /// Where the first holds until the second does, which comes: backwards from where it does.
-    fn until(
-        &self,
-        space: &Space,
-        first: &[bool],
-        mut until: Vec<bool>,
-        every: bool,
-    ) -> Checked<Vec<bool>> {
+    fn until(&self, space: &Space, both: [Vec<bool>; 2], every: bool) -> Checked<Vec<bool>> {
+        let [first, mut until] = both;
         let mut before = vec![Vec::new(); until.len()];
         for (from, next) in space.2.iter().enumerate() {
-            for to in next {
-                before[*to].push(from);
-            }
+            next.iter().for_each(|to| before[*to].push(from));
         }
         let mut open: Vec<usize> = (0..until.len()).filter(|it| until[*it]).collect();
         while let Some(to) = open.pop() {

@@ -72,34 +72,39 @@ impl fmt::Display for NotAStateMachine {
                 let tokens = tokens.join(", ");
                 write!(
                     f,
-                    "more than one token in the states at the start ({tokens}): there must be exactly one"
+                    "more than one token in the states at the start ({tokens}): there must be \
+                     exactly one"
                 )
             }
             Self::Source { transition, states } => {
                 let states = listed(states);
                 write!(
                     f,
-                    "transition `{transition}` takes or reads {states}: it must take or read exactly one"
+                    "transition `{transition}` takes or reads {states}: it must take or read \
+                     exactly one"
                 )
             }
             Self::Target { transition, from, takes: true, states } => {
                 let states = listed(states);
                 write!(
                     f,
-                    "transition `{transition}` takes `{from}` and gives {states}: it must give exactly one"
+                    "transition `{transition}` takes `{from}` and gives {states}: it must give \
+                     exactly one"
                 )
             }
             Self::Target { transition, from, takes: false, states } => {
                 let states = listed(states);
                 write!(
                     f,
-                    "transition `{transition}` reads `{from}` and gives {states}: it must take `{from}` to leave it"
+                    "transition `{transition}` reads `{from}` and gives {states}: it must take \
+                     `{from}` to leave it"
                 )
             }
             Self::Weight { transition, state } => {
                 write!(
                     f,
-                    "transition `{transition}` needs or gives more than one token of `{state}`, which is a state"
+                    "transition `{transition}` needs or gives more than one token of `{state}`, \
+                     which is a state"
                 )
             }
             Self::ComplementOf { place, of } => {
@@ -111,7 +116,8 @@ impl fmt::Display for NotAStateMachine {
             Self::Complement { transition, place } => {
                 write!(
                     f,
-                    "transition `{transition}` changes `{place}` and what it complements, but not by opposite numbers"
+                    "transition `{transition}` changes `{place}` and what it complements, but not \
+                     by opposite numbers"
                 )
             }
         }

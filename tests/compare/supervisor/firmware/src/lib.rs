@@ -3,7 +3,9 @@
 
 use core::panic::PanicInfo;
 use statig::blocking::InitializedStateMachine;
-use supervisor::{Event, Line, Outcome, Supervisor, by_hand, by_net, by_smlang, by_statig, by_timed_net};
+use supervisor::{
+    Event, Line, Outcome, Supervisor, by_hand, by_net, by_smlang, by_statig, by_timed_net,
+};
 
 macro_rules! entries {
     ($($(#[$doc:meta])* $name:ident: $supervisor:ty;)*) => {$(

@@ -1,0 +1,49 @@
+//! Golden files: texts that tests keep, and compare with what they find.
+
+use std::fs;
+use std::path::Path;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+
+/// Compares what a test found with a kept file. A relative path starts at the folder of the
+/// package, in which Cargo runs its tests.
+///
+/// With `UPDATE_GOLDEN` set the file is written first; then it is compared all the same.
+///
+/// # Panics
+/// When the file cannot be written or read, and when it differs.
+#[track_caller]
+pub fn compare(path: impl AsRef<Path>, found: &str) {
+    let path = path.as_ref();
+    let name = path.display();
+    if std::env::var_os("UPDATE_GOLDEN").is_some() {
+        write(path, found).unwrap_or_else(|error| panic!("{name}: {error}"));
+    }
+    let kept = fs::read_to_string(path)
+        .unwrap_or_else(|error| panic!("{name}: {error}; UPDATE_GOLDEN=1 writes it"));
+    if kept == found {
+        return;
+    }
+    // Behind the last line of both, only the ends of lines differ.
+    let (mut kept, mut found) = (kept.lines(), found.lines());
+    for line in 1.. {
+        let (kept, found) = (kept.next(), found.next());
+        assert!(
+            kept == found && kept.is_some(),
+            "{name} differs in line {line}; UPDATE_GOLDEN=1 writes it anew\n kept: {}\nfound: {}",
+            kept.unwrap_or("(its end)"),
+            found.unwrap_or("(its end)")
+        );
+    }
+}
+
+/// Writes a file at once: other tests may be reading it.
+fn write(path: &Path, text: &str) -> std::io::Result<()> {
+    static WRITTEN: AtomicU32 = AtomicU32::new(0);
+    if let Some(folder) = path.parent() {
+        fs::create_dir_all(folder)?;
+    }
+    let number = WRITTEN.fetch_add(1, Relaxed);
+    let new = path.with_extension(format!("{}-{number}.new", std::process::id()));
+    fs::write(&new, text)?;
+    fs::rename(new, path)
+}
