@@ -113,7 +113,7 @@ fn broken(net: &Net<'_>, graph: &Graph) -> Option<&'static str> {
     if laws::roles_are_broken(net, graph) {
         return Some("complement");
     }
-    let packed = Packed::<1, 4>::alone(net).unwrap();
+    let packed = Packed::<1, 8>::alone(net).unwrap();
     let violation = net::judge(net, &packed.code()).err()?;
     Some(match violation.culprit {
         Culprit::Forever { .. } => "settles",
