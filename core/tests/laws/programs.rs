@@ -202,6 +202,28 @@ fn what_differences_of_clocks_decide_is_told_apart() {
     }
 }
 
+/// Two timers of five seconds tick at one instant always, or never: it depends on when the second
+/// one was begun, and nothing else tells the markings of the two apart.
+#[test]
+fn what_was_decided_long_ago_is_told_apart() {
+    let mut net = net(vec![], OwnedLaw::AlwaysCan(C));
+    let mut place = |name, tokens| net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
+    let (ticking, mark, ticked) = (place("Ticking", 1), place("Mark", 0), place("Ticked", 0));
+    let period = |it: OwnedTransition| it.within(5_000, Some(5_000));
+    for transition in [
+        OwnedTransition::new("unmark").take(mark, 1).within(1, Some(1)),
+        period(step("tick", ticking, ticking).give(mark, 1)),
+        step("begin", A, B).on(GO),
+        period(step("other", B, ticked)),
+        step("hit", ticked, C).read(mark, 1),
+        step("miss", ticked, B),
+    ] {
+        net.transition(transition).unwrap();
+    }
+    let missed = Err((Culprit::Never { markings: 8 }, vec![Step::Passes(1), fires(2)]));
+    assert_eq!(verdict(&net), missed);
+}
+
 #[test]
 fn more_than_eight_clocks_are_too_many() {
     let timers = |count: u32| {
