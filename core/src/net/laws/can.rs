@@ -91,11 +91,12 @@ impl<const W: usize> Graph<W> {
             while firing != NONE {
                 let it = &self.firings[firing as usize];
                 let from = it.from as usize;
-                let group = it.group as usize;
+                let mut all = true;
                 if surely {
-                    open[group] -= 1;
+                    open[it.group as usize] -= 1;
+                    all = open[it.group as usize] == 0;
                 }
-                if open[group] == 0 && !leads[from] {
+                if all && !leads[from] {
                     leads[from] = true;
                     queue[found] = it.from;
                     found += 1;

@@ -156,11 +156,10 @@ impl<const W: usize> Graph<W> {
             let due = timed && zone.is_due();
             let mut at_once = false;
             let mut at = 0;
-            while at < moves.count {
+            // What fires at once by itself comes first, and then nothing else happens.
+            let mut end = if due { moves.at_once } else { moves.count };
+            while at < end {
                 let (by, kind) = (moves.by[at], moves.kind[at]);
-                if kind != AT_ONCE && (at_once || due) {
-                    break;
-                }
                 at += 1;
                 let after = if kind == SHARED {
                     match changed(net, code, &marking, by as usize) {
@@ -187,6 +186,7 @@ impl<const W: usize> Graph<W> {
                     if kind == AT_ONCE {
                         late = at_once;
                         at_once = true;
+                        end = moves.at_once;
                     } else {
                         late = answered[kind as usize] as usize == from;
                         answered[kind as usize] = from as u16;
@@ -211,16 +211,23 @@ impl<const W: usize> Graph<W> {
                     }
                     after
                 };
-                let fires = if timed {
+                if timed {
                     let way = Move { from, by, kind, group: self.fired };
-                    self.fire(code, cuts, moves, &way, &zone, &after)
-                } else {
-                    let to = self.reach(&after, &zone, false, (from as u16, by));
-                    self.add(&Move { from, by, kind, group: self.fired }, to)
-                };
-                if !fires {
+                    if !self.fire(code, cuts, moves, &way, &zone, &after) {
+                        return;
+                    }
+                    continue;
+                }
+                let Some(to) = self.reach(&after, &zone, false, (from as u16, by)) else { return };
+                if self.fired == FIRINGS {
+                    self.limit = Some(Limit::Moves);
                     return;
                 }
+                let group = self.fired as u16;
+                self.firings[self.fired] = Firing { from: from as u16, to, by, kind, group };
+                self.earlier[self.fired] = self.arrivals[to as usize];
+                self.arrivals[to as usize] = group;
+                self.fired += 1;
             }
             if due && !at_once {
                 self.due(code, cuts, moves, from, &zone);

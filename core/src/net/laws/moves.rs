@@ -11,7 +11,7 @@ pub(super) struct Moves {
     pub(super) kind: [u16; FIRINGS],
     pub(super) count: usize,
     /// How many fire at once by themselves.
-    at_once: usize,
+    pub(super) at_once: usize,
 }
 
 impl Moves {
