@@ -80,14 +80,14 @@
 /// | `never_both(A, B)` | never a token in both |
 /// | `reachable(A)` | some run marks it |
 /// | `always_can(A)` | from wherever the net rests, some run marks it |
-/// | `handles(all)` | wherever and whenever the net rests, every event is used or ignored on purpose |
+/// | `handles(all)` | whenever the net rests, every event is used or ignored on purpose |
 /// | `settles` | what fires by itself without time passing comes to an end; always checked |
 /// | `deadlock_free`, `deadlock_free_except(A)` | never stuck, except where `A` is marked |
 /// | `deterministic` | priorities and the order of lines never decide |
-/// | `left_to_checker` | the net is too large to be explored here: its laws are for the model checker |
+/// | `left_to_checker` | the net is too large for this: its laws are for the model checker |
 ///
-/// A net is stuck where it rests and no event and no passing of time makes a transition fire, now or
-/// ever, as long as the places it shares stay as they are. It is too large with more than 1,024
+/// A net is stuck where it rests and no event and no passing of time makes a transition fire, now
+/// or ever, as long as the places it shares stay as they are. It is too large with more than 1,024
 /// markings (those that differ in what clocks show count each), or with more than eight transitions
 /// in an interval enabled together. Bounds of places are always checked.
 ///

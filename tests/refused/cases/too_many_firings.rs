@@ -3,7 +3,10 @@ cotama_core::net! {
     pub mod meter {
         places { Idle: 1 }
         counters { seen: 0 of 1_000 }
-        events { Up0, Up1, Up2, Up3, Up4, Up5, Up6, Up7, Up8, Up9, Up10, Up11, Up12, Up13, Up14, Up15, Up16, Up17, Up18, Up19 }
+        events {
+            Up0, Up1, Up2, Up3, Up4, Up5, Up6, Up7, Up8, Up9,
+            Up10, Up11, Up12, Up13, Up14, Up15, Up16, Up17, Up18, Up19,
+        }
         transitions {
             up0 on Up0: _ => _ read Idle do seen += 1;
             up1 on Up1: _ => _ read Idle do seen += 1;

@@ -26,7 +26,8 @@ pub(super) struct Zone {
     pub(super) clocks: [u16; CLOCKS],
     /// The last millisecond of the phase of each, or [`CAPPED`], or [`DUE`].
     pub(super) until: [i64; CLOCKS],
-    /// The most by which each, or zero, exceeds each. Zero comes first; zeros for what is no number.
+    /// The most by which each, or zero, exceeds each. Zero comes first; zeros for what is no
+    /// number.
     pub(super) bounds: [[i64; SIZE]; SIZE],
 }
 
@@ -134,7 +135,8 @@ impl Zone {
         None
     }
 
-    /// Adds what is reached when time passes within the phases.
+    /// Adds what is reached when time passes within the phases. Differences stay as they are: those
+    /// of the points that were there.
     pub(super) const fn delay(&mut self) {
         let mut a = 0;
         while a < self.count {
@@ -142,27 +144,13 @@ impl Zone {
                 let mut most = self.until[a];
                 let mut b = 0;
                 while b < self.count {
-                    if b != a && self.until[b] >= 0 {
+                    if self.until[b] >= 0 {
                         let other = self.bounds[a + 1][b + 1] + self.until[b];
                         most = if other < most { other } else { most };
                     }
                     b += 1;
                 }
                 self.bounds[a + 1][0] = most;
-            }
-            a += 1;
-        }
-        let mut a = 0;
-        while a < self.count {
-            let mut b = 0;
-            while b < self.count {
-                if a != b && self.until[a] >= 0 && self.until[b] >= 0 {
-                    let other = self.bounds[a + 1][0] + self.bounds[0][b + 1];
-                    if other < self.bounds[a + 1][b + 1] {
-                        self.bounds[a + 1][b + 1] = other;
-                    }
-                }
-                b += 1;
             }
             a += 1;
         }
