@@ -23,11 +23,11 @@ cotama-core = { path = "$PWD/core" }
 TOML
 export CARGO_TARGET_DIR=$package/target
 
-# A net: its tokens in `On`, its flags and counters, its transitions, its laws. Every transition
-# reads `On`.
+# A net: its tokens in `On`, its flags and counters, its transitions, its laws, and events beyond the
+# usual ones. Every transition reads `On`.
 net() {
     echo "cotama_core::net! { pub mod measured { places { On: $1, A: 1, B, C, D, E } $2"
-    echo "events { Go, Back, Up, Down, Set, Clear } transitions { $3 } laws { $4 } } }"
+    echo "events { Go, Back, Up, Down, Set, Clear ${5:-} } transitions { $3 } laws { $4 } } }"
 }
 
 # One counter that rises: as many markings as values.
@@ -38,13 +38,26 @@ chain() {
 
 # Flags that are set and cleared, each by itself: 2^n markings.
 toggles() {
-    local flags="" lines="" flag
+    local flags="" lines="" events="" flag
     for flag in $(seq "$2"); do
         flags+="f$flag, "
-        lines+="set$flag on Set [!f$flag]: _ => _ read On do f$flag = true;"
-        lines+="clear$flag on Clear [f$flag]: _ => _ read On do f$flag = false;"
+        events+=", Set$flag, Clear$flag"
+        lines+="set$flag on Set$flag [!f$flag]: _ => _ read On do f$flag = true;"
+        lines+="clear$flag on Clear$flag [f$flag]: _ => _ read On do f$flag = false;"
     done
-    net "$1" "flags { $flags }" "$lines" "always_can(A); deadlock_free_except(A);"
+    net "$1" "flags { $flags }" "$lines" "always_can(A); deadlock_free_except(A);" "$events"
+}
+
+# Flags that are set by events and cleared after some time, each by itself: all orders of deadlines.
+timers() {
+    local flags="" lines="" events="" flag
+    for flag in $(seq "$2"); do
+        flags+="f$flag, "
+        events+=", Set$flag"
+        lines+="set$flag on Set$flag [!f$flag]: _ => _ read On do f$flag = true;"
+        lines+="clear$flag [f$flag]: _ => _ read On do f$flag = false within ${flag}_000..=${flag}_000 ms;"
+    done
+    net "$1" "flags { $flags }" "$lines" "always_can(A); deadlock_free_except(A);" "$events"
 }
 
 # A supervisor of 20 transitions: five states, two flags and a counter.
@@ -108,6 +121,10 @@ toggles 3 8
 toggles 7 128
 toggles 9 512
 toggles 10 1024
+timers 1 2
+timers 2 4
+timers 3 8
+timers 4 16
 supervisor 40 40
 supervisor 100 100
 supervisor 500 500

@@ -159,35 +159,42 @@ pub struct Ignored {
     pub place: PlaceId,
 }
 
-/// What is claimed of a net. All but [`Law::Deterministic`] speak about the net without time and
-/// priorities, that is of every order in which enabled transitions can fire; what they forbid is
-/// then forbidden in every execution.
+/// What is claimed of a net: of everything that a [`Player`](super::Player) of it can do when it is
+/// offered any event at any instant, is told the time, and other nets change the places that they
+/// share at any instant.
+///
+/// A net *rests* where nothing fires by itself now. On the way there it *passes* markings: those
+/// count as marked, but no event is offered in them. A *run* is what a player does from some
+/// instant on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law<'n> {
-    /// A weighted sum of tokens stays the same: a place invariant.
+    /// A weighted sum of tokens stays the same, also in passing: a place invariant.
     Invariant {
         /// Weights; a place that is not listed counts nothing.
         sum: &'n [Arc],
         /// The sum.
         equals: u32,
     },
-    /// Never a token in both at once.
+    /// Never a token in both at once, not even in passing.
     NeverBoth(PlaceId, PlaceId),
-    /// Some firing sequence marks it.
+    /// Some run from the start marks it, be it in passing.
     Reachable(PlaceId),
-    /// From wherever the net is, some firing sequence marks it.
+    /// From wherever the net rests, some run marks it, be it in passing.
     AlwaysCan(PlaceId),
-    /// Wherever nothing fires by itself at once, every event is answered by a transition, or by
-    /// [`Net::ignored`].
+    /// Wherever and whenever the net rests, every event makes a transition fire, or is
+    /// [ignored](Net::ignored) there on purpose: also before intervals begin and after they end.
     HandlesAll,
-    /// Transitions that fire at once and by themselves come to an end.
+    /// What fires by itself without time passing comes to an end.
     Settles,
-    /// Some transition is enabled, except where `end` is marked.
+    /// Never stuck, except where `end` is marked. A net is *stuck* where it rests and no event and
+    /// no passing of time makes a transition fire, now or ever, as long as the places it shares
+    /// stay as they are.
     DeadlockFree {
         /// Where to stop is meant.
         end: Option<PlaceId>,
     },
-    /// No two transitions of the same event, or two that fire at once by themselves, are ever
-    /// enabled together: priorities and the order of lines decide nothing.
+    /// Priorities and the order of lines decide nothing: where the net rests, no two transitions on
+    /// one event are enabled and open together; where it passes, no two without event and interval
+    /// are enabled together, and no two that are due at the same instant.
     Deterministic,
 }

@@ -70,22 +70,26 @@
 /// # Laws
 ///
 /// Compile errors where they do not hold, with the culprit and the shortest way there. They speak
-/// of the net without time and priorities (see [`Law`](crate::net::Law)), with shared places
-/// changing as they please.
+/// of all that a player can do (see [`Law`](crate::net::Law)): events come at any instant, shared
+/// places change as they please. The net *rests* where nothing fires by itself now; on the way
+/// there it passes markings, and they count as marked.
 ///
 /// | law | says |
 /// | --- | --- |
 /// | `invariant(A & B * 2 = 1)` | the weighted sum of tokens never changes |
 /// | `never_both(A, B)` | never a token in both |
-/// | `reachable(A)` | some firing sequence marks it |
-/// | `always_can(A)` | from wherever the net is, some firing sequence marks it |
-/// | `handles(all)` | every event is used or ignored on purpose, wherever the net has settled |
-/// | `settles` | transitions that fire at once by themselves come to an end; always checked |
-/// | `deadlock_free`, `deadlock_free_except(A)` | some transition is enabled, except where `A` is marked |
-/// | `deterministic` | no two transitions on the same event are enabled together |
-/// | `left_to_checker` | the net has more than 1,024 markings: it is not explored here, its laws are for the model checker |
+/// | `reachable(A)` | some run marks it |
+/// | `always_can(A)` | from wherever the net rests, some run marks it |
+/// | `handles(all)` | whenever the net rests, every event is used or ignored on purpose |
+/// | `settles` | what fires by itself without time passing comes to an end; always checked |
+/// | `deadlock_free`, `deadlock_free_except(A)` | never stuck, except where `A` is marked |
+/// | `deterministic` | priorities and the order of lines never decide |
+/// | `left_to_checker` | the net is too large for this: its laws are for the model checker |
 ///
-/// Bounds of places are always checked.
+/// A net is stuck where it rests and no event and no passing of time makes a transition fire, now
+/// or ever, as long as the places it shares stay as they are. It is too large with more than 1,024
+/// markings (those that differ in what clocks show count each), or with more than eight transitions
+/// in an interval enabled together. Bounds of places are always checked.
 ///
 /// A payload type that is called like something the module makes (`Place`, `State`, `Event`, ...)
 /// is written with its path.

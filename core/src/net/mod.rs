@@ -18,10 +18,9 @@ pub(crate) mod defect;
 #[allow(
     clippy::large_stack_arrays,
     clippy::large_types_passed_by_value,
+    clippy::result_large_err,
     reason = "they live while compiling"
 )]
-mod explore;
-#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod laws;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod lookup;
@@ -30,8 +29,6 @@ pub(crate) mod lower;
 mod macros;
 #[cfg(feature = "alloc")]
 pub mod owned;
-#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
-mod settling;
 pub(crate) mod source;
 #[cfg(all(test, feature = "alloc"))]
 mod tests;
@@ -44,5 +41,6 @@ pub use data::{
     TransitionId, Within,
 };
 pub use defect::Defect;
-pub use explore::{Graph, MARKINGS};
-pub use laws::{Known, check};
+pub use laws::{
+    CLOCKS, Culprit, Graph, Known, Limit, MARKINGS, Step, Violation, Way, check, judge,
+};

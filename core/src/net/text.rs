@@ -70,7 +70,12 @@ impl Text {
     /// Ends the compilation with this text.
     pub(crate) const fn stop(self) -> ! {
         let cut = if self.length == LIMIT { self.cut() } else { self };
-        panic!("{}", as_str(cut.bytes.split_at(cut.length).0))
+        panic!("{}", cut.as_str())
+    }
+
+    /// What it says.
+    pub(crate) const fn as_str(&self) -> &str {
+        as_str(self.bytes.split_at(self.length).0)
     }
 
     /// Ends the compilation: this name is not among those that are known.

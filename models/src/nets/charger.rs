@@ -121,7 +121,7 @@ cotama_core::net! {
             Removed in Idle;
             Recovered in Idle & Current & Voltage & Done & Fault;
             Reached in Idle & Precharge & Voltage & Done & Fault;
-            Tapered in Idle & Precharge & Current & Done & Fault;
+            Tapered in Idle & Precharge & Current & Voltage & Done & Fault;
             Sagged in Idle & Precharge & Current & Voltage & Fault & hot;
             Overheated in hot;
             Cooled in Idle & Precharge & Current & Voltage & Done & Fault;

@@ -6,19 +6,29 @@ use cotama_core::net::{EventId, Law, Net, PlaceId, Role, Transition};
 /// The first law that does not hold, by its name. What roles say and that the net settles belongs
 /// to the laws.
 pub(crate) fn broken(net: &Net<'_>, graph: &Graph) -> Option<&'static str> {
+    if roles_are_broken(net, graph) {
+        return Some("complement");
+    }
+    if !net.events.is_empty() && graph.longest_settling(net).is_none() {
+        return Some("settles");
+    }
+    net.laws.iter().find(|law| !holds(net, graph, law)).map(name)
+}
+
+/// Whether some complement is none.
+pub(crate) fn roles_are_broken(net: &Net<'_>, graph: &Graph) -> bool {
     let roles = |marking: &Marking| {
         net.places.iter().zip(marking).all(|(place, tokens)| match place.role {
             Role::Complement(of) => marking[of.0 as usize] + tokens == place.bound,
             _ => true,
         })
     };
-    if !graph.markings.iter().all(roles) {
-        return Some("complement");
-    }
-    if !net.events.is_empty() && graph.longest_settling(net).is_none() {
-        return Some("settles");
-    }
-    net.laws.iter().find(|law| !holds(net, graph, law)).map(|law| match law {
+    !graph.markings.iter().all(roles)
+}
+
+/// What a law is called.
+pub(crate) fn name(law: &Law<'_>) -> &'static str {
+    match law {
         Law::Invariant { .. } => "invariant",
         Law::NeverBoth(..) => "never_both",
         Law::Reachable(_) => "reachable",
@@ -27,7 +37,7 @@ pub(crate) fn broken(net: &Net<'_>, graph: &Graph) -> Option<&'static str> {
         Law::Settles => "settles",
         Law::DeadlockFree { .. } => "deadlock_free",
         Law::Deterministic => "deterministic",
-    })
+    }
 }
 
 fn holds(net: &Net<'_>, graph: &Graph, law: &Law<'_>) -> bool {

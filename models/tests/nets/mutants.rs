@@ -10,7 +10,8 @@ use crate::matrix::matrix;
 use crate::textbook::{Graph, Trouble, explore};
 use crate::{golden, laws};
 use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{MARKINGS, Net, Role};
+use cotama_core::net::{self, Culprit, MARKINGS, Net, Role};
+use cotama_core::player::Packed;
 use cotama_models::nets::{ace, charger, crossing, door, watchdog};
 use std::collections::{BTreeMap, HashSet};
 use std::fmt::Write;
@@ -107,6 +108,19 @@ fn list(text: &mut String, mistakes: &Mistakes<'_>) {
     }
 }
 
+/// What is wrong with the roles of places, or the law that `net!` would refuse.
+fn broken(net: &Net<'_>, graph: &Graph) -> Option<&'static str> {
+    if laws::roles_are_broken(net, graph) {
+        return Some("complement");
+    }
+    let packed = Packed::<1, 8>::alone(net).unwrap();
+    let violation = net::judge(net, &packed.code()).err()?;
+    Some(match violation.culprit {
+        Culprit::Forever { .. } => "settles",
+        _ => laws::name(&violation.law?),
+    })
+}
+
 /// How many mutants there are, and how many of them the laws catch, are equivalent, are seen in the
 /// table, and survive.
 type Verdict = (usize, usize, usize, usize, usize);
@@ -114,7 +128,7 @@ type Verdict = (usize, usize, usize, usize, usize);
 /// Makes all mutants and writes down what becomes of them. `survive` says why some may.
 fn judge(net: &Net<'_>, survive: &str) -> Verdict {
     let right = explore(net, MARKINGS).unwrap();
-    assert_eq!(laws::broken(net, &right), None);
+    assert_eq!(broken(net, &right), None);
     let (table, right) = (matrix(net, &right), firings(net, &right));
     let mutants = mutants(net);
     let (mut caught, mut seen) = (Mistakes::new(), BTreeMap::<Kind, Mistakes<'_>>::new());
@@ -126,7 +140,7 @@ fn judge(net: &Net<'_>, survive: &str) -> Verdict {
             (Some(_), _) => caught.entry("definition"),
             (_, Err(Trouble::Bound)) => caught.entry("bound"),
             (_, Err(Trouble::TooMany)) => caught.entry("size"),
-            (_, Ok(graph)) => match laws::broken(&wrong, &graph) {
+            (_, Ok(graph)) => match broken(&wrong, &graph) {
                 Some(law) => caught.entry(law),
                 None if firings(&wrong, &graph) == right => equivalent.entry(what),
                 None if matrix(&wrong, &graph) != table => {
@@ -190,7 +204,7 @@ fn mistakes_in_the_request() {
 #[test]
 fn mistakes_in_the_selection() {
     let rounds = "they matter in synchronous rounds only: between events the check takes no time";
-    assert_eq!(judge(&ace::selection::NET, rounds), (1_848, 1_697, 35, 96, 20));
+    assert_eq!(judge(&ace::selection::NET, rounds), (1_848, 1_637, 35, 96, 80));
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The token game as textbooks have it: a marking is a list of numbers, nothing is packed, nothing
 //! is clever.
 
-use cotama_core::net::{Arc, Net, Role, Transition};
+use cotama_core::net::{Arc, EventId, Net, Role, Transition};
 use std::collections::HashMap;
 
 /// Tokens of each place.
@@ -62,16 +62,42 @@ pub(crate) fn first<'n>(
     all.min_by_key(|(at, it)| (core::cmp::Reverse(it.priority), *at))
 }
 
+/// In any order.
 pub(crate) fn explore(net: &Net<'_>, most: usize) -> Result<Graph, Trouble> {
+    explore_by(net, most, |marking| {
+        (0..net.transitions.len()).filter(|&at| enabled(&net.transitions[at], marking)).collect()
+    })
+}
+
+/// As it is played: what fires at once by itself goes first, and of several the first one. Every
+/// interval is taken to be open some time.
+pub(crate) fn explore_played(net: &Net<'_>, most: usize) -> Result<Graph, Trouble> {
+    explore_by(net, most, |marking| {
+        if let Some((at, _)) = first(net, |it| immediate(it) && enabled(it, marking)) {
+            return vec![at];
+        }
+        let on = |event| first(net, move |it| it.on == Some(event) && enabled(it, marking));
+        let events = (0..net.events.len() as u32).filter_map(|it| Some(on(EventId(it))?.0));
+        let timed = net.transitions.iter().enumerate();
+        let timed = timed.filter(|(_, it)| it.on.is_none() && enabled(it, marking));
+        let mut fires: Vec<usize> = events.chain(timed.map(|(at, _)| at)).collect();
+        fires.sort_unstable();
+        fires
+    })
+}
+
+fn explore_by(
+    net: &Net<'_>,
+    most: usize,
+    fires: impl Fn(&Marking) -> Vec<usize>,
+) -> Result<Graph, Trouble> {
     let start: Marking = net.places.iter().map(|place| place.initial).collect();
     let mut numbers = HashMap::from([(start.clone(), 0)]);
     let mut graph = Graph { markings: vec![start], firings: vec![] };
     while let Some(marking) = graph.markings.get(graph.firings.len()).cloned() {
         let mut firings = vec![];
-        for (at, transition) in
-            net.transitions.iter().enumerate().filter(|(_, it)| enabled(it, &marking))
-        {
-            let after = fired(transition, &marking);
+        for at in fires(&marking) {
+            let after = fired(&net.transitions[at], &marking);
             if after.iter().zip(net.places).any(|(&tokens, place)| tokens > place.bound) {
                 return Err(Trouble::Bound);
             }

@@ -4,19 +4,19 @@ cotama_core::net! {
     pub mod lamps {
         places { Idle: 1 }
         flags { a, b, c, d, e, f, g, h, i, j, k }
-        events { Press }
+        events { A, B, C, D, E, F, G, H, I, J, K }
         transitions {
-            a on Press [!a]: _ => _ read Idle do a = true;
-            b on Press [!b]: _ => _ read Idle do b = true;
-            c on Press [!c]: _ => _ read Idle do c = true;
-            d on Press [!d]: _ => _ read Idle do d = true;
-            e on Press [!e]: _ => _ read Idle do e = true;
-            f on Press [!f]: _ => _ read Idle do f = true;
-            g on Press [!g]: _ => _ read Idle do g = true;
-            h on Press [!h]: _ => _ read Idle do h = true;
-            i on Press [!i]: _ => _ read Idle do i = true;
-            j on Press [!j]: _ => _ read Idle do j = true;
-            k on Press [!k]: _ => _ read Idle do k = true;
+            a on A [!a]: _ => _ read Idle do a = true;
+            b on B [!b]: _ => _ read Idle do b = true;
+            c on C [!c]: _ => _ read Idle do c = true;
+            d on D [!d]: _ => _ read Idle do d = true;
+            e on E [!e]: _ => _ read Idle do e = true;
+            f on F [!f]: _ => _ read Idle do f = true;
+            g on G [!g]: _ => _ read Idle do g = true;
+            h on H [!h]: _ => _ read Idle do h = true;
+            i on I [!i]: _ => _ read Idle do i = true;
+            j on J [!j]: _ => _ read Idle do j = true;
+            k on K [!k]: _ => _ read Idle do k = true;
         }
         laws { left_to_checker; }
     }

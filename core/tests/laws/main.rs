@@ -1,0 +1,11 @@
+//! Laws speak of what the player does: their verdicts against an explorer that calls the player
+//! itself, and the programs that once were judged wrongly.
+#![cfg(feature = "alloc")]
+
+mod against_the_player;
+mod by_the_player;
+#[path = "../common/draw.rs"]
+#[allow(unreachable_pub)] // the tests across the crates read it too
+mod draw;
+mod programs;
+mod random;

@@ -1,0 +1,240 @@
+//! Programs whose laws were once judged by a token game that no player plays.
+
+use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{
+    Culprit, EventId, Graph, Ignored, Known, Limit, PlaceId, Step, TransitionId, Way, judge,
+};
+use cotama_core::player::{Outcome, Packed, Player, Why};
+use cotama_core::system::{Component, Of, System};
+use cotama_core::units::Millis;
+
+const A: PlaceId = PlaceId(0);
+const B: PlaceId = PlaceId(1);
+const C: PlaceId = PlaceId(2);
+const GO: EventId = EventId(0);
+const BACK: EventId = EventId(1);
+
+/// Places `A` (marked), `B`, `C`, events `go` and `back`.
+fn net(transitions: Vec<OwnedTransition>, law: OwnedLaw) -> OwnedNet {
+    let mut net = OwnedNet::new("program", "");
+    for (name, tokens) in [("A", 1), ("B", 0), ("C", 0)] {
+        net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
+    }
+    for name in ["go", "back"] {
+        net.event(name, "").unwrap();
+    }
+    for transition in transitions {
+        net.transition(transition).unwrap();
+    }
+    net.laws.push(law);
+    net
+}
+
+fn step(name: &str, from: PlaceId, to: PlaceId) -> OwnedTransition {
+    OwnedTransition::new(name).take(from, 1).give(to, 1)
+}
+
+/// What is wrong, and the way there.
+fn verdict(net: &OwnedNet) -> Result<Known, (Culprit, Vec<Step>)> {
+    let view = net.view();
+    let packed = Packed::<1, 9>::alone(&view.net()).unwrap();
+    let violation = judge(&view.net(), &packed.code());
+    violation.map_err(|it| (it.culprit, Way::steps(&it.way).to_vec()))
+}
+
+fn fires(at: u32) -> Step {
+    Step::Fires(TransitionId(at))
+}
+
+/// `A => B within 0..=100 ms` on `go`.
+fn window(law: OwnedLaw) -> OwnedNet {
+    net(vec![step("ab", A, B).on(GO).within(0, Some(100)), step("ba", B, A).on(BACK)], law)
+}
+
+#[test]
+fn a_window_that_closes_is_a_dead_end() {
+    let net = window(OwnedLaw::DeadlockFree { end: None });
+    let view = net.view();
+    let packed = Packed::<1, 1>::alone(&view.net()).unwrap();
+    let (plain, go) = (view.net(), Of { component: 0, id: GO });
+    let alone = [Component::alone(&plain)];
+    let program = packed.load(&System::alone(&alone));
+    let mut player = Player::<_, 1, 1>::start(program, Millis(0), &mut ());
+    let late = Why::TooLate(Of { component: 0, id: TransitionId(0) });
+    assert_eq!(player.offer(Millis(101), &go), Outcome::Ignored { why: late });
+
+    let stuck = Culprit::Stuck { closed: Some(TransitionId(0)) };
+    assert_eq!(verdict(&net), Err((stuck, vec![Step::Passes(101)])));
+    let can = window(OwnedLaw::AlwaysCan(B));
+    assert_eq!(verdict(&can), Err((Culprit::Never { markings: 2 }, vec![Step::Passes(101)])));
+    let mut handles = window(OwnedLaw::HandlesAll);
+    handles.ignored = vec![ignored(BACK, A), ignored(GO, B)];
+    let unanswered = Culprit::Unanswered { event: GO, closed: Some(TransitionId(0)) };
+    assert_eq!(verdict(&handles), Err((unanswered, vec![Step::Passes(101)])));
+    handles.ignored.push(ignored(GO, A));
+    assert_eq!(verdict(&handles), Ok(Known::Explored { markings: 2, firings: 2, settle: 0 }));
+}
+
+fn ignored(event: EventId, place: PlaceId) -> Ignored {
+    Ignored { event, place }
+}
+
+#[test]
+fn nothing_happens_where_the_net_does_not_rest() {
+    let hidden = |law| {
+        let leaves = step("leaves", B, A);
+        net(vec![step("ab", A, B).on(GO), leaves, step("bc", B, C).on(BACK)], law)
+    };
+    for law in [OwnedLaw::Reachable(C), OwnedLaw::AlwaysCan(C)] {
+        let (culprit, way) = verdict(&hidden(law)).unwrap_err();
+        assert_eq!((culprit, way), (Culprit::Never { markings: 2 }, vec![]));
+    }
+    // In passing it is marked.
+    for law in [OwnedLaw::Reachable(B), OwnedLaw::AlwaysCan(B)] {
+        assert_eq!(
+            verdict(&hidden(law)),
+            Ok(Known::Explored { markings: 2, firings: 2, settle: 1 })
+        );
+    }
+    let both = |law| {
+        let splits = OwnedTransition::new("splits").on(GO).take(A, 1).give(B, 1).give(C, 1);
+        let joins = OwnedTransition::new("joins").take(B, 1).take(C, 1).give(A, 1);
+        net(vec![splits, joins], law)
+    };
+    let refuted = Err((Culprit::Both, vec![fires(0)]));
+    assert_eq!(verdict(&both(OwnedLaw::NeverBoth(B, C))), refuted);
+}
+
+#[test]
+fn the_highest_priority_fires_and_no_other() {
+    let prefers = |priority| {
+        let high = OwnedTransition { priority, ..step("ac", A, C).on(GO) };
+        net(vec![step("ab", A, B).on(GO), high], OwnedLaw::Reachable(B))
+    };
+    assert_eq!(verdict(&prefers(1)), Err((Culprit::Never { markings: 2 }, vec![])));
+    assert_eq!(verdict(&prefers(0)), Ok(Known::Explored { markings: 2, firings: 1, settle: 0 }));
+}
+
+#[test]
+fn two_timers_of_one_instant_are_told_apart_by_their_lines() {
+    let timers = |ms, law| {
+        let slow = step("ac", A, C).within(ms, Some(ms));
+        net(vec![step("ab", A, B).within(5, Some(5)), slow], law)
+    };
+    let together = Culprit::Together { first: TransitionId(0), second: TransitionId(1) };
+    let refuted = Err((together, vec![Step::Passes(5)]));
+    assert_eq!(verdict(&timers(5, OwnedLaw::Deterministic)), refuted);
+    assert!(verdict(&timers(6, OwnedLaw::Deterministic)).is_ok());
+    assert!(verdict(&timers(6, OwnedLaw::Reachable(B))).is_ok());
+    assert!(verdict(&timers(4, OwnedLaw::Reachable(B))).is_err());
+}
+
+#[test]
+fn a_loop_in_no_time_is_found() {
+    let blinks = |ms| {
+        let back = step("ba", B, A).within(ms, Some(ms));
+        net(vec![step("ab", A, B).within(0, Some(0)), back], OwnedLaw::Settles)
+    };
+    let forever = Culprit::Forever { repeats: 2 };
+    assert_eq!(verdict(&blinks(0)), Err((forever, vec![fires(0), fires(1)])));
+    assert!(verdict(&blinks(1)).is_ok());
+}
+
+/// Two timers of some seconds that are started by events: all their differences are possible.
+#[test]
+fn timers_of_seconds_need_few_classes() {
+    let mut net = OwnedNet::new("timers", "");
+    for name in ["A", "B", "C", "a", "b", "c"] {
+        let tokens = u32::from(matches!(name, "A" | "a"));
+        net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
+    }
+    for name in ["go", "back", "Go", "Back"] {
+        net.event(name, "").unwrap();
+    }
+    for (at, long) in [(0, 5_000), (3, 3_000)] {
+        let (idle, runs, over) = (PlaceId(at), PlaceId(at + 1), PlaceId(at + 2));
+        let on = |it: u32| EventId(2 * at / 3 + it);
+        for transition in [
+            step("start", idle, runs).on(on(0)),
+            step("ends", runs, over).within(long, Some(long)),
+            step("stop", runs, idle).on(on(1)).within(50, Some(long - 50)),
+            step("again", over, idle).on(on(1)),
+        ] {
+            net.transition(transition).unwrap();
+        }
+        for place in [idle, runs, over] {
+            net.laws.push(OwnedLaw::AlwaysCan(place));
+        }
+    }
+    assert_eq!(verdict(&net), Ok(Known::Explored { markings: 9, firings: 24, settle: 0 }));
+    let view = net.view();
+    let packed = Packed::<1, 4>::alone(&view.net()).unwrap();
+    let graph = Graph::of(&view.net(), &packed.code());
+    assert!(graph.classes() < 100, "{}", graph.classes());
+}
+
+/// A job takes some time and is aborted every five seconds: whether it can end depends on when it
+/// was begun, so on a difference of two clocks.
+#[test]
+fn what_differences_of_clocks_decide_is_told_apart() {
+    let job = |long, aborts: &str| {
+        let mut net = net(vec![], OwnedLaw::AlwaysCan(C));
+        let waits = net.place(OwnedPlace::new("Waits", 1).at_most(1)).unwrap();
+        let over = net.place(OwnedPlace::new("Over", 0).at_most(1)).unwrap();
+        let ends = step("ends", B, C).within(long, Some(long));
+        let tick = step("tick", waits, over).within(5_000, Some(5_000));
+        let order = if aborts == "first" { [tick, ends] } else { [ends, tick] };
+        let abort = step("abort", B, A).take(over, 1).give(waits, 1);
+        let others = [abort, step("renew", over, waits), step("go", A, B).on(GO)];
+        for transition in order.into_iter().chain(others) {
+            net.transition(transition).unwrap();
+        }
+        net.transition(step("back", C, A).on(BACK)).unwrap();
+        net
+    };
+    for long in [3_000, 4_999] {
+        assert!(verdict(&job(long, "first")).is_ok());
+    }
+    // Begun at the instant of a tick it ends at that of the next one.
+    assert!(verdict(&job(5_000, "then")).is_ok());
+    for net in [job(5_000, "first"), job(5_001, "then")] {
+        assert_eq!(verdict(&net), Err((Culprit::Never { markings: 4 }, vec![])));
+    }
+}
+
+/// Two timers of five seconds tick at one instant always, or never: it depends on when the second
+/// one was begun, and nothing else tells the markings of the two apart.
+#[test]
+fn what_was_decided_long_ago_is_told_apart() {
+    let mut net = net(vec![], OwnedLaw::AlwaysCan(C));
+    let mut place = |name, tokens| net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
+    let (ticking, mark, ticked) = (place("Ticking", 1), place("Mark", 0), place("Ticked", 0));
+    let period = |it: OwnedTransition| it.within(5_000, Some(5_000));
+    for transition in [
+        OwnedTransition::new("unmark").take(mark, 1).within(1, Some(1)),
+        period(step("tick", ticking, ticking).give(mark, 1)),
+        step("begin", A, B).on(GO),
+        period(step("other", B, ticked)),
+        step("hit", ticked, C).read(mark, 1),
+        step("miss", ticked, B),
+    ] {
+        net.transition(transition).unwrap();
+    }
+    let missed = Err((Culprit::Never { markings: 8 }, vec![Step::Passes(1), fires(2)]));
+    assert_eq!(verdict(&net), missed);
+}
+
+#[test]
+fn more_than_eight_clocks_are_too_many() {
+    let timers = |count: u32| {
+        let mut net = OwnedNet::new("timers", "");
+        for at in 0..count {
+            let place = net.place(OwnedPlace::new(&format!("P{at}"), 1).at_most(1)).unwrap();
+            let timer = OwnedTransition::new(&format!("t{at}")).take(place, 1);
+            net.transition(timer.within(at, Some(at))).unwrap();
+        }
+        net
+    };
+    assert!(verdict(&timers(8)).is_ok());
+    assert_eq!(verdict(&timers(9)), Err((Culprit::TooLarge(Limit::Clocks), vec![])));
+}

@@ -1,0 +1,14 @@
+//! After 100 ms it never goes.
+cotama_core::net! {
+    /// A robot that may be sent for a while.
+    pub mod errand {
+        places { Waiting: 1, Gone }
+        events { Go, Back }
+        transitions {
+            go on Go: Waiting => Gone within 0..=100 ms;
+            back on Back: Gone => Waiting;
+        }
+        ignore { Go in Gone; Back in Waiting; }
+        laws { always_can(Gone); }
+    }
+}

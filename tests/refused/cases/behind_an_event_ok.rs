@@ -1,0 +1,15 @@
+//! In Asking it rests until an event comes.
+cotama_core::net! {
+    /// A robot that asks, and does not wait for the answer.
+    pub mod ask {
+        places { Idle: 1, Asking, Told }
+        events { Ask, Answer, Thanks, Retry }
+        transitions {
+            ask on Ask: Idle => Asking;
+            give_up on Retry: Asking => Idle;
+            hear on Answer: Asking => Told;
+            thank on Thanks: Told => Idle;
+        }
+        laws { reachable(Told); always_can(Told); }
+    }
+}

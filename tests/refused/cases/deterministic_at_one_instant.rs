@@ -1,0 +1,15 @@
+//! Both timers are due at 5 ms.
+cotama_core::net! {
+    /// A lamp with two timers.
+    pub mod lamp {
+        places { Off: 1, Dim, Bright }
+        events { Press, Release }
+        transitions {
+            press on Press: Off => Dim;
+            brighten: Dim => Bright within 5..=5 ms;
+            fade: Dim => Off within 5..=5 ms;
+            release on Release: Bright => Off;
+        }
+        laws { deterministic; }
+    }
+}

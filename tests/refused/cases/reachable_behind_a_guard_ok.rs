@@ -1,0 +1,16 @@
+//! The way of the higher priority is taken when it is blocked.
+cotama_core::net! {
+    /// A robot that prefers one way.
+    pub mod choice {
+        places { Fork: 1, Left, Right }
+        flags { blocked }
+        events { Go, Block, Clear }
+        transitions {
+            left on Go: Fork => Left priority 1;
+            right on Go [blocked]: Fork => Right priority 2;
+            home on Clear: Left => Fork;
+            block on Block [!blocked]: _ => _ do blocked = true;
+        }
+        laws { reachable(Left); reachable(Right); }
+    }
+}

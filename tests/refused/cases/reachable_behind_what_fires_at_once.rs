@@ -1,0 +1,15 @@
+//! In Asking it is never at rest, so no answer is heard.
+cotama_core::net! {
+    /// A robot that asks, and does not wait for the answer.
+    pub mod ask {
+        places { Idle: 1, Asking, Told }
+        events { Ask, Answer, Thanks, Retry }
+        transitions {
+            ask on Ask: Idle => Asking;
+            give_up: Asking => Idle;
+            hear on Answer: Asking => Told;
+            thank on Thanks: Told => Idle;
+        }
+        laws { reachable(Told); }
+    }
+}
