@@ -53,14 +53,68 @@
 ///
 /// | section | item | meaning |
 /// | --- | --- | --- |
-/// | `nets` | `gs: global` | a net by the name of its module, in the order of turns |
+/// | `nets` | `gs: global`, `pf: nets::path` | a net by its module, in the order of turns |
 /// | `links` | `gs.start => ls.start mail 1;` | the output `start` of `gs` waits in a mailbox for the turn of `ls` |
 /// | | `gs.abort => ls.abort & es.abort now;` | a rendezvous, here with two nets: a broadcast |
 /// | `shared` | `ls.camera & cs.camera = env.camera;` | whose place a shared place is |
 /// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
 /// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
 ///
-/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the enums `Event`, `Place`, `Output`
+/// # A system with more
+///
+/// `extends` makes a system that is another one with more nets, links and shared places. `instead`
+/// comes before `nets` and puts another net where one stands. The rest is as for
+/// [`net!`](crate::net!#a-net-with-more).
+///
+/// ```
+/// use cotama_core::{net, system};
+///
+/// net! {
+///     pub mod button {
+///         places { Free: 1 }
+///         events { press }
+///         outputs { pressed }
+///         transitions { press on press: Free => Free emit pressed; }
+///     }
+/// }
+/// net! {
+///     pub mod lamp {
+///         places { Off: 1, On }
+///         events { toggle }
+///         transitions { on on toggle: Off => On; off on toggle: On => Off; }
+///     }
+/// }
+/// net! {
+///     pub mod dimmer extends lamp {
+///         places { Dim }
+///         instead { on on toggle: Off => Dim; }
+///         transitions { bright on toggle: Dim => On; }
+///     }
+/// }
+/// const PRESSES: u16 = 2;
+/// system! {
+///     pub mod room {
+///         nets { button: button, lamp: lamp }
+///         links { button.pressed => lamp.toggle mail PRESSES; }
+///     }
+/// }
+/// system! {
+///     pub mod hall extends room {
+///         instead { lamp: dimmer }
+///         nets { other: button }
+///         links { other.pressed => lamp.toggle mail PRESSES; }
+///     }
+/// }
+///
+/// fn main() {
+///     assert_eq!(hall::SYSTEM.components[1].net.name, "dimmer");
+///     assert_eq!(hall::SYSTEM.links.len(), 2);
+/// }
+/// ```
+///
+/// # What it makes
+///
+/// A module with `SYSTEM` (the plain data), `SIZE`, the enums `Event`, `Place`, `Output`
 /// and `Transition` with a variant for each net, the functions `state::NET`, the types `Program`,
 /// `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M` along.
 #[macro_export]
