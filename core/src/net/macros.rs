@@ -183,12 +183,8 @@ macro_rules! net {
                             &[$( !!($priority) as i128, )? 0],
                         ),
                     }, )*],
-                    ignored: &[$( $( $(
-                        (stringify!($ignored), stringify!($ignored_in)),
-                    )+ )* )?],
-                    laws: &[$( $( $crate::__net_claim!(
-                        ($name) $law $(( $($law_of)* ))?
-                    ), )* )?],
+                    ignored: &[$( $( $( (stringify!($ignored), stringify!($ignored_in)), )+ )* )?],
+                    laws: &[$( $( $crate::__net_claim!(($name) $law $(( $($law_of)* ))?), )* )?],
                 }
             );
         }

@@ -169,6 +169,8 @@ fn fault(defect: Defect) -> &'static str {
             "has more tokens at the start than its bound, or does not sum to the bound with the place that it complements"
         }
         Defect::Law => "has an arc of weight 0 in an invariant, or a place twice in one",
+        Defect::Twice { .. } => "has the name of an earlier one",
+        _ => "does not fit together",
     }
 }
 
@@ -187,6 +189,8 @@ fn place_of(defect: Defect, net: &OwnedNet) -> String {
             None => format!("transition {transition}"),
         },
         Defect::Law => "a law".to_owned(),
+        Defect::Twice { list, at } => format!("entry {at} of the {list}"),
+        _ => "the net".to_owned(),
     }
 }
 
