@@ -1,9 +1,8 @@
 //! What `net!` and `system!` refuse while compiling, and in which words.
 //!
 //! Every file in `cases` is a library with nets and systems. Those named `*_ok` compile without a
-//! warning;
-//! the others are refused, as `golden.txt` says. After a change of the words: `BLESS=1 cargo test
-//! -p cotama-tests --test refused`, and read the difference as a stranger would.
+//! warning; the others are refused, as `golden.txt` says. After a change of the words: `BLESS=1
+//! cargo test -p cotama-tests --test refused`, and read the difference as a stranger would.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
