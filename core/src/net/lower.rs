@@ -401,3 +401,18 @@ pub const fn lines<const N: usize>(net: &super::Net<'_>) -> [u16; N] {
     }
     lines
 }
+
+/// What belongs to each transition, given what belongs to each line.
+pub const fn by_line<T: Copy, const N: usize>(of: &[T], lines: &[u16; N]) -> [T; N] {
+    let mut all = match (of, of.first_chunk::<N>()) {
+        ([first, ..], _) => [*first; N],
+        ([], Some(none)) => *none,
+        ([], None) => panic!("a transition comes from a line"),
+    };
+    let mut at = 0;
+    while at < N {
+        all[at] = of[lines[at] as usize];
+        at += 1;
+    }
+    all
+}

@@ -325,6 +325,7 @@ macro_rules! net {
 
             impl $crate::player::Kind for Event {
                 #[inline]
+                #[allow(unreachable_code)]
                 fn id(&self) -> $crate::system::Of<$crate::net::EventId> {
                     let number = match *self {
                         $( $( Self::$event { .. } => EventNumber::$event as u32, )* )?
@@ -364,15 +365,8 @@ macro_rules! net {
                     id: $crate::system::Of<$crate::net::TransitionId>,
                 ) -> Transition {
                     const BY_LINE: &[Transition] = &[$( Transition::$line, )*];
-                    const ALL: [Transition; SIZE.transitions] = {
-                        let mut all = [BY_LINE[0]; SIZE.transitions];
-                        let mut at = 0;
-                        while at < all.len() {
-                            all[at] = BY_LINE[LINES[at] as usize];
-                            at += 1;
-                        }
-                        all
-                    };
+                    const ALL: &[Transition] =
+                        &net_lower::by_line::<_, { SIZE.transitions }>(BY_LINE, &LINES);
                     ALL.get(id.id.0 as usize).copied().unwrap_or(ALL[0])
                 }
 

@@ -124,6 +124,18 @@ pub trait Written {
     const CLEARS: &'static [WrittenClear<'static>];
 }
 
+/// The types of a net of a system.
+#[allow(missing_docs)]
+pub trait Part {
+    type Event;
+    type Place;
+    type Output;
+    type Transition;
+    type State;
+    type Program;
+    const PROGRAM: Self::Program;
+}
+
 /// The position of a net of a system; behind the last when there is none.
 pub const fn at<S: Written>(name: &str) -> u16 {
     let mut at = 0;
