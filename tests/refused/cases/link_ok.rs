@@ -44,3 +44,23 @@ cotama_core::system! {
         links { other.pressed => lamp.toggle mail ROOM; }
     }
 }
+
+/// Whether a lamp in a function lights.
+#[must_use]
+pub fn lights() -> bool {
+    const ROOM: usize = 1;
+    cotama_core::net! {
+        mod flash extends lamp { instead { off on toggle: On => Off emit toggled; } }
+    }
+    cotama_core::system! {
+        mod inner {
+            nets { button: button, flash: flash }
+            links { button.pressed => flash.toggle mail ROOM; }
+        }
+    }
+    let mut player = inner::Player::new();
+    let time = cotama_core::units::Millis(0);
+    let pressed = player.offer(time, &inner::Event::button(button::Event::press)).fired();
+    let _ = player.round(time);
+    pressed && inner::state::flash(&player) == flash::State::On
+}
