@@ -53,6 +53,7 @@ pub mod __private {
     pub use crate::net::source::Written;
     pub mod lower {
         pub use crate::net::lower::*;
+        pub use crate::net::size::Size;
     }
     pub mod source {
         pub use crate::net::source::*;

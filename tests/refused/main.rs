@@ -1,8 +1,9 @@
-//! What `net!` refuses while compiling, and in which words.
+//! What `net!` and `system!` refuse while compiling, and in which words.
 //!
-//! Every file in `cases` is a library with one net. Those named `*_ok` compile without a warning;
-//! the others are refused, as `golden.txt` says. After a change of the words: `UPDATE_GOLDEN=1
-//! cargo test -p cotama-tests --test refused`, and read the difference as a stranger would.
+//! Every file in `cases` is a library with nets and systems. Those named `*_ok` compile without a
+//! warning; the others are refused, as `golden.txt` says. After a change of the words:
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-tests --test refused`, and read the difference as a
+//! stranger would.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -130,9 +131,9 @@ fn hear(said: &mut Said, message: &Value) {
         return;
     }
     let ours = text.strip_prefix("evaluation panicked: ");
-    // `compile_error!` has no code, as errors of syntax, but a net.
-    let ours =
-        ours.or_else(|| (message["code"].is_null() && text.starts_with("net `")).then_some(text));
+    // `compile_error!` has no code, as errors of syntax, but a net or system.
+    let names = text.starts_with("net `") || text.starts_with("system `");
+    let ours = ours.or_else(|| (message["code"].is_null() && names).then_some(text));
     let (list, error) = match ours {
         Some(ours) => (&mut said.refusals, ours.to_owned()),
         None => (&mut said.stops, place(message)),

@@ -5,6 +5,7 @@ use cotama_core::exact::Objective;
 use cotama_core::front::{Front, Node};
 use cotama_core::problem::Problem;
 use cotama_models::missions::tables::{DURATION, ENERGY};
+use cotama_tests::solve::{exact, panorama};
 use cotama_tests::with_patrol;
 
 fn best(problem: &Problem<2>, objective: Objective) -> ([u64; 2], u64) {

@@ -158,8 +158,6 @@ fn refused(net: &Net<'_>, defect: Defect) -> Failure {
             .help("a place holds at most its bound, and at most 65535 tokens in play")
         }
         Defect::TooLong => large("it has too many parts"),
-        other => Failure::new(format!(
-            "the net cannot be played: its lists do not fit together: {other:?}"
-        )),
+        other => Failure::new(format!("the net cannot be played: {other}")),
     }
 }

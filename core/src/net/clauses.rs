@@ -27,6 +27,19 @@ macro_rules! __net_number {
     };
 }
 
+/// An interval: when it begins, and when it ends.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __net_interval {
+    ($of:tt [$($earliest:tt)+]) => { ($crate::__net_number!($of $($earliest)+), None) };
+    ($of:tt [$($earliest:tt)+] $($latest:tt)+) => {
+        (
+            $crate::__net_number!($of $($earliest)+),
+            Some($crate::__net_number!($of $($latest)+)),
+        )
+    };
+}
+
 /// The conditions of a guard.
 #[doc(hidden)]
 #[macro_export]

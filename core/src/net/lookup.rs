@@ -1,6 +1,6 @@
 //! Names of a definition, looked up.
 
-use super::data::PlaceId;
+use super::data::{EventId, PlaceId, Signal};
 use super::source::{Declared, Line, Source};
 use super::text::{Text, same};
 
@@ -127,4 +127,35 @@ impl Source<'_> {
         }
         text.unknown(what, name, known.split_at(count).0)
     }
+
+    pub(super) const fn event(&self, text: Text, name: &str) -> EventId {
+        EventId(signal(text, "event", self.events, name))
+    }
+
+    /// A place, flag or counter that a law or an ignored event names.
+    pub(super) const fn place(&self, text: Text, name: &str, meant: Meant) -> PlaceId {
+        match self.find(name) {
+            Found::Place(place) | Found::Data(place, _) => PlaceId(place as u32),
+            Found::Group(_) => text.name(name).with(" is a group; name a place").stop(),
+            Found::Nothing => self.nothing(text, name, meant),
+        }
+    }
+}
+
+pub(super) const fn signal(text: Text, what: &str, signals: &[Signal<'_>], name: &str) -> u32 {
+    let mut at = 0;
+    while at < signals.len() {
+        if same(signals[at].name, name) {
+            return at as u32;
+        }
+        at += 1;
+    }
+    let mut known = [""; 256];
+    let count = if signals.len() < known.len() { signals.len() } else { known.len() };
+    let mut at = 0;
+    while at < count {
+        known[at] = signals[at].name;
+        at += 1;
+    }
+    text.unknown(what, name, known.split_at(count).0)
 }

@@ -1,31 +1,11 @@
 //! From what was written to a [`Net`](super::Net): names are looked up, lines become transitions.
 
-use super::data::{
-    Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Signal, Transition, Within,
-};
-use super::lookup::{Found, Meant};
+use super::data::{Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Transition, Within};
+use super::lookup::{Found, Meant, signal};
+use super::size::{Size, complement_affix, put};
 use super::source::{Claim, Line, Source};
 use super::text::{Text, as_str, same};
 use super::variant::MOST;
-
-/// How long the lists of a net are.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Size {
-    /// Places.
-    pub places: usize,
-    /// Transitions.
-    pub transitions: usize,
-    /// Arcs of all transitions and invariants.
-    pub arcs: usize,
-    /// Outputs of all transitions.
-    pub emits: usize,
-    /// Bytes of the names that the lowering makes.
-    pub text: usize,
-    /// Ignored events.
-    pub ignored: usize,
-    /// Laws.
-    pub laws: usize,
-}
 
 /// A part of a list.
 #[derive(Clone, Copy, Debug)]
@@ -74,117 +54,19 @@ pub struct Lowered<
     size: Size,
 }
 
-impl<'n> Source<'n> {
-    /// How long the lists will be.
-    pub const fn size(&self) -> Size {
-        self.check();
-        let mut size = Size { places: self.own_places() + self.data(), ..SIZE_ZERO };
-        let mut at = self.places.len();
-        while at < self.own_places() {
-            size.text += self.declared(at).name.len() + complement_affix(self, at).len();
-            at += 1;
-        }
-        let mut at = 0;
-        while at < self.lines.len() {
-            let line = &self.lines[at];
-            let variants = self.variants(line);
-            let (mut possible, mut labels) = (0, 0);
-            let mut number = 0;
-            while number < variants {
-                let variant = self.variant(line, number);
-                if variant.possible {
-                    possible += 1;
-                    size.emits += line.emits.len();
-                    labels += self.label(line, number, variants > 1, &mut [0; 512], 0);
-                    let mut touched = 0;
-                    while touched < variant.len() {
-                        let (_, take, read, give) = variant.arcs(touched);
-                        size.arcs +=
-                            (take > 0) as usize + (read > 0) as usize + (give > 0) as usize;
-                        touched += 1;
-                    }
-                }
-                number += 1;
-            }
-            if possible == 0 {
-                self.at_line(line)
-                    .with("it can never fire: its conditions contradict each other, or its changes")
-                    .stop();
-            }
-            size.transitions += possible;
-            size.text += if possible > 1 { labels } else { line.name.len() };
-            at += 1;
-        }
-        let mut at = 0;
-        while at < self.laws.len() {
-            match self.laws[at] {
-                Claim::Invariant(sum, _) => {
-                    size.arcs += sum.len();
-                    size.laws += 1;
-                }
-                Claim::LeftToChecker => {}
-                _ => size.laws += 1,
-            }
-            at += 1;
-        }
-        let mut at = 0;
-        while at < self.ignored.len() {
-            size.ignored += match self.find(self.ignored[at].1) {
-                Found::Group(group) => self.groups[group].members.len(),
-                _ => 1,
-            };
-            at += 1;
-        }
-        size
-    }
-
-    /// Writes the name of a variant; its length.
-    const fn label<const N: usize>(
-        &self,
-        line: &Line<'_>,
-        number: usize,
-        several: bool,
-        text: &mut [u8; N],
-        start: usize,
-    ) -> usize {
-        let mut end = put(text, start, line.name);
-        if several {
-            let (member, mut old) = self.member(line, number);
-            if let Some(member) = member {
-                end = put(text, end, ".");
-                end = put(text, end, member);
-            }
-            let mut at = 0;
-            while at < line.changes.len() {
-                let change = line.changes[at];
-                if let (super::source::By::Become(_), Found::Data(place, _)) =
-                    (change.by, self.find(change.name))
-                {
-                    let radix = self.declared(place).bound as usize + 1;
-                    end = put(text, end, ".");
-                    end = put(text, end, change.name);
-                    end = put(text, end, "_");
-                    end = put_number(text, end, old % radix);
-                    old /= radix;
-                }
-                at += 1;
-            }
-        }
-        end - start
-    }
-
+impl<
+    'n,
+    const PLACES: usize,
+    const TRANSITIONS: usize,
+    const ARCS: usize,
+    const EMITS: usize,
+    const TEXT: usize,
+    const IGNORED: usize,
+    const LAWS: usize,
+> Lowered<'n, PLACES, TRANSITIONS, ARCS, EMITS, TEXT, IGNORED, LAWS>
+{
     /// Looks every name up.
-    pub const fn lower<
-        const PLACES: usize,
-        const TRANSITIONS: usize,
-        const ARCS: usize,
-        const EMITS: usize,
-        const TEXT: usize,
-        const IGNORED: usize,
-        const LAWS: usize,
-    >(
-        &self,
-    ) -> Lowered<'n, PLACES, TRANSITIONS, ARCS, EMITS, TEXT, IGNORED, LAWS> {
+    pub const fn of(source: &Source<'n>) -> Self {
         let row = Row {
             name: EMPTY,
             doc: "",
@@ -198,7 +80,7 @@ impl<'n> Source<'n> {
             priority: 0,
         };
         let mut it = Lowered {
-            source: *self,
+            source: *source,
             names: [EMPTY; PLACES],
             rows: [row; TRANSITIONS],
             arcs: [Arc { place: PlaceId(0), weight: 0 }; ARCS],
@@ -206,23 +88,23 @@ impl<'n> Source<'n> {
             text: [0; TEXT],
             ignored: [Ignored { event: EventId(0), place: PlaceId(0) }; IGNORED],
             laws: [(EMPTY, 0); LAWS],
-            size: SIZE_ZERO,
+            size: Size::ZERO,
         };
         let mut data = 0;
-        while data < self.data() {
-            let at = self.places.len() + data;
+        while data < source.data() {
+            let at = source.places.len() + data;
             let start = it.size.text;
-            let affix = complement_affix(self, at);
-            let name = self.declared(at).name;
+            let affix = complement_affix(source, at);
+            let name = source.declared(at).name;
             let counter = affix.as_bytes()[0] == b'_';
             let end = put(&mut it.text, start, if counter { name } else { affix });
             let end = put(&mut it.text, end, if counter { affix } else { name });
-            it.names[self.own_places() + data] = Span { start, length: end - start };
+            it.names[source.own_places() + data] = Span { start, length: end - start };
             it.size.text = end;
             data += 1;
         }
         let mut at = 0;
-        while at < self.lines.len() {
+        while at < source.lines.len() {
             it.lines(at);
             at += 1;
         }
@@ -230,72 +112,6 @@ impl<'n> Source<'n> {
         it
     }
 
-    const fn event(&self, text: Text, name: &str) -> EventId {
-        EventId(signal(text, "event", self.events, name))
-    }
-
-    /// A place, flag or counter that a law or an ignored event names.
-    const fn place(&self, text: Text, name: &str, meant: Meant) -> PlaceId {
-        match self.find(name) {
-            Found::Place(place) | Found::Data(place, _) => PlaceId(place as u32),
-            Found::Group(_) => text.name(name).with(" is a group; name a place").stop(),
-            Found::Nothing => self.nothing(text, name, meant),
-        }
-    }
-}
-
-const SIZE_ZERO: Size =
-    Size { places: 0, transitions: 0, arcs: 0, emits: 0, text: 0, ignored: 0, laws: 0 };
-
-/// What the name of a complement adds to that of its flag (before it) or counter (after it).
-const fn complement_affix(source: &Source<'_>, at: usize) -> &'static str {
-    if source.declared(at).bound == 1 { "not_" } else { "_left" }
-}
-
-const fn signal(text: Text, what: &str, signals: &[Signal<'_>], name: &str) -> u32 {
-    let mut at = 0;
-    while at < signals.len() {
-        if same(signals[at].name, name) {
-            return at as u32;
-        }
-        at += 1;
-    }
-    let mut known = [""; 256];
-    let count = if signals.len() < known.len() { signals.len() } else { known.len() };
-    let mut at = 0;
-    while at < count {
-        known[at] = signals[at].name;
-        at += 1;
-    }
-    text.unknown(what, name, known.split_at(count).0)
-}
-
-/// Writes a text; where it ends.
-const fn put<const N: usize>(text: &mut [u8; N], start: usize, more: &str) -> usize {
-    let more = more.as_bytes();
-    let mut at = 0;
-    while at < more.len() && start + at < N {
-        text[start + at] = more[at];
-        at += 1;
-    }
-    start + at
-}
-
-const fn put_number<const N: usize>(text: &mut [u8; N], start: usize, number: usize) -> usize {
-    let start = if number >= 10 { put_number(text, start, number / 10) } else { start };
-    put(text, start, as_str(&[b'0' + (number % 10) as u8]))
-}
-
-impl<
-    const PLACES: usize,
-    const TRANSITIONS: usize,
-    const ARCS: usize,
-    const EMITS: usize,
-    const TEXT: usize,
-    const IGNORED: usize,
-    const LAWS: usize,
-> Lowered<'_, PLACES, TRANSITIONS, ARCS, EMITS, TEXT, IGNORED, LAWS>
-{
     /// Adds the transitions of a line.
     const fn lines(&mut self, at: usize) {
         let source = self.source;
@@ -584,4 +400,19 @@ pub const fn lines<const N: usize>(net: &super::Net<'_>) -> [u16; N] {
         at += 1;
     }
     lines
+}
+
+/// What belongs to each transition, given what belongs to each line.
+pub const fn by_line<T: Copy, const N: usize>(of: &[T], lines: &[u16; N]) -> [T; N] {
+    let mut all = match (of, of.first_chunk::<N>()) {
+        ([first, ..], _) => [*first; N],
+        ([], Some(none)) => *none,
+        ([], None) => Text::new().with("a transition comes from no line").stop(),
+    };
+    let mut at = 0;
+    while at < N {
+        all[at] = of[lines[at] as usize];
+        at += 1;
+    }
+    all
 }

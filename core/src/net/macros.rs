@@ -32,40 +32,7 @@
 /// assert_eq!(player.offer(Millis(500), &link::Event::Silence), Ignored { why: Why::OnPurpose });
 /// ```
 ///
-/// # The sections
-///
-/// They come in this order; `places` and `transitions` must be there. Every item can have a
-/// documentation.
-///
-/// | section | item | meaning |
-/// | --- | --- | --- |
-/// | `places` | `Idle: 1`, `Busy`, `Queue: 0 of 3` | a place, its tokens at the start (none), the most it may hold (1) |
-/// | `flags` | `sonar: true`, `lost` | a boolean, false when nothing is said |
-/// | `counters` | `misses: 0 of 3` | a number from 0 to its largest value |
-/// | `shared` | `camera: true`, `level: 2 of 2` | a flag or counter that another net of the system owns |
-/// | `events` | `Stop`, `Goal(Pose)` | what it reacts to; a payload is `Copy + Debug + PartialEq` and decides nothing |
-/// | `outputs` | `Brake` | what it says |
-/// | `groups` | `Driving: Slow & Fast;` | a name for several places |
-/// | `transitions` | see below | |
-/// | `ignore` | `Stop in Idle & Busy;` | the event is left unanswered there, on purpose |
-/// | `laws` | see below | |
-///
-/// # Transitions
-///
-/// ```text
-/// name on Event [guard]: Taken & Other * 2 => Given read There do counter += 1 & flag = false
-///     emit Output & Another within 500..=2_000 ms priority 1;
-/// ```
-///
-/// All but `name: Taken => Given` can be left out; `_` stands for no place. Without an event a
-/// transition fires by itself: at once, or in its interval; `after 500 ms` is an interval without
-/// end. A guard is a conjunction of `flag`, `!flag`, `counter < 3` (also `<=`, `==`, `>=`, `>`);
-/// places can be tested as well, for presence. A group among the places that are taken or read
-/// stands for each of its members: one line is then several transitions.
-///
-/// Flags, counters and shared ones become places with a complement each, so a guard is nothing but
-/// arcs that read, and nothing that decides is hidden from whoever looks at the net. `counter += 1`
-/// waits until there is room, `counter = 0` is one transition for each old value.
+#[doc = include_str!("sections.md")]
 ///
 /// # Laws
 ///
@@ -90,14 +57,6 @@
 /// or ever, as long as the places it shares stay as they are. It is too large with more than 1,024
 /// markings (those that differ in what clocks show count each), or with more than eight transitions
 /// in an interval enabled together. Bounds of places are always checked.
-///
-/// A payload type that is called like something the module makes (`Place`, `State`, `Event`, ...)
-/// is written with its path.
-///
-/// # What it makes
-///
-/// A module with `NET` (the plain data), `KNOWN` (how it was checked), the enums `Place`, `State`,
-/// `Event`, `Output` and `Transition`, the type `Program`, and the type `Player`.
 #[macro_export]
 macro_rules! net {
     (
@@ -215,17 +174,12 @@ macro_rules! net {
                         within: $crate::__private::source::interval(
                             (stringify!($name), stringify!($line)),
                             &[
-                                $( (
-                                    $crate::__net_number!(
-                                        ($name $line) $earliest $(:: $earliest_in)*
-                                    ),
-                                    Some($crate::__net_number!(
-                                        ($name $line) $latest $(:: $latest_in)*
-                                    )),
+                                $( $crate::__net_interval!(
+                                    ($name $line) [$earliest $(:: $earliest_in)*]
+                                    $latest $(:: $latest_in)*
                                 ), )?
-                                $( (
-                                    $crate::__net_number!(($name $line) $after $(:: $after_in)*),
-                                    None,
+                                $( $crate::__net_interval!(
+                                    ($name $line) [$after $(:: $after_in)*]
                                 ), )?
                             ],
                         ),
@@ -233,12 +187,8 @@ macro_rules! net {
                             &[$( !!($priority) as i128, )? 0],
                         ),
                     }, )*],
-                    ignored: &[$( $( $(
-                        (stringify!($ignored), stringify!($ignored_in)),
-                    )+ )* )?],
-                    laws: &[$( $( $crate::__net_claim!(
-                        ($name) $law $(( $($law_of)* ))?
-                    ), )* )?],
+                    ignored: &[$( $( $( (stringify!($ignored), stringify!($ignored_in)), )+ )* )?],
+                    laws: &[$( $( $crate::__net_claim!(($name) $law $(( $($law_of)* ))?), )* )?],
                 }
             );
         }
@@ -283,7 +233,7 @@ macro_rules! net {
 
             const SOURCE: net_source::Source<'static> =
                 <Program as $crate::__private::Written>::SOURCE;
-            const SIZE: net_lower::Size = SOURCE.size();
+            const SIZE: $crate::__private::lower::Size = SOURCE.size();
             const LOWERED: &net_lower::Lowered<
                 'static,
                 { SIZE.places },
@@ -293,7 +243,7 @@ macro_rules! net {
                 { SIZE.text },
                 { SIZE.ignored },
                 { SIZE.laws },
-            > = &SOURCE.lower();
+            > = &net_lower::Lowered::of(&SOURCE);
 
             /// The net as plain data.
             pub const NET: $crate::net::Net<'static> = $crate::net::Net {
@@ -379,6 +329,7 @@ macro_rules! net {
 
             impl $crate::player::Kind for Event {
                 #[inline]
+                #[allow(unreachable_code)]
                 fn id(&self) -> $crate::system::Of<$crate::net::EventId> {
                     let number = match *self {
                         $( $( Self::$event { .. } => EventNumber::$event as u32, )* )?
@@ -418,15 +369,8 @@ macro_rules! net {
                     id: $crate::system::Of<$crate::net::TransitionId>,
                 ) -> Transition {
                     const BY_LINE: &[Transition] = &[$( Transition::$line, )*];
-                    const ALL: [Transition; SIZE.transitions] = {
-                        let mut all = [BY_LINE[0]; SIZE.transitions];
-                        let mut at = 0;
-                        while at < all.len() {
-                            all[at] = BY_LINE[LINES[at] as usize];
-                            at += 1;
-                        }
-                        all
-                    };
+                    const ALL: &[Transition] =
+                        &net_lower::by_line::<_, { SIZE.transitions }>(BY_LINE, &LINES);
                     ALL.get(id.id.0 as usize).copied().unwrap_or(ALL[0])
                 }
 

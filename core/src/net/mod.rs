@@ -1,5 +1,5 @@
-//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while compiling,
-//! played anywhere.
+//! Supervisors as typed Petri nets: defined once with [`net!`](crate::net!), checked while
+//! compiling, played anywhere.
 //!
 //! A net is plain data ([`Net`]). A state machine is a net with one token. `net!` makes it and
 //! checks its laws; a [`Player`](crate::player::Player) executes it. With the feature `alloc`, nets
@@ -29,6 +29,8 @@ pub(crate) mod lower;
 mod macros;
 #[cfg(feature = "alloc")]
 pub mod owned;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+pub(crate) mod size;
 pub(crate) mod source;
 #[cfg(all(test, feature = "alloc"))]
 mod tests;

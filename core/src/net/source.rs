@@ -225,7 +225,13 @@ pub const fn interval(of: Part<'_>, written: &[(u64, Option<u64>)]) -> Option<(u
     match written {
         [] => None,
         [interval] => Some(*interval),
-        _ => at_part(of).with("it has two intervals; say either `within` or `after`").stop(),
+        _ => Text::new()
+            .with("net ")
+            .name(of.0)
+            .with(", transition ")
+            .name(of.1)
+            .with(": it has two intervals; say either `within` or `after`")
+            .stop(),
     }
 }
 

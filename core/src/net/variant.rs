@@ -193,9 +193,8 @@ impl Source<'_> {
             },
             (Found::Group(_), None) => self
                 .at_line(line)
-                .with(
-                    "a transition cannot put a token into a group: name the place that it means instead of ",
-                )
+                .with("a transition cannot put a token into a group: ")
+                .with("name the place that it means instead of ")
                 .name(name)
                 .stop(),
             (Found::Data(..), _) => self
@@ -300,9 +299,13 @@ impl Variant {
         if high < bound {
             match complement {
                 Some(complement) => self.needs(source, line, complement, bound - high),
-                None => source.at_line(line).with("its guard asks that the place ").name(test.name)
+                None => source
+                    .at_line(line)
+                    .with("its guard asks that the place ")
+                    .name(test.name)
                     .with(if high == 0 { " is empty" } else { " holds few tokens" })
-                    .with(", and a transition can only ask for tokens that are there: test a flag or a counter, ")
+                    .with(", and a transition can only ask for tokens that are there: ")
+                    .with("test a flag or a counter, ")
                     .with("or read a place that is marked instead")
                     .stop(),
             }

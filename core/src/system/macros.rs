@@ -53,14 +53,68 @@
 ///
 /// | section | item | meaning |
 /// | --- | --- | --- |
-/// | `nets` | `gs: global` | a net by the name of its module, in the order of turns |
+/// | `nets` | `gs: global`, `pf: nets::path` | a net by its module, in the order of turns |
 /// | `links` | `gs.start => ls.start mail 1;` | the output `start` of `gs` waits in a mailbox for the turn of `ls` |
 /// | | `gs.abort => ls.abort & es.abort now;` | a rendezvous, here with two nets: a broadcast |
 /// | `shared` | `ls.camera & cs.camera = env.camera;` | whose place a shared place is |
 /// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
 /// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
 ///
-/// It makes a module with `SYSTEM` (the plain data), `SIZE`, the enums `Event`, `Place`, `Output`
+/// # A system with more
+///
+/// `extends` makes a system that is another one with more nets, links and shared places. `instead`
+/// comes before `nets` and puts another net where one stands. The rest is as for
+/// [`net!`](crate::net!#a-net-with-more).
+///
+/// ```
+/// use cotama_core::{net, system};
+///
+/// net! {
+///     pub mod button {
+///         places { Free: 1 }
+///         events { press }
+///         outputs { pressed }
+///         transitions { press on press: Free => Free emit pressed; }
+///     }
+/// }
+/// net! {
+///     pub mod lamp {
+///         places { Off: 1, On }
+///         events { toggle }
+///         transitions { on on toggle: Off => On; off on toggle: On => Off; }
+///     }
+/// }
+/// net! {
+///     pub mod dimmer extends lamp {
+///         places { Dim }
+///         instead { on on toggle: Off => Dim; }
+///         transitions { bright on toggle: Dim => On; }
+///     }
+/// }
+/// const PRESSES: u16 = 2;
+/// system! {
+///     pub mod room {
+///         nets { button: button, lamp: lamp }
+///         links { button.pressed => lamp.toggle mail PRESSES; }
+///     }
+/// }
+/// system! {
+///     pub mod hall extends room {
+///         instead { lamp: dimmer }
+///         nets { other: button }
+///         links { other.pressed => lamp.toggle mail PRESSES; }
+///     }
+/// }
+///
+/// fn main() {
+///     assert_eq!(hall::SYSTEM.components[1].net.name, "dimmer");
+///     assert_eq!(hall::SYSTEM.links.len(), 2);
+/// }
+/// ```
+///
+/// # What it makes
+///
+/// A module with `SYSTEM` (the plain data), `SIZE`, the enums `Event`, `Place`, `Output`
 /// and `Transition` with a variant for each net, the functions `state::NET`, the types `Program`,
 /// `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M` along.
 #[macro_export]
@@ -120,12 +174,20 @@ macro_rules! system {
             ];
         }
 
+        $( impl $crate::__private::system::Part for $name::parts::$component {
+            type Event = $net $(:: $net_in)* ::Event;
+            type Place = $net $(:: $net_in)* ::Place;
+            type Output = $net $(:: $net_in)* ::Output;
+            type Transition = $net $(:: $net_in)* ::Transition;
+            type State = $net $(:: $net_in)* ::State;
+            type Program = $net $(:: $net_in)* ::Program;
+            const PROGRAM: Self::Program = $net $(:: $net_in)* ::Program;
+        } )*
+
         $(#[doc = $doc])*
         #[allow(unreachable_pub)]
         $vis mod $name {
-            #[allow(unused_imports)]
-            use super::*;
-            use $crate::__private::system as system_source;
+            use $crate::__private::system::{self as system_source, Part};
             use $crate::player::code as system_code;
 
             $crate::__definition! {
@@ -135,6 +197,16 @@ macro_rules! system {
                 { $( $( $( $borrower.$borrowed )&+ = $owner.$owned; )* )? }
                 { $( $( $( $watcher.$watches )&+ = $box_owner.$box_event; )* )? }
                 { $( $( $clearer.$clear_on empties $( $cleared.$clear_box )&+; )* )? }
+            }
+
+            /// Its nets, as types: a module in a function does not see what stands beside it.
+            #[doc(hidden)]
+            #[allow(missing_docs, non_camel_case_types)]
+            pub mod parts {
+                $(
+                    #[derive(Debug)]
+                    pub enum $component {}
+                )*
             }
 
             const NAME: &str = stringify!($name);
@@ -195,7 +267,7 @@ macro_rules! system {
             /// An event of one of the nets.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq)]
-            pub enum Event { $( $component($net $(:: $net_in)* ::Event), )* }
+            pub enum Event { $( $component(<parts::$component as Part>::Event), )* }
 
             impl $crate::player::Kind for Event {
                 #[inline]
@@ -212,7 +284,7 @@ macro_rules! system {
             /// A place of one of the nets.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub enum Place { $( $component($net $(:: $net_in)* ::Place), )* }
+            pub enum Place { $( $component(<parts::$component as Part>::Place), )* }
 
             impl ::core::convert::From<Place> for $crate::system::Of<$crate::net::PlaceId> {
                 #[inline]
@@ -227,12 +299,12 @@ macro_rules! system {
             /// What one of the nets says.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub enum Output { $( $component($net $(:: $net_in)* ::Output), )* }
+            pub enum Output { $( $component(<parts::$component as Part>::Output), )* }
 
             /// The line of a transition of one of the nets.
             #[allow(missing_docs, non_camel_case_types, dead_code)]
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-            pub enum Transition { $( $component($net $(:: $net_in)* ::Transition), )* }
+            pub enum Transition { $( $component(<parts::$component as Part>::Transition), )* }
 
             /// The system as a player runs it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -249,7 +321,9 @@ macro_rules! system {
                 ) -> Transition {
                     const ALL: &[fn($crate::system::Of<$crate::net::TransitionId>) -> Transition] =
                         &[$( |id| Transition::$component(
-                            $crate::player::Names::transition(&$net $(:: $net_in)* ::Program, id),
+                            $crate::player::Names::transition(
+                                &<parts::$component as Part>::PROGRAM, id,
+                            ),
                         ), )*];
                     ALL.get(usize::from(id.component)).unwrap_or(&ALL[0])(id)
                 }
@@ -260,8 +334,9 @@ macro_rules! system {
                     at: usize,
                 ) -> Option<Output> {
                     $( if id.component == Number::$component as u16 {
-                        let output = $crate::player::Names::output(&$net $(:: $net_in)* ::Program, id, at);
-                        return output.map(Output::$component);
+                        const NET: &<parts::$component as Part>::Program =
+                            &<parts::$component as Part>::PROGRAM;
+                        return $crate::player::Names::output(NET, id, at).map(Output::$component);
                     } )*
                     None
                 }
@@ -327,12 +402,13 @@ macro_rules! system {
                     #[inline]
                     pub fn $component<P, const W: usize, const C: usize, const S: usize, M>(
                         player: &$crate::player::Player<P, W, C, S, M>,
-                    ) -> $net $(:: $net_in)* ::State
+                    ) -> <parts::$component as Part>::State
                     where
                         P: $crate::player::Program<W, C, S>,
                         M: ::core::marker::Copy + ::core::default::Default,
                     {
-                        player.state_of::<$net $(:: $net_in)* ::Program>(Number::$component as u16)
+                        let component = Number::$component as u16;
+                        player.state_of::<<parts::$component as Part>::Program>(component)
                     }
                 )*
             }

@@ -111,8 +111,8 @@ const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of
     near.stop(says(system, "shared", port), net.name, "place")
 }
 
-/// Where `system!` keeps what it read. It is implemented outside of the module that `system!` makes,
-/// so that nets can be those of an enclosing function.
+/// Where `system!` keeps what it read. It is implemented outside of the module that `system!`
+/// makes, so that nets can be those of an enclosing function.
 pub trait Written {
     /// `nets`.
     const COMPONENTS: &'static [Component<'static>];
@@ -122,6 +122,18 @@ pub trait Written {
     const BINDINGS: &'static [WrittenBinding<'static>];
     /// `clears`.
     const CLEARS: &'static [WrittenClear<'static>];
+}
+
+/// The types of a net of a system.
+#[allow(missing_docs)]
+pub trait Part {
+    type Event;
+    type Place;
+    type Output;
+    type Transition;
+    type State;
+    type Program;
+    const PROGRAM: Self::Program;
 }
 
 /// The position of a net of a system; behind the last when there is none.
@@ -155,7 +167,7 @@ pub const fn mail(system: &str, from: Port<'_>, capacity: i128) -> Delivery {
     if capacity < 1 || capacity > u16::MAX as i128 {
         says(system, "link", from).with("the room of a mailbox is from 1 to 65,535").stop()
     }
-    Delivery::Mail { capacity: capacity as u16 }
+    Delivery::Mail { capacity: capacity.unsigned_abs() as u16 }
 }
 
 /// An item of `links`: an output, events, and how they arrive.

@@ -267,7 +267,7 @@ impl std::fmt::Display for Unsupervised {
                 f.write_str("the mission is not supervised: it has no [supervision] table")
             }
             Self::Unfit(defect) => {
-                write!(f, "its global supervisor does not fit the others: {defect:?}")
+                write!(f, "its global supervisor does not fit the others: {defect}")
             }
         }
     }

@@ -176,7 +176,7 @@ fn fault(defect: Defect) -> &'static str {
              place that it complements"
         }
         Defect::Law => "has an arc of weight 0 in an invariant, or a place twice in one",
-        Defect::Twice { .. } => "have one name twice",
+        Defect::Twice { .. } => "has the name of an earlier one",
         _ => "does not fit together",
     }
 }
@@ -196,7 +196,7 @@ fn place_of(defect: Defect, net: &OwnedNet) -> String {
             None => format!("transition {transition}"),
         },
         Defect::Law => "a law".to_owned(),
-        Defect::Twice { list, .. } => list.to_owned(),
+        Defect::Twice { list, at } => format!("entry {at} of the {list}"),
         _ => "the net".to_owned(),
     }
 }

@@ -60,7 +60,7 @@ pub enum FlatError {
 impl fmt::Display for FlatError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Defect(defect) => write!(f, "the system does not fit together: {defect:?}"),
+            Self::Defect(defect) => write!(f, "the system does not fit together: {defect}"),
             Self::Unbounded { place } => {
                 write!(
                     f,

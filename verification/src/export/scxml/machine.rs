@@ -61,7 +61,7 @@ impl fmt::Display for NotAStateMachine {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Defect(defect) => {
-                write!(f, "the lists of the net do not fit together: {defect:?}")
+                write!(f, "the lists of the net do not fit together: {defect}")
             }
             Self::Start { tokens } if tokens.is_empty() => {
                 f.write_str("no state has a token at the start: exactly one must")
