@@ -63,6 +63,27 @@ pub trait Observer<P: Names, M = ()> {
     }
 }
 
+/// Some observer of a system: one type for all of them, so that the code of a system is there once.
+pub(super) struct Anyone<'o, P: Names, M>(pub(super) &'o mut dyn Observer<P, M>);
+
+impl<P: Names, M> Observer<P, M> for Anyone<'_, P, M> {
+    fn on_fire(&mut self, firing: &Firing<'_, P, M>) {
+        self.0.on_fire(firing);
+    }
+
+    fn on_ignore(&mut self, event: Of<EventId>, carries: M) {
+        self.0.on_ignore(event, carries);
+    }
+
+    fn on_mail(&mut self, to: Of<EventId>, carries: M) {
+        self.0.on_mail(to, carries);
+    }
+
+    fn on_clear(&mut self, mailbox: Of<EventId>, carries: M) {
+        self.0.on_clear(mailbox, carries);
+    }
+}
+
 impl<P: Names, M> Observer<P, M> for () {
     #[inline]
     fn on_fire(&mut self, _: &Firing<'_, P, M>) {}

@@ -2,7 +2,7 @@
 
 use super::CATCH_UP;
 use super::code::{Code, Entry, bounds};
-use super::observer::{Firing, Observer};
+use super::observer::{Anyone, Firing, Observer};
 use super::outcome::{Advanced, Outcome, Round, Why};
 use super::program::{Kind, Program, StateMachine};
 use crate::net::data::{EventId, PlaceId, TransitionId};
@@ -32,7 +32,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     pub fn start(program: P, now: Millis, observer: &mut impl Observer<P, M>) -> Self {
         let marking = program.code().initial;
         let mut player = Self { program, marking, clocks: [0; C], slots: [M::default(); S], now };
-        player.rest(observer);
+        if P::ALONE {
+            player.rest(observer);
+        } else {
+            player.rest(&mut Anyone(observer));
+        }
         player
     }
 
@@ -63,7 +67,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> Outcome<P::Transition> {
-        let outcome = self.answer(now, event.id(), Some(event), carries, observer);
+        let outcome = if P::ALONE {
+            self.answer(now, event.id(), Some(event), carries, observer)
+        } else {
+            self.answer(now, event.id(), Some(event), carries, &mut Anyone(observer))
+        };
         outcome.map(|it| self.program.transition(self.program.code().transition(it)))
     }
 
@@ -76,7 +84,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> Outcome<Of<TransitionId>> {
-        let outcome = self.answer(now, event, None, carries, observer);
+        let outcome = if P::ALONE {
+            self.answer(now, event, None, carries, observer)
+        } else {
+            self.answer(now, event, None, carries, &mut Anyone(observer))
+        };
         outcome.map(|it| self.program.code().transition(it))
     }
 
@@ -92,7 +104,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     ) -> Outcome<u16> {
         let code = self.program.code();
         if C > 0 || !code.bounded || !Self::is_alone(&code) {
-            if self.advance_with(now, observer).behind {
+            if self.pass_to(now, observer).behind {
                 return Outcome::Ignored { why: Why::Behind };
             }
         } else {
@@ -141,7 +153,17 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Lets time pass up to `now`: transitions without event fire when they are due. One that is
     /// due while a mailbox that it mails to is full waits until there is room. A time before the
     /// last one counts as the last one.
+    #[inline]
     pub fn advance_with(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
+        if P::ALONE {
+            self.pass_to(now, observer)
+        } else {
+            self.pass_to(now, &mut Anyone(observer))
+        }
+    }
+
+    /// Lets time pass.
+    fn pass_to(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
         // What is proven to settle has settled before.
         let settled = P::ALONE && self.program.code().bounded;
         let fired = if settled { 0 } else { self.rest(observer) };
@@ -189,7 +211,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// Lets time pass up to `now`; then every net takes its turn; then all settle.
     pub fn round_with(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Round {
-        let behind = self.advance_with(now, observer).behind;
+        let observer = &mut Anyone(observer);
+        let behind = self.pass_to(now, observer).behind;
         let mut round = Round { behind, ..Round::default() };
         let components = if behind { 0 } else { self.program.code().components() };
         for component in 0..components {
