@@ -122,14 +122,11 @@ impl<const W: usize> Graph<W> {
             overflow: None,
             conflict: None,
         };
-        match Moves::of(net, code) {
-            Some(moves) => graph.explore(net, code, cuts, &moves),
-            None => graph.limit = Some(Limit::Parts),
-        }
-        graph
-    }
-
-    const fn explore(&mut self, net: &Net<'_>, code: &Code<'_, W>, cuts: &Cuts, moves: &Moves) {
+        // It and the moves are local: an interpreter follows each reference anew.
+        let Some(moves) = Moves::of(net, code) else {
+            graph.limit = Some(Limit::Parts);
+            return graph;
+        };
         let timed = !code.clocks.is_empty();
         let start = (NONE, NONE);
         if timed {
@@ -140,19 +137,19 @@ impl<const W: usize> Graph<W> {
                     if !zone.is_due() && moves.rests(code, &code.initial) {
                         zone.delay();
                     }
-                    self.reach(&code.initial, &zone, true, start);
+                    graph.reach(&code.initial, &zone, true, start);
                 }
-                None => self.limit = Some(Limit::Clocks),
+                None => graph.limit = Some(Limit::Clocks),
             }
         } else {
-            self.reach(&code.initial, &Zone::EMPTY, false, start);
+            graph.reach(&code.initial, &Zone::EMPTY, false, start);
         }
         // In which class each event was last answered.
         let mut answered = [NONE; FIRINGS];
         let mut from = 0;
-        while from < self.count {
-            let marking = self.markings[from];
-            let zone = if timed { self.zone(from) } else { Zone::EMPTY };
+        while from < graph.count {
+            let marking = graph.markings[from];
+            let zone = if timed { graph.zone(from) } else { Zone::EMPTY };
             let due = timed && zone.is_due();
             let mut at_once = false;
             let mut at = 0;
@@ -192,7 +189,7 @@ impl<const W: usize> Graph<W> {
                         answered[kind as usize] = from as u16;
                     }
                     if late {
-                        self.conflicts(from, by, kind);
+                        graph.conflicts(from, by, kind);
                         continue;
                     }
                     let mut after = marking;
@@ -206,41 +203,44 @@ impl<const W: usize> Graph<W> {
                         word += 1;
                     }
                     if !fits {
-                        self.overflows(from, by);
+                        graph.overflows(from, by);
                         continue;
                     }
                     after
                 };
                 if timed {
-                    let way = Move { from, by, kind, group: self.fired };
-                    if !self.fire(code, cuts, moves, &way, &zone, &after) {
-                        return;
+                    let way = Move { from, by, kind, group: graph.fired };
+                    if !graph.fire(code, cuts, &moves, &way, &zone, &after) {
+                        return graph;
                     }
                     continue;
                 }
-                let Some(to) = self.reach(&after, &zone, false, (from as u16, by)) else { return };
-                if self.fired == FIRINGS {
-                    self.limit = Some(Limit::Moves);
-                    return;
+                let Some(to) = graph.reach(&after, &zone, false, (from as u16, by)) else {
+                    return graph;
+                };
+                if graph.fired == FIRINGS {
+                    graph.limit = Some(Limit::Moves);
+                    return graph;
                 }
-                let group = self.fired as u16;
-                self.firings[self.fired] = Firing { from: from as u16, to, by, kind, group };
-                self.earlier[self.fired] = self.arrivals[to as usize];
-                self.arrivals[to as usize] = group;
-                self.fired += 1;
+                let group = graph.fired as u16;
+                graph.firings[graph.fired] = Firing { from: from as u16, to, by, kind, group };
+                graph.earlier[graph.fired] = graph.arrivals[to as usize];
+                graph.arrivals[to as usize] = group;
+                graph.fired += 1;
             }
             if due && !at_once {
-                self.due(code, cuts, moves, from, &zone);
+                graph.due(code, cuts, &moves, from, &zone);
             } else if timed && !at_once && zone.runs() {
-                let way = Move { from, by: TIME, kind: TIME, group: self.fired };
-                self.pass(code, cuts, &way, &zone, 0, 0);
+                let way = Move { from, by: TIME, kind: TIME, group: graph.fired };
+                graph.pass(code, cuts, &way, &zone, 0, 0);
             }
-            if self.limit.is_some() || self.overflow.is_some() {
-                return;
+            if graph.limit.is_some() || graph.overflow.is_some() {
+                return graph;
             }
             from += 1;
-            self.starts[from] = self.fired as u16;
+            graph.starts[from] = graph.fired as u16;
         }
+        graph
     }
 
     /// Two transitions could fire, and only one does; this is the other one.
