@@ -31,9 +31,7 @@
 /// assert_eq!(player.state(), link::State::Down);
 /// assert_eq!(player.offer(Millis(500), &link::Event::Silence), Ignored { why: Why::OnPurpose });
 /// ```
-///
 #[doc = include_str!("sections.md")]
-///
 /// # Laws
 ///
 /// Compile errors where they do not hold, with the culprit and the shortest way there. They speak
@@ -328,8 +326,7 @@ macro_rules! net {
             }
 
             impl $crate::player::Kind for Event {
-                #[inline]
-                #[allow(unreachable_code)]
+                #[inline] #[allow(unreachable_code)]
                 fn id(&self) -> $crate::system::Of<$crate::net::EventId> {
                     let number = match *self {
                         $( $( Self::$event { .. } => EventNumber::$event as u32, )* )?

@@ -5,6 +5,7 @@
 //! checked. [`system!`](crate::system!) makes one while compiling. A net alone is a system of one
 //! component.
 
+mod clauses;
 pub(crate) mod data;
 pub(crate) mod defect;
 mod macros;

@@ -1,0 +1,29 @@
+//! A part of the language `system!`: how links deliver.
+
+/// When a link delivers.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __system_delivery {
+    ($of:tt now) => {
+        $crate::system::Delivery::Now
+    };
+    (($system:ident $from:ident $output:ident) mail $capacity:expr) => {
+        $crate::__private::system::mail(
+            stringify!($system),
+            (stringify!($from), stringify!($output)),
+            !!($capacity) as i128,
+        )
+    };
+    (($system:ident $from:ident $output:ident) $($other:tt)*) => {
+        compile_error!(concat!(
+            "system `",
+            stringify!($system),
+            "`, link ",
+            stringify!($from),
+            ".",
+            stringify!($output),
+            ": say when it arrives: `now`, in the same step, or `mail 1`, ",
+            "at the turn of its receiver, in a mailbox with room for 1"
+        ))
+    };
+}
