@@ -384,7 +384,7 @@ macro_rules! net {
             }
 
             impl $crate::player::Program<{ CODE_SIZE.words }, { CODE_SIZE.clocks }> for Program {
-                const ALONE: bool = true;
+                const ALONE: Option<bool> = Some(true);
 
                 #[inline]
                 fn code(&self) -> net_code::Code<'_, { CODE_SIZE.words }> {

@@ -1,9 +1,9 @@
 //! What follows from a firing in a system: rendezvous and mailboxes, all of it or nothing.
 
 use super::SETTLE;
-use super::code::{Entry, Mailbox, NONE, bounds, minus};
+use super::code::{Mailbox, NONE, Route, bounds};
 use super::observer::{Firing, Observer};
-use super::outcome::Outcome;
+use super::outcome::{Outcome, Why};
 use super::player::Player;
 use super::program::Program;
 use crate::system::data::DEPTH;
@@ -53,9 +53,39 @@ struct UnderWay<'w, L, M> {
     fired: u32,
 }
 
+/// What begins.
+#[derive(Clone, Copy)]
+enum Begins {
+    /// This event is delivered.
+    On(u16),
+    /// The transition at this position fires by itself.
+    With(u16),
+}
+
 impl<'w, L, M> UnderWay<'w, L, M> {
     fn new(carries: M, tell: &'w mut dyn FnMut(&L, Happened<M>)) -> Self {
         Self { carries, tell, said: [(0, 0, 0); DEPTH + 1], depth: 0, fired: 0 }
+    }
+
+    /// The net under way that was the last to begin, and the next route of what it says; without
+    /// one it has said all, and is under way no more.
+    fn next(&mut self) -> Option<(u16, Option<u16>)> {
+        let top = self.depth.checked_sub(1)?;
+        let (component, next, end) = self.said.get_mut(top)?;
+        let route = *next;
+        if route < *end {
+            *next = route.saturating_add(1);
+            return Some((*component, Some(route)));
+        }
+        self.depth = top;
+        Some((*component, None))
+    }
+
+    fn push(&mut self, said: (u16, u16, u16)) {
+        if let Some(frame) = self.said.get_mut(self.depth) {
+            *frame = said;
+            self.depth = self.depth.saturating_add(1);
+        }
     }
 }
 
@@ -70,36 +100,17 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut dyn Observer<P, M>,
     ) -> Outcome<u16> {
-        let outcome = self.whole(offered, carries, observer, &|player, under_way| {
-            player.clear(event, under_way);
-            let Some(entry) = player.answering(event) else {
-                let why = player.why(usize::from(event));
-                (under_way.tell)(player, Happened::Ignored(event));
-                return Ok(Outcome::Ignored { why });
-            };
-            player.fire(&entry, Some(event), under_way)?;
-            let settled = under_way.fired.saturating_sub(1);
-            Ok(Outcome::Fired { transition: entry.transition, settled })
-        });
-        outcome.unwrap_or_else(|Full(mailbox)| {
-            let code = self.program.code();
-            let full = code.mailboxes.get(usize::from(mailbox)).map_or(0, |it| it.event);
-            Outcome::Refused { full: code.event(full) }
-        })
+        self.whole(Begins::On(event), offered, carries, observer)
     }
 
-    /// Fires a transition that can fire by itself, with all that follows from it; how many more
-    /// fired, or `None` when a mailbox on the way is full and nothing has happened.
-    pub(super) fn fire_whole(
-        &mut self,
-        entry: &Entry<W>,
-        observer: &mut dyn Observer<P, M>,
-    ) -> Option<u32> {
-        let fired = self.whole(None, M::default(), observer, &|player, under_way| {
-            player.fire(entry, None, under_way)?;
-            Ok(under_way.fired.saturating_sub(1))
-        });
-        fired.ok()
+    /// Fires the transition at this position, which can fire by itself, with all that follows from
+    /// it; how many more fired, or `None` when a mailbox on the way is full and nothing has
+    /// happened.
+    pub(super) fn fire_whole(&mut self, at: u16, observer: &mut dyn Observer<P, M>) -> Option<u32> {
+        match self.whole(Begins::With(at), None, M::default(), observer) {
+            Outcome::Fired { settled, .. } => Some(settled),
+            _ => None,
+        }
     }
 
     /// The oldest in a mailbox is read and delivered; it stays where it is when that is refused.
@@ -119,26 +130,84 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     }
 
     /// Does all of it or nothing; the observer is told when it is clear that no mailbox is full.
-    fn whole<T>(
+    fn whole(
         &mut self,
+        begins: Begins,
         offered: Option<&P::Event>,
         carries: M,
         observer: &mut dyn Observer<P, M>,
-        act: &dyn Fn(&mut Self, &mut UnderWay<'_, Self, M>) -> Result<T, Full>,
-    ) -> Result<T, Full> {
+    ) -> Outcome<u16> {
         let before = (self.marking, self.clocks, self.slots);
         let mut journal = Journal { happened: [None; REMEMBERED], count: 0 };
-        let done = act(self, &mut UnderWay::new(carries, &mut |_, it| journal.push(it)));
-        if done.is_ok() && journal.count <= REMEMBERED {
-            for it in journal.happened.iter().flatten() {
-                self.show(*it, offered, carries, observer);
+        let mut remember = |_: &Self, it| journal.push(it);
+        match self.go(begins, &mut UnderWay::new(carries, &mut remember)) {
+            Ok(outcome) if journal.count <= REMEMBERED => {
+                for it in journal.happened.iter().flatten() {
+                    self.show(*it, offered, carries, observer);
+                }
+                return outcome;
             }
-            return done;
+            Ok(_) => {}
+            Err(Full(mailbox)) => {
+                (self.marking, self.clocks, self.slots) = before;
+                let code = self.program.code();
+                let full = code.mailboxes.get(usize::from(mailbox)).map_or(0, |it| it.event);
+                return Outcome::Refused { full: code.event(full) };
+            }
         }
         (self.marking, self.clocks, self.slots) = before;
-        done?;
         let mut tell = |it: &Self, happened| it.show(happened, offered, carries, observer);
-        act(self, &mut UnderWay::new(carries, &mut tell))
+        // No mailbox was full.
+        let again = self.go(begins, &mut UnderWay::new(carries, &mut tell));
+        again.unwrap_or(Outcome::Ignored { why: Why::NotEnabled })
+    }
+
+    /// Does what begins so, and all that follows from it.
+    fn go(
+        &mut self,
+        begins: Begins,
+        under_way: &mut UnderWay<'_, Self, M>,
+    ) -> Result<Outcome<u16>, Full> {
+        let (first, on) = match begins {
+            Begins::With(at) => (Some(at), None),
+            Begins::On(event) => {
+                self.clear(event, under_way);
+                (self.answering(event), Some(event))
+            }
+        };
+        let Some(transition) = first.and_then(|at| self.begin(at, on, under_way)) else {
+            if let Some(event) = on {
+                (under_way.tell)(self, Happened::Ignored(event));
+            }
+            return Ok(Outcome::Ignored { why: self.why(usize::from(on.unwrap_or(NONE))) });
+        };
+        let mut settled = 0;
+        while let Some((component, next)) = under_way.next() {
+            let code = self.program.code();
+            match next.map(|it| code.routes.get(usize::from(it)).copied()) {
+                Some(None) => {}
+                Some(Some(Route { event, mailbox: NONE })) => {
+                    self.clear(event, under_way);
+                    let answer = self.answering(event);
+                    if answer.and_then(|at| self.begin(at, Some(event), under_way)).is_none() {
+                        (under_way.tell)(self, Happened::Ignored(event));
+                    }
+                }
+                Some(Some(Route { mailbox, .. })) => self.put(mailbox, under_way)?,
+                // All that the net said has arrived: it settles.
+                None => {
+                    let row = code.first_urgent().saturating_add(usize::from(component));
+                    let (first, end) = code.span(row..row.saturating_add(1));
+                    if settled < SETTLE
+                        && let Some(at) = self.enabled_from(first, end)
+                    {
+                        settled += 1;
+                        self.begin(at, None, under_way);
+                    }
+                }
+            }
+        }
+        Ok(Outcome::Fired { transition, settled: under_way.fired.saturating_sub(1) })
     }
 
     /// Tells the observer.
@@ -165,68 +234,37 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         }
     }
 
-    /// The transition that fires on an event now.
-    #[inline]
-    fn answering(&self, event: u16) -> Option<Entry<W>> {
-        let code = self.program.code();
-        let can = |it: &Entry<W>| self.can(&code, it) && self.open(&code, it);
-        code.first(usize::from(event), &self.marking, can).copied()
+    /// The position of the transition that fires on an event now.
+    fn answering(&self, event: u16) -> Option<u16> {
+        let row = usize::from(event);
+        let (first, end) = self.program.code().span(row..row.saturating_add(1));
+        self.enabled_from(first, end)
     }
 
-    /// Fires a transition that is enabled, and does all that follows from it.
-    fn fire(
+    /// The position of the first transition from one position on, up to another one, that can fire
+    /// now.
+    pub(super) fn enabled_from(&self, first: u16, end: u16) -> Option<u16> {
+        let code = self.program.code();
+        let entries = code.entries.get(usize::from(first)..usize::from(end))?;
+        let mut entries = (first..).zip(entries);
+        entries.find(|(_, it)| self.can(&code, it) && self.open(&code, it)).map(|it| it.0)
+    }
+
+    /// Moves the tokens of the transition at this position; what it says is then under way. Its
+    /// number.
+    fn begin(
         &mut self,
-        entry: &Entry<W>,
+        at: u16,
         on: Option<u16>,
         under_way: &mut UnderWay<'_, Self, M>,
-    ) -> Result<(), Full> {
-        let mut settled = 0;
-        self.begin(entry, on, under_way);
-        while let Some(frame) =
-            under_way.depth.checked_sub(1).and_then(|top| under_way.said.get_mut(top))
-        {
-            let (component, next, end) = *frame;
-            let code = self.program.code();
-            if next < end {
-                frame.1 = next.saturating_add(1);
-                let Some(&route) = code.routes.get(usize::from(next)) else { continue };
-                if route.mailbox != NONE {
-                    self.put(route.mailbox, under_way)?;
-                    continue;
-                }
-                self.clear(route.event, under_way);
-                match self.answering(route.event) {
-                    Some(entry) => self.begin(&entry, Some(route.event), under_way),
-                    None => (under_way.tell)(self, Happened::Ignored(route.event)),
-                }
-            } else {
-                under_way.depth = under_way.depth.saturating_sub(1);
-                // All that the net said has arrived: it settles.
-                let row = code.first_urgent().saturating_add(usize::from(component));
-                let can = |it: &Entry<W>| self.can(&code, it);
-                if settled < SETTLE
-                    && let Some(entry) = code.first(row, &self.marking, can).copied()
-                {
-                    settled += 1;
-                    self.begin(&entry, None, under_way);
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Moves the tokens of a transition; what it says is then under way.
-    fn begin(&mut self, entry: &Entry<W>, on: Option<u16>, under_way: &mut UnderWay<'_, Self, M>) {
-        self.apply(entry);
+    ) -> Option<u16> {
+        let number = self.apply_at(at)?;
         under_way.fired = under_way.fired.saturating_add(1);
-        (under_way.tell)(self, Happened::Fired(entry.transition, on));
+        (under_way.tell)(self, Happened::Fired(number, on));
         let code = self.program.code();
-        let component = code.transition(entry.transition).component;
-        let (first, end) = bounds(code.says, usize::from(entry.transition));
-        if let Some(frame) = under_way.said.get_mut(under_way.depth) {
-            *frame = (component, first as u16, end as u16);
-            under_way.depth = under_way.depth.saturating_add(1);
-        }
+        let (first, end) = bounds(code.says, usize::from(number));
+        under_way.push((code.transition(number).component, first as u16, end as u16));
+        Some(number)
     }
 
     /// Puts something into a mailbox.
@@ -263,18 +301,20 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 
     /// Moves one between what waits in a mailbox and the room in it.
     fn count(&mut self, mailbox: &Mailbox, more: bool) {
-        let (from, to) =
-            if more { (mailbox.room, mailbox.waiting) } else { (mailbox.waiting, mailbox.room) };
-        let mut take = [0; W];
-        if let Some(word) = take.get_mut(usize::from(from.word)) {
-            *word = from.tokens(1);
+        let waiting = Some(mailbox.waiting);
+        let (from, to) = if more { (mailbox.room, waiting) } else { (waiting, mailbox.room) };
+        if let Some(from) = from
+            && let Some(word) = self.marking.get_mut(usize::from(from.word))
+        {
+            *word = word.wrapping_sub(from.tokens(1));
         }
-        let left = minus(&self.marking, &take);
         if C > 0 {
+            let left = self.marking;
             self.restart(&left);
         }
-        self.marking = left;
-        if let Some(word) = self.marking.get_mut(usize::from(to.word)) {
+        if let Some(to) = to
+            && let Some(word) = self.marking.get_mut(usize::from(to.word))
+        {
             *word = word.wrapping_add(to.tokens(1));
         }
     }

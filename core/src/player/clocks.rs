@@ -22,6 +22,25 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         self.marking = after;
     }
 
+    /// The same of the transition at a position; its number.
+    pub(super) fn apply_at(&mut self, at: u16) -> Option<u16> {
+        let code = self.program.code();
+        let entry = code.entries.get(usize::from(at))?;
+        let (number, clock) = (entry.transition, entry.clock);
+        let after = plus(&self.marking, &entry.delta);
+        if C > 0
+            && let Some(take) = code.takes.get(usize::from(number))
+        {
+            let left = minus(&self.marking, take);
+            self.restart(&left);
+            if let Some(elapsed) = self.clocks.get_mut(usize::from(clock)) {
+                *elapsed = 0;
+            }
+        }
+        self.marking = after;
+        Some(number)
+    }
+
     /// Starts clocks anew of transitions that what was taken has left disabled; given what is left.
     pub(super) fn restart(&mut self, left: &[u64; W]) {
         let code = self.program.code();

@@ -79,8 +79,8 @@ pub struct Mailbox {
     pub event: u16,
     /// How many wait.
     pub waiting: Field,
-    /// For how many more there is room.
-    pub room: Field,
+    /// For how many more there is room, where a transition asks for it.
+    pub room: Option<Field>,
     /// Where what they carry begins.
     pub slot: u16,
     /// How many can wait.
@@ -104,7 +104,7 @@ lists! {
     says: u16 [D] = 0,
     /// Mailboxes, by component and then by event.
     mailboxes: Mailbox [B] = Mailbox {
-        event: 0, waiting: Field::NOWHERE, room: Field::NOWHERE, slot: 0, capacity: 0,
+        event: 0, waiting: Field::NOWHERE, room: None, slot: 0, capacity: 0,
     },
     /// For each component where its mailboxes begin, and at the end how many there are.
     turns: u16 [N] = 0,
@@ -245,16 +245,21 @@ impl<'c, const W: usize> Code<'c, W> {
         Some((*self.rows.get(row)?, *self.rows.get(row.checked_add(1)?)?))
     }
 
-    /// All transitions of some kinds that follow each other.
-    pub(super) fn kinds(&self, kinds: core::ops::Range<usize>) -> &'c [Entry<W>] {
+    /// Where the transitions of some kinds that follow each other begin in `entries`, and where they
+    /// end.
+    pub(super) fn span(&self, kinds: core::ops::Range<usize>) -> (u16, u16) {
         // Where the last row of a kind ends the first one of the next begins.
         let end = |kinds: usize| {
             let row = kinds.checked_mul(2 * usize::from(self.states))?.checked_sub(1)?;
-            Some(usize::from(*self.rows.get(row)?))
+            self.rows.get(row).copied()
         };
-        let entries =
-            end(kinds.end).and_then(|last| self.entries.get(end(kinds.start).unwrap_or(0)..last));
-        entries.unwrap_or(&[])
+        (end(kinds.start).unwrap_or(0), end(kinds.end).unwrap_or(0))
+    }
+
+    /// All transitions of some kinds that follow each other.
+    pub(super) fn kinds(&self, kinds: core::ops::Range<usize>) -> &'c [Entry<W>] {
+        let (first, end) = self.span(kinds);
+        self.entries.get(usize::from(first)..usize::from(end)).unwrap_or(&[])
     }
 
     /// The position of the marked place of a state machine.

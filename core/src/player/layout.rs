@@ -3,7 +3,7 @@
 use super::code::{Lists, Mailbox, NONE, Words};
 use super::field::{Field, clamped};
 use crate::net::data::{EventId, Net, Place, PlaceId, Role};
-use crate::system::data::{Delivery, Of, System, Target};
+use crate::system::data::{Binding, Delivery, Of, System, Target};
 
 /// What is laid out so far.
 pub(super) struct Used {
@@ -108,7 +108,25 @@ pub(super) const fn layout<const W: usize>(
     shared(system, lists);
 }
 
-/// A pair of fields for each mailbox.
+/// Whether a shared place that is the mailbox of this event has a complement.
+pub(super) const fn asks_for_room(system: &System<'_>, event: Of<EventId>) -> bool {
+    let mut at = 0;
+    while at < system.bindings.len() {
+        let Binding { shared, target } = system.bindings[at];
+        let net = system.components[shared.component as usize].net;
+        if let Target::Mailbox(of) = target
+            && of.component == event.component
+            && of.id.0 == event.id.0
+            && complement(net, shared.id).is_some()
+        {
+            return true;
+        }
+        at += 1;
+    }
+    false
+}
+
+/// A field for what waits in each mailbox, and one for the room where a transition asks for it.
 const fn mailboxes<const W: usize>(
     system: &System<'_>,
     lists: &mut Lists<'_, W>,
@@ -123,9 +141,14 @@ const fn mailboxes<const W: usize>(
             let of = Of { component: component as u16, id: EventId(at as u32) };
             if let Some(Delivery::Mail { capacity }) = system.delivery(of) {
                 let most = capacity as u32;
-                let (waiting, room) = (used.place(most), used.place(most));
+                let waiting = used.place(most);
                 fill(words, waiting, 0, most);
-                fill(words, room, most, most);
+                let mut room = None;
+                if asks_for_room(system, of) {
+                    let field = used.place(most);
+                    fill(words, field, most, most);
+                    room = Some(field);
+                }
                 let event = lists.events[component] + at as u16;
                 lists.mailboxes[count] = Mailbox { event, waiting, room, slot, capacity };
                 count += 1;
@@ -165,7 +188,11 @@ const fn shared<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
             Target::Mailbox(event) => {
                 let event = lists.events[event.component as usize] + event.id.0 as u16;
                 let mailbox = lists.mailboxes[mailbox_of(lists.mailboxes, event) as usize];
-                (mailbox.waiting, mailbox.room)
+                let room = match mailbox.room {
+                    Some(room) => room,
+                    None => mailbox.waiting, // nobody asks
+                };
+                (mailbox.waiting, room)
             }
         };
         lists.fields[own + binding.shared.id.0 as usize] = place;

@@ -3,7 +3,7 @@
 use super::arcs::{Moved, moved};
 use super::code::{Clock, Entry, Lists, NONE, Route, Size, Words};
 use super::fingerprint::fingerprint;
-use super::layout::{Used, lacks_complement, layout, mailbox_of, owns};
+use super::layout::{Used, asks_for_room, lacks_complement, layout, mailbox_of, owns};
 use super::machine::{machine, needs_state};
 use crate::net::data::{EventId, OutputId};
 use crate::system::data::{Delivery, Of, System};
@@ -68,7 +68,9 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
                 it.mailboxes += 1;
                 it.slots += capacity as usize;
                 used.place(capacity as u32);
-                used.place(capacity as u32);
+                if asks_for_room(system, of) {
+                    used.place(capacity as u32);
+                }
             }
             at += 1;
         }

@@ -28,11 +28,14 @@ pub struct Player<P, const W: usize, const C: usize = 0, const S: usize = 0, M =
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
     Player<P, W, C, S, M>
 {
+    /// Whether it is known that it plays a net alone.
+    pub(super) const ALONE: bool = matches!(P::ALONE, Some(true));
+
     /// The system as it starts, at this time, and settled. Clocks begin now.
     pub fn start(program: P, now: Millis, observer: &mut impl Observer<P, M>) -> Self {
         let marking = program.code().initial;
         let mut player = Self { program, marking, clocks: [0; C], slots: [M::default(); S], now };
-        if P::ALONE {
+        if Self::ALONE {
             player.rest(observer);
         } else {
             player.rest(&mut Anyone(observer));
@@ -67,7 +70,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> Outcome<P::Transition> {
-        let outcome = if P::ALONE {
+        let outcome = if Self::ALONE {
             self.answer(now, event.id(), Some(event), carries, observer)
         } else {
             self.answer(now, event.id(), Some(event), carries, &mut Anyone(observer))
@@ -84,7 +87,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> Outcome<Of<TransitionId>> {
-        let outcome = if P::ALONE {
+        let outcome = if Self::ALONE {
             self.answer(now, event, None, carries, observer)
         } else {
             self.answer(now, event, None, carries, &mut Anyone(observer))
@@ -155,7 +158,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// last one counts as the last one.
     #[inline]
     pub fn advance_with(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
-        if P::ALONE {
+        if Self::ALONE {
             self.pass_to(now, observer)
         } else {
             self.pass_to(now, &mut Anyone(observer))
@@ -165,7 +168,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Lets time pass.
     fn pass_to(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
         // What is proven to settle has settled before.
-        let settled = P::ALONE && self.program.code().bounded;
+        let settled = Self::ALONE && self.program.code().bounded;
         let fired = if settled { 0 } else { self.rest(observer) };
         let mut advanced = Advanced { fired, behind: self.is_cut_short(fired) };
         let mut refused = [false; C];
@@ -191,7 +194,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 break;
             }
             self.pass(u64::from(wait));
-            if let Some(more) = self.fire_by_itself(&entry, M::default(), observer) {
+            if let Some(more) = self.fire_due(&entry, observer) {
                 let settled = self.rest(observer);
                 advanced.fired =
                     advanced.fired.saturating_add(1).saturating_add(more).saturating_add(settled);
@@ -297,7 +300,10 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Whether what an event does ends when its net has settled.
     #[inline]
     pub(super) fn is_alone(code: &Code<'_, W>) -> bool {
-        P::ALONE || code.is_alone()
+        match P::ALONE {
+            Some(alone) => alone,
+            None => code.is_alone(),
+        }
     }
 
     /// Fires a transition of a net alone.

@@ -61,8 +61,9 @@ pub trait Names {
 /// let bell = Player::<bell::Program, 1>::new(); // one word, and no clock: `bell::Player` has one
 /// ```
 pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names {
-    /// Whether it is known to be a net alone: then a player carries no code for what connects nets.
-    const ALONE: bool;
+    /// Whether it is a net alone, where that is known: then a player carries no code for what
+    /// connects nets, or only that.
+    const ALONE: Option<bool>;
 
     /// The packed system.
     fn code(&self) -> Code<'_, W>;
@@ -175,7 +176,7 @@ impl<const W: usize, const C: usize, const S: usize> Names for Loaded<'_, W, C, 
 }
 
 impl<const W: usize, const C: usize, const S: usize> Program<W, C, S> for Loaded<'_, W, C, S> {
-    const ALONE: bool = false;
+    const ALONE: Option<bool> = None;
 
     #[inline]
     fn code(&self) -> Code<'_, W> {
@@ -233,7 +234,7 @@ impl<P, const W: usize, const C: usize, const S: usize> Program<W, C, S> for Che
 where
     P: Program<W, C, S>,
 {
-    const ALONE: bool = P::ALONE;
+    const ALONE: Option<bool> = P::ALONE;
 
     #[inline]
     fn code(&self) -> Code<'_, W> {

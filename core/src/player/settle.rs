@@ -11,32 +11,26 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 {
     /// Whether nothing fires at once by itself.
     pub(super) fn settled(&self, code: &Code<'_, W>) -> bool {
-        let kinds = code.first_urgent()..code.timed();
-        code.rests(&self.marking) || self.urgent(code, kinds, 0).is_none()
+        if code.rests(&self.marking) {
+            return true;
+        }
+        if Self::is_alone(code) {
+            return self.urgent(code).is_none();
+        }
+        let (first, end) = code.span(code.first_urgent()..code.timed());
+        self.enabled_from(first, end).is_none()
     }
 
     /// Whether settling stopped before its end, having let so many transitions fire.
     pub(super) fn is_cut_short(&self, fired: u32) -> bool {
         let code = self.program.code();
-        !(P::ALONE && code.bounded) && fired >= code.settle && !self.settled(&code)
+        !(Self::ALONE && code.bounded) && fired >= code.settle && !self.settled(&code)
     }
 
-    /// The position, at or after `from`, and the transition of these kinds that fires next at once
-    /// by itself.
+    /// The transition of a net alone that fires next at once by itself.
     #[inline]
-    fn urgent<'c>(
-        &self,
-        code: &Code<'c, W>,
-        kinds: Range<usize>,
-        from: usize,
-    ) -> Option<(usize, &'c Entry<W>)> {
-        if Self::is_alone(code) {
-            let entry = code.first(kinds.start, &self.marking, |it| self.can(code, it));
-            return entry.map(|it| (0, it));
-        }
-        let entries = code.kinds(kinds).iter().enumerate().skip(from);
-        let mut enabled = entries.filter(|it| self.can(code, it.1));
-        enabled.next()
+    fn urgent<'c>(&self, code: &Code<'c, W>) -> Option<&'c Entry<W>> {
+        code.first(code.first_urgent(), &self.marking, |it| self.can(code, it))
     }
 
     /// Lets all nets settle; how many transitions fired.
@@ -56,34 +50,50 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> u32 {
-        let (mut fired, mut from) = (0_u32, 0);
-        while fired < self.program.code().settle {
-            let code = self.program.code();
-            if code.rests(&self.marking) {
-                break;
+        if Self::is_alone(&self.program.code()) {
+            let mut fired = 0_u32;
+            while fired < self.program.code().settle {
+                let code = self.program.code();
+                if code.rests(&self.marking) {
+                    break;
+                }
+                let Some(&entry) = self.urgent(&code) else { break };
+                self.fire_alone(&entry, None, None, carries, observer);
+                fired = fired.saturating_add(1);
             }
-            let Some((at, &entry)) = self.urgent(&code, kinds.clone(), from) else { break };
-            match self.fire_by_itself(&entry, carries, observer) {
-                Some(more) => (fired, from) = (fired.saturating_add(1).saturating_add(more), 0),
+            return fired;
+        }
+        self.settle_nets(kinds, observer)
+    }
+
+    /// The same of a system of several nets.
+    fn settle_nets(&mut self, kinds: Range<usize>, observer: &mut impl Observer<P, M>) -> u32 {
+        let (first, end) = self.program.code().span(kinds);
+        let (mut fired, mut from) = (0_u32, first);
+        while fired < self.program.code().settle && !self.program.code().rests(&self.marking) {
+            let Some(at) = self.enabled_from(from, end) else { break };
+            match self.fire_whole(at, observer) {
+                Some(more) => (fired, from) = (fired.saturating_add(1).saturating_add(more), first),
                 None => from = at.saturating_add(1),
             }
         }
         fired
     }
 
-    /// Fires a transition that can fire by itself, with what follows from it; how many more fired,
-    /// or `None` when a mailbox on the way is full and nothing has happened.
+    /// Fires a transition that is due, with what follows from it; how many more fired, or `None`
+    /// when a mailbox on the way is full and nothing has happened.
     #[inline]
-    pub(super) fn fire_by_itself(
+    pub(super) fn fire_due(
         &mut self,
         entry: &Entry<W>,
-        carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> Option<u32> {
-        if Self::is_alone(&self.program.code()) {
-            self.fire_alone(entry, None, None, carries, observer);
+        let code = self.program.code();
+        if Self::is_alone(&code) {
+            self.fire_alone(entry, None, None, M::default(), observer);
             return Some(0);
         }
-        self.fire_whole(entry, observer)
+        let at = code.clocks.get(usize::from(entry.clock))?.entry;
+        self.fire_whole(at, observer)
     }
 }

@@ -273,7 +273,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let components = self.program.system().components;
         code.mailboxes
             .iter()
-            .all(|it| sums_to(held(it.waiting), held(it.room), u32::from(it.capacity)))
+            .filter_map(|it| Some((it, it.room?)))
+            .all(|(it, room)| sums_to(held(it.waiting), held(room), u32::from(it.capacity)))
             && code.complements.iter().all(made)
             && (0..).zip(components).map(|(at, it)| (at, it.net)).all(of_net)
     }
@@ -298,9 +299,9 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
 /// machine is marked.
 fn is_sound<const W: usize>(code: &Code<'_, W>, marking: &[u64; W]) -> bool {
     let mut fields = [0_u64; W];
-    let waiting = code.mailboxes.iter().flat_map(|it| [&it.waiting, &it.room]);
-    let made = code.complements.iter().map(|it| &it.1);
-    for field in code.fields.iter().chain(waiting).chain(made) {
+    let waiting = code.mailboxes.iter().flat_map(|it| [Some(it.waiting), it.room]).flatten();
+    let made = code.complements.iter().map(|it| it.1);
+    for field in code.fields.iter().copied().chain(waiting).chain(made) {
         if let Some(word) = fields.get_mut(usize::from(field.word)) {
             *word |= field.mask().wrapping_shl(u32::from(field.shift));
         }

@@ -345,7 +345,7 @@ macro_rules! system {
             impl $crate::player::Program<{ SIZE.words }, { SIZE.clocks }, { SIZE.slots }>
                 for Program
             {
-                const ALONE: bool = false;
+                const ALONE: Option<bool> = Some(false);
 
                 #[inline]
                 fn code(&self) -> system_code::Code<'_, { SIZE.words }> {
