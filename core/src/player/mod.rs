@@ -14,8 +14,8 @@
 //!    and all nets settle; or the event is ignored, and the player says why.
 //! 3. In a *round* each net takes its turn, in the order of the system: it settles, then reads its
 //!    mailboxes in the order in which its events are listed, each as far as it is filled when the
-//!    net comes to it. What it reads makes a transition fire, or is ignored for good, or, when a mailbox
-//!    is full, goes on waiting. Then all nets settle. [`Player::round_is_due`] says whether
+//!    net comes to it. What it reads makes a transition fire, or is ignored for good, or, when a
+//!    mailbox is full, goes on waiting. Then all nets settle. [`Player::round_is_due`] says whether
 //!    something waits; a net alone has no mailboxes.
 //!
 //! **What a firing does.** What a transition emits *now* makes the receivers fire in the same step,
@@ -28,13 +28,14 @@
 //! **Time.** The clock of a transition starts when the marking enables it, and starts anew whenever
 //! a firing disturbs it: when it fires itself, or when what the firing takes leaves it disabled,
 //! even if what is given back enables it again (Merlin's time Petri nets, with single-server
-//! clocks). Reading disturbs no clock. The semantics is *strong* for transitions without event:
-//! time does not pass their last instant. They fire at their first, so a later last instant only
-//! tells the checker what to allow for. For a transition on an event it is *weak*: when its last
-//! instant has passed, it is not enabled any more until its clock starts anew. A player that is
-//! told the time late catches up: what was due fires at the time when it was due, in order. So
-//! however often it is told the time in between, the same events and rounds at the same instants
-//! give the same firings at the same instants.
+//! clocks). Reading disturbs no clock. Room in a place that several nets share is needed and taken
+//! as tokens are; any other full place stops a firing, but no clock. The semantics is *strong* for
+//! transitions without event: time does not pass their last instant. They fire at their first, so a
+//! later last instant only tells the checker what to allow for. For a transition on an event it is
+//! *weak*: when its last instant has passed, it is not enabled any more until its clock starts
+//! anew. A player that is told the time late catches up: what was due fires at the time when it was
+//! due, in order. So however often it is told the time in between, the same events and rounds at
+//! the same instants give the same firings at the same instants.
 //!
 //! ```text
 //! net! { .. } or system! { .. } -> System -> Code (packed) -> Player { marking, clocks, slots }
