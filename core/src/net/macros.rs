@@ -387,8 +387,8 @@ macro_rules! net {
                 const ALONE: Option<bool> = Some(true);
 
                 #[inline]
-                fn code(&self) -> net_code::Code<'_, { CODE_SIZE.words }> {
-                    CODE
+                fn code(&self) -> &net_code::Code<'_, { CODE_SIZE.words }> {
+                    &CODE
                 }
 
                 fn system(&self) -> $crate::system::System<'_> {

@@ -247,7 +247,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let code = self.program.code();
         let entries = code.entries.get(usize::from(first)..usize::from(end))?;
         let mut entries = (first..).zip(entries);
-        entries.find(|(_, it)| self.can(&code, it) && self.open(&code, it)).map(|it| it.0)
+        entries.find(|(_, it)| self.can(code, it) && self.open(code, it)).map(|it| it.0)
     }
 
     /// Moves the tokens of the transition at this position; what it says is then under way. Its

@@ -99,7 +99,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 continue;
             }
             let waits = clock.earliest.saturating_sub(elapsed);
-            if first.is_none_or(|(least, _)| waits < least) && self.can(&code, entry) {
+            if first.is_none_or(|(least, _)| waits < least) && self.can(code, entry) {
                 first = Some((waits, entry));
             }
         }
@@ -111,7 +111,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// room in a mailbox. Then it may do without.
     pub(super) fn retry(&self, refused: &[bool; C], left: u64) -> Option<u32> {
         let code = self.program.code();
-        if C == 0 || S == 0 || !refused.contains(&true) && self.settled(&code) {
+        if C == 0 || S == 0 || !refused.contains(&true) && self.settled(code) {
             return None;
         }
         let changes = self.clocks.iter().zip(code.clocks).filter_map(|(&elapsed, clock)| {

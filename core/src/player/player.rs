@@ -106,7 +106,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         observer: &mut impl Observer<P, M>,
     ) -> Outcome<u16> {
         let code = self.program.code();
-        if C > 0 || !code.bounded || !Self::is_alone(&code) {
+        if C > 0 || !Self::bounded(code) || !Self::is_alone(code) {
             if self.pass_to(now, observer).behind {
                 return Outcome::Ignored { why: Why::Behind };
             }
@@ -118,11 +118,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let Some(kind) = code.event_number(id) else {
             return Outcome::Ignored { why: Why::NoSuchEvent };
         };
-        if !Self::is_alone(&code) {
+        if !Self::is_alone(code) {
             let outcome = self.deliver(kind as u16, event, carries, observer);
             return self.and_rest(outcome, observer);
         }
-        let can = |it: &Entry<W>| self.can(&code, it) && self.open(&code, it);
+        let can = |it: &Entry<W>| self.can(code, it) && self.open(code, it);
         let Some(entry) = code.first(kind, &self.marking, can).copied() else {
             observer.on_ignore(id, carries);
             return Outcome::Ignored { why: self.why(kind) };
@@ -168,7 +168,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Lets time pass.
     fn pass_to(&mut self, now: Millis, observer: &mut impl Observer<P, M>) -> Advanced {
         // What is proven to settle has settled before.
-        let settled = Self::ALONE && self.program.code().bounded;
+        let settled = Self::ALONE && Self::bounded(self.program.code());
         let fired = if settled { 0 } else { self.rest(observer) };
         let mut advanced = Advanced { fired, behind: self.is_cut_short(fired) };
         let mut refused = [false; C];
@@ -234,7 +234,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// [round is due](Self::round_is_due), otherwise when the next transition is due by itself.
     pub fn wake_at(&self) -> Option<Millis> {
         let code = self.program.code();
-        if self.round_is_due() || !self.settled(&code) {
+        if self.round_is_due() || !self.settled(code) {
             return Some(self.now);
         }
         let (wait, _) = self.due(&[false; C])?;
@@ -278,7 +278,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let mut entries = code.entries.iter();
         entries
             .find(|it| code.transition(it.transition) == transition)
-            .is_some_and(|it| self.can(&code, it) && self.open(&code, it))
+            .is_some_and(|it| self.can(code, it) && self.open(code, it))
     }
 
     /// The marked place of a component that is a state machine, to be matched on; `N` is its
@@ -295,6 +295,18 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         // A state machine has one token, so one of them is marked.
         let state = (0..).zip(N::STATES).find(marked);
         state.map_or(N::STATES[0], |it| *it.1)
+    }
+
+    /// Whether it is known that no bound is ever exceeded.
+    #[inline]
+    pub(super) fn bounded(code: &Code<'_, W>) -> bool {
+        P::TRUSTED && code.bounded
+    }
+
+    /// The most transitions that fire at once by themselves one after another.
+    #[inline]
+    pub(super) fn longest(code: &Code<'_, W>) -> u32 {
+        if P::TRUSTED { code.settle } else { super::SETTLE }
     }
 
     /// Whether what an event does ends when its net has settled.
@@ -328,7 +340,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     #[inline]
     pub(super) fn can(&self, code: &Code<'_, W>, entry: &Entry<W>) -> bool {
         code.holds(&self.marking, &entry.need)
-            && (code.bounded
+            && (Self::bounded(code)
                 || code.holds(&code.bounds, &super::code::plus(&self.marking, &entry.delta)))
     }
 
@@ -336,7 +348,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     #[inline]
     pub(super) fn why(&self, kind: usize) -> Why<u16> {
         let code = self.program.code();
-        if C > 0 || !code.bounded {
+        if C > 0 || !Self::bounded(code) {
             let holds = |it: &Entry<W>| code.holds(&self.marking, &it.need);
             if let Some(entry) = code.first(kind, &self.marking, holds) {
                 let number = usize::from(entry.clock);

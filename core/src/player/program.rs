@@ -65,8 +65,11 @@ pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names
     /// connects nets, or only that.
     const ALONE: Option<bool>;
 
+    /// Whether what is proven of its code counts: [`Code::bounded`] and [`Code::settle`].
+    const TRUSTED: bool = true;
+
     /// The packed system.
-    fn code(&self) -> Code<'_, W>;
+    fn code(&self) -> &Code<'_, W>;
 
     /// The system as plain data.
     fn system(&self) -> System<'_>;
@@ -179,8 +182,8 @@ impl<const W: usize, const C: usize, const S: usize> Program<W, C, S> for Loaded
     const ALONE: Option<bool> = None;
 
     #[inline]
-    fn code(&self) -> Code<'_, W> {
-        self.code
+    fn code(&self) -> &Code<'_, W> {
+        &self.code
     }
 
     fn system(&self) -> System<'_> {
@@ -235,10 +238,11 @@ where
     P: Program<W, C, S>,
 {
     const ALONE: Option<bool> = P::ALONE;
+    const TRUSTED: bool = false;
 
     #[inline]
-    fn code(&self) -> Code<'_, W> {
-        Code { bounded: false, settle: super::SETTLE, ..self.0.code() }
+    fn code(&self) -> &Code<'_, W> {
+        self.0.code()
     }
 
     fn system(&self) -> System<'_> {

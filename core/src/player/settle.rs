@@ -24,7 +24,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// Whether settling stopped before its end, having let so many transitions fire.
     pub(super) fn is_cut_short(&self, fired: u32) -> bool {
         let code = self.program.code();
-        !(Self::ALONE && code.bounded) && fired >= code.settle && !self.settled(&code)
+        !(Self::ALONE && Self::bounded(code)) && fired >= Self::longest(code) && !self.settled(code)
     }
 
     /// The transition of a net alone that fires next at once by itself.
@@ -52,12 +52,12 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     ) -> u32 {
         if Self::is_alone(&self.program.code()) {
             let mut fired = 0_u32;
-            while fired < self.program.code().settle {
+            while fired < Self::longest(self.program.code()) {
                 let code = self.program.code();
                 if code.rests(&self.marking) {
                     break;
                 }
-                let Some(&entry) = self.urgent(&code) else { break };
+                let Some(&entry) = self.urgent(code) else { break };
                 self.fire_alone(&entry, None, None, carries, observer);
                 fired = fired.saturating_add(1);
             }
@@ -70,7 +70,9 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     fn settle_nets(&mut self, kinds: Range<usize>, observer: &mut impl Observer<P, M>) -> u32 {
         let (first, end) = self.program.code().span(kinds);
         let (mut fired, mut from) = (0_u32, first);
-        while fired < self.program.code().settle && !self.program.code().rests(&self.marking) {
+        while fired < Self::longest(self.program.code())
+            && !self.program.code().rests(&self.marking)
+        {
             let Some(at) = self.enabled_from(from, end) else { break };
             match self.fire_whole(at, observer) {
                 Some(more) => (fired, from) = (fired.saturating_add(1).saturating_add(more), first),
@@ -89,7 +91,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         observer: &mut impl Observer<P, M>,
     ) -> Option<u32> {
         let code = self.program.code();
-        if Self::is_alone(&code) {
+        if Self::is_alone(code) {
             self.fire_alone(entry, None, None, M::default(), observer);
             return Some(0);
         }

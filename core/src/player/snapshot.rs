@@ -233,11 +233,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             return Err(RestoreError::OtherSystem { expected, found: fingerprint });
         }
         let stray_clock = from.clocks.iter().skip(code.clocks.len()).any(|&elapsed| elapsed != 0);
-        if stray_clock || !is_sound(&code, &marking) || !player.complements(&code) {
+        if stray_clock || !is_sound(code, &marking) || !player.complements(code) {
             return Err(RestoreError::Marking);
         }
         for (component, it) in (0..).zip(player.program.system().components) {
-            if let Some(law) = player.broken(&code, component, it.net) {
+            if let Some(law) = player.broken(code, component, it.net) {
                 return Err(RestoreError::Law(component, law));
             }
         }
@@ -250,7 +250,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             }
         }
         // What waits for room in a mailbox may be enabled, where there are mailboxes.
-        if S > 0 || player.settled(&code) { Ok(player) } else { Err(RestoreError::NotSettled) }
+        if S > 0 || player.settled(code) { Ok(player) } else { Err(RestoreError::NotSettled) }
     }
 
     /// Whether every complement holds what its place lacks.

@@ -67,7 +67,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let mut step = Stepped { ignored: ones(events.len()), ..Stepped::default() };
         for at in (0..).map_while(|at| self.program.ordered(at)) {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
-            if self.takes_part(&code, entry, &left, events) {
+            if self.takes_part(code, entry, &left, events) {
                 (left, given) = self.applied(entry, &left, &given);
                 // Tested one by one: the sum of many gifts could outgrow a field and disturb
                 // others.
@@ -83,7 +83,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let mut again = (self.marking, [0; W]);
         for at in (0..).map_while(|at| self.program.ordered(at)) {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
-            if !self.takes_part(&code, entry, &again.0, events) {
+            if !self.takes_part(code, entry, &again.0, events) {
                 continue;
             }
             again = self.applied(entry, &again.0, &again.1);
@@ -93,11 +93,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             step.fired = step.fired.saturating_add(1);
             for (event, bit) in events.iter().zip((0..u64::BITS).map(|bit| 1_u64.wrapping_shl(bit)))
             {
-                if is_on(&code, entry, event) {
+                if is_on(code, entry, event) {
                     step.ignored &= !bit;
                 }
             }
-            let event = events.iter().find(|event| is_on(&code, entry, *event));
+            let event = events.iter().find(|event| is_on(code, entry, *event));
             let id = code.transition(entry.transition);
             observer.on_fire(&Firing {
                 transition: self.program.transition(id),

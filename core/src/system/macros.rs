@@ -258,7 +258,7 @@ macro_rules! system {
                 { SIZE.clears },
                 { SIZE.ignored },
             > = system_code::Arrays::of(&SYSTEM);
-            const CODE: system_code::Code<'static, { SIZE.words }> =
+            static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);
 
             #[allow(dead_code, non_camel_case_types)]
@@ -348,8 +348,8 @@ macro_rules! system {
                 const ALONE: Option<bool> = Some(false);
 
                 #[inline]
-                fn code(&self) -> system_code::Code<'_, { SIZE.words }> {
-                    CODE
+                fn code(&self) -> &system_code::Code<'_, { SIZE.words }> {
+                    &CODE
                 }
 
                 fn system(&self) -> $crate::system::System<'_> {
