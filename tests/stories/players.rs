@@ -77,7 +77,7 @@ where
 {
     fn on_fire(&mut self, firing: &Firing<'_, P, u16>) {
         let Firing { id, on, carries, at, .. } = *firing;
-        assert_eq!(firing.transition, id);
+        assert_eq!(firing.transition(), id);
         let net = self.system.components[usize::from(id.component)].net;
         let says = net.transitions[id.id.0 as usize].emits;
         let says = says.iter().map(|&output| Of { id: output, component: id.component });

@@ -142,7 +142,7 @@ fn firings_have_typed_lines_and_outputs() {
     let mut see = |it: &line::Firing<'_, u8>| {
         assert_eq!(it.event, Some(&MAKE));
         assert!(it.says(line::Output::maker(maker::Output::part)));
-        seen.push((it.transition, it.outputs().collect::<Vec<_>>()));
+        seen.push((it.transition(), it.outputs().collect::<Vec<_>>()));
     };
     assert!(line.offer_with(Millis(0), &MAKE, &mut see).fired());
     let made = line::Transition::maker(maker::Transition::make);

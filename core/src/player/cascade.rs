@@ -225,8 +225,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
                 let on = on.map(|it| code.event(it));
                 // What was offered from outside is what the first transition fired on.
                 let event = offered.filter(|it| Some(super::Kind::id(*it)) == on);
-                let (transition, program) = (self.program.transition(id), &self.program);
-                observer.on_fire(&Firing { transition, id, on, event, carries, at, program });
+                let program = &self.program;
+                observer.on_fire(&Firing { id, on, event, carries, at, program });
             }
             Happened::Ignored(event) => observer.on_ignore(code.event(event), carries),
             Happened::Mailed(event) => observer.on_mail(code.event(event), carries),

@@ -8,8 +8,6 @@ use crate::units::Millis;
 /// A transition that has just fired.
 #[derive(Debug)]
 pub struct Firing<'f, P: Names, M = ()> {
-    /// The line of the definition.
-    pub transition: P::Transition,
     /// The transition.
     pub id: Of<TransitionId>,
     /// The event on which it fired; `None` for one that fires by itself.
@@ -27,6 +25,12 @@ pub struct Firing<'f, P: Names, M = ()> {
 }
 
 impl<'f, P: Names, M> Firing<'f, P, M> {
+    /// The line of the definition.
+    #[inline]
+    pub fn transition(&self) -> P::Transition {
+        self.program.transition(self.id)
+    }
+
     /// What it says, in this order.
     #[inline]
     pub fn outputs(&self) -> impl Iterator<Item = P::Output> + use<'f, P, M> {

@@ -330,9 +330,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     ) {
         self.apply(entry);
         let id = self.program.code().transition(entry.transition);
-        let (transition, at) = (self.program.transition(id), self.now);
-        let program = &self.program;
-        observer.on_fire(&Firing { transition, id, on, event, carries, at, program });
+        let (program, at) = (&self.program, self.now);
+        observer.on_fire(&Firing { id, on, event, carries, at, program });
     }
 
     /// Whether the tokens that a transition needs are there, and there is room for those that it

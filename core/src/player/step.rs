@@ -38,7 +38,7 @@ use super::code::{Code, Entry, minus, plus};
 use super::observer::{Firing, Observer};
 use super::outcome::Stepped;
 use super::player::Player;
-use super::program::{Checked, Kind, Names, Program};
+use super::program::{Checked, Kind, Program};
 use crate::units::Millis;
 
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
@@ -100,7 +100,6 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             let event = events.iter().find(|event| is_on(code, entry, *event));
             let id = code.transition(entry.transition);
             observer.on_fire(&Firing {
-                transition: self.program.transition(id),
                 id,
                 on: event.map(Kind::id),
                 event,

@@ -46,7 +46,7 @@ macro_rules! follow {
             let now = Millis(it.at.0 / 1_000);
             let mut fired = vec![];
             let mut observer =
-                |of: &Firing<'_>| fired.push((of.transition, of.at, of.outputs().collect()));
+                |of: &Firing<'_>| fired.push((of.transition(), of.at, of.outputs().collect()));
             match it.what {
                 What::Released => {
                     assert!(player.offer_with(now, &Event::Release, &mut observer).fired())
