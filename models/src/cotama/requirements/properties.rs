@@ -2,12 +2,12 @@
 //!
 //! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation
 //! module, WD watchdog, DP the permit to move, M the robot. Texts are in the language of `cotama
-//! check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds: `round` is marked
-//! between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E` when it
-//! has, and `turn.outside` when every net has had its turn.
+//! check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds: `round` is
+//! marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E`
+//! when it has, and `turn.outside` when every net has had its turn.
 //!
 //! Where the shipped system differs from the model that Durand et al. (TAROS 2010) let us
-//! reconstruct, [`decision`](crate::cotama::decision):
+//! reconstruct (`verification/tests/rounds/reconstruction.rs`):
 //! - flags of observers go through the observation module, which reads them in the round in which
 //!   the contextual supervisor decides, so that no reaction is later (improved: the paper has the
 //!   module, the first model left it out);
@@ -15,8 +15,8 @@
 //!   avoidance (inferred);
 //! - what moves the robot holds a permit, which `halt` destroys (improved);
 //! - hard failures without a report of their own are reported as `hard` (inferred);
-//! - the environment is two nets, faults and operator; what is really lost is known to the first
-//!   one alone (improved).
+//! - faults and the operator are two nets; what is really lost is known to the first one alone
+//!   (improved).
 
 use super::guarded::Guarded;
 use crate::cotama::label::Label;
