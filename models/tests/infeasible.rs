@@ -241,11 +241,7 @@ fn compare(name: &str, why: &Explanation, mission: &Mission) {
     let heaviest = why.heaviest.iter().map(|it| it.wording(mission));
     let relaxations = why.relaxations.iter().map(|it| it.wording(mission));
     let lines = std::iter::once(why.reason.wording(mission)).chain(heaviest).chain(relaxations);
-    let said = lines.collect::<Vec<_>>().join(
-        "
-",
-    ) + "
-";
+    let said = lines.collect::<Vec<_>>().join("\n") + "\n";
     cotama_golden::compare(format!("tests/golden/infeasible_{name}.txt"), &said);
 }
 
@@ -419,7 +415,11 @@ fn a_limit_of_nothing_is_raised_too() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 500,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
     #[test]
     fn an_explanation_is_given_exactly_where_there_is_no_plan_and_its_relaxations_suffice(
         which in 0..3usize,
@@ -429,7 +429,8 @@ proptest! {
     ) {
         let mission = [patrol, slow_is_cheap, lasers_in_glass][which]();
         let limits = [duration, energy];
-        let available = lost.iter().fold(mission.available(), |all, &(kind, count)| all.without(kind, count));
+        let without = |all: Equipment, &(kind, count): &(usize, u8)| all.without(kind, count);
+        let available = lost.iter().fold(mission.available(), without);
         match explain(&mission, limits, available) {
             None => prop_assert!(feasible(&mission, limits, available)),
             Some(why) => {
