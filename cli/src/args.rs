@@ -130,8 +130,8 @@ Examples:
     ///
     /// Every verdict is a proof: where a limit is reached before, the answer is that it is not
     /// known, and how much was looked at. Transitions with intervals of time fire within them;
-    /// events can come at any time. A system is checked as one net, in every interleaving. A
-    /// property that is false comes with a run that shows it.
+    /// events can come at any time. A system is checked as one net that acts in rounds, or in every
+    /// interleaving. A property that is false comes with a run that shows it.
     #[command(after_long_help = check::CHECK_EXAMPLES)]
     Check(CheckArgs),
     /// Counts what is reachable in a model: markings, firings, deadlocks, tokens

@@ -3,9 +3,9 @@
 use cotama_core::net::{Known, Net};
 use cotama_core::system::System;
 use cotama_models::cotama::{
-    RECOVERY_REQUIREMENTS, REPLACED, REQUIREMENTS, Requirement, contextual, decision, delivery,
-    environment, faults, global, local, observation, operator, path_following, permit, recovering,
-    recovery, teleoperation,
+    RECOVERY_REQUIREMENTS, REPLACED, REQUIREMENTS, Requirement, contextual, delivery, faults,
+    global, local, observation, operator, path_following, permit, recovering, recovery,
+    teleoperation,
 };
 use cotama_models::nets::families::Family;
 use cotama_models::nets::{self, Model};
@@ -48,7 +48,7 @@ impl Entry {
     }
 }
 
-static SYSTEMS: [System<'static>; 3] = [decision::SYSTEM, delivery::SYSTEM, recovering::SYSTEM];
+static SYSTEMS: [System<'static>; 2] = [delivery::SYSTEM, recovering::SYSTEM];
 
 /// All of them, in the order in which they are listed.
 pub(crate) fn entries() -> Vec<Entry> {
@@ -60,13 +60,12 @@ pub(crate) fn entries() -> Vec<Entry> {
             Model::Family(family) => Kind::Family(family),
         },
     });
-    let supervisors: [(&'static Net<'static>, Known); 11] = [
+    let supervisors: [(&'static Net<'static>, Known); 10] = [
         (&global::NET, global::KNOWN),
         (&local::NET, local::KNOWN),
         (&path_following::NET, path_following::KNOWN),
         (&teleoperation::NET, teleoperation::KNOWN),
         (&contextual::NET, contextual::KNOWN),
-        (&environment::NET, environment::KNOWN),
         (&permit::NET, permit::KNOWN),
         (&observation::NET, observation::KNOWN),
         (&faults::NET, faults::KNOWN),
@@ -109,8 +108,9 @@ mod tests {
     fn a_sentence_ends_before_the_next_one() {
         let sentence = |name| entry(name).unwrap().sentence();
         assert_eq!(
-            sentence("decision"),
-            "The decisional level and its environment, for one mission of two drives."
+            sentence("delivery"),
+            "COTAMA's decisional level as it drives the robot, with everything that may fail and \
+             the operator."
         );
         assert!(sentence("local").contains("Fig. 3"));
     }

@@ -3,7 +3,7 @@
 use crate::answers::{Change, Heavy, Kept, Reason, Relaxation, ZoneConstraint};
 use cotama_core::allocation::Shortfall;
 use cotama_core::hardware::Equipment;
-use cotama_models::missions::infeasible::{self, Cause};
+use cotama_models::missions::infeasible;
 use cotama_models::missions::{AXES, Constraint, Mission};
 
 /// The units of the axes.
@@ -13,20 +13,20 @@ pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];
 /// search for the explanation was cut short.
 pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Reason> {
     let found = infeasible::explain(mission, limits, available)?;
-    let mut reason = match &found.cause {
-        Cause::Limit { axis, limit, least } => over(*axis, *limit, *least),
-        Cause::Limits { limits, least } => {
+    let mut reason = match &found.reason {
+        infeasible::Reason::Limit { axis, limit, least } => over(*axis, *limit, *least),
+        infeasible::Reason::Limits { limits, least } => {
             let axis = mission.order[0];
             over(axis, limits[axis], least[axis])
         }
-        Cause::NoAlternative { activity, .. } => {
+        infeasible::Reason::NoAlternative { activity, .. } => {
             let id = mission.scenario().activities.get(*activity).map(|it| it.id.clone());
             Reason { activity: id, ..Reason::default() }
         }
-        Cause::SomeLimit { .. } => Reason::default(),
-        Cause::Undecided { .. } => return None,
+        infeasible::Reason::SomeLimit { .. } => Reason::default(),
+        infeasible::Reason::Undecided { .. } => return None,
     };
-    reason.text = found.cause.wording(mission);
+    reason.text = found.reason.wording(mission);
     reason.heaviest = found.heaviest.iter().map(|heavy| heaviest(mission, heavy)).collect();
     reason.relaxations = found.relaxations.iter().map(|it| relaxation(mission, it)).collect();
     Some(reason)

@@ -41,12 +41,7 @@ impl Subject {
         untimed: bool,
         semantics: Option<Semantics>,
     ) -> Result<Self, Failure> {
-        let usual = if catalogue::requirements(name).is_empty() {
-            Semantics::Interleaving
-        } else {
-            Semantics::Rounds
-        };
-        let loaded = Self::found(name, untimed, semantics.unwrap_or(usual))?;
+        let loaded = Self::found(name, untimed, semantics.unwrap_or(Semantics::Rounds))?;
         if semantics == Some(Semantics::Rounds) && loaded.semantics.is_none() {
             return Err(Failure::new(format!(
                 "`{name}` is one net: rounds are those of several that work together"

@@ -60,7 +60,7 @@ fn the_drawings_of_the_delivery_are_those_of_the_program() {
 #[test]
 fn pnml_and_json_lose_nothing() {
     let folder = Folder::new("export_back");
-    for model in ["door", "charger", "environment", "kanban:3"] {
+    for model in ["door", "charger", "operator", "kanban:3"] {
         let json = folder.cotama(&["export", model, "--format", "json"]).stdout;
         for format in ["json", "pnml"] {
             let line =

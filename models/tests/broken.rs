@@ -83,7 +83,7 @@ fn edits_of_the_patrol() {
                 ("speed_harmless_mm_s = 560", ""),
             ],
         ),
-        ("motion_power_point", &[("power_mw = 9746", "power_mw = 9747")]),
+        ("motion_power_point", &[("power_mw=9746", "power_mw=9747")]),
         ("too_many_units", &[("units = 2 ", "units = 8 ")]),
         ("needs_more_than_there_are", &[("laser = 2, actuators", "laser = 3, actuators")]),
         (
@@ -162,8 +162,9 @@ fn edits_of_the_patrol() {
             "random_events",
             &[(
                 "[run]",
-                "[run]\nrandom = [{ name = \"door\", kind = \"fault\", per_km = 1 }, { name = \"a\", \
-            kind = \"obstacle\", per_km = 0, delay_ms = 5 }, { name = \"a\", kind = \"odometry\", per_km = 5 }]",
+                "[run]\nrandom = [{ name = \"door\", kind = \"fault\", per_km = 1 }, { name = \
+                 \"a\", kind = \"obstacle\", per_km = 0, delay_ms = 5 }, { name = \"a\", kind = \
+                 \"odometry\", per_km = 5 }]",
             )],
         ),
         ("monitor_period", &[("monitor_period_ms = 1000", "monitor_period_ms = 0")]),

@@ -1,4 +1,4 @@
-//! Missions without a plan: the cause and the relaxations, exactly, and that each relaxation is
+//! Missions without a plan: the reason and the relaxations, exactly, and that each relaxation is
 //! what it says. What is said of them is in `tests/golden/infeasible_*.txt`; `UPDATE_GOLDEN=1 cargo
 //! test -p cotama-models --test infeasible` writes it again.
 #![cfg(feature = "std")]
@@ -6,7 +6,7 @@
 
 use cotama_core::hardware::Equipment;
 use cotama_models::missions::infeasible::{
-    Cause, Explanation, Relaxation, explain, explain_within,
+    Explanation, Reason, Relaxation, explain, explain_within,
 };
 use cotama_models::missions::{Constraint, Mission, embedded};
 use proptest::prelude::*;
@@ -203,17 +203,17 @@ fn check_order(why: &Explanation, mission: &Mission) {
     assert!(why.relaxations.windows(2).all(|pair| key(&pair[0]) <= key(&pair[1])), "{why:?}");
 }
 
-/// What a cause says of a limit is proven, however early the search ended.
-fn check_cause(cause: &Cause, front: &[[u64; 2]], limits: [u64; 2]) {
+/// What a reason says of a limit is proven, however early the search ended.
+fn check_reason(reason: &Reason, front: &[[u64; 2]], limits: [u64; 2]) {
     let least = |axis: usize, other: u64| {
         front.iter().filter(|cost| cost[1 - axis] <= other).map(|cost| cost[axis]).min()
     };
-    match *cause {
-        Cause::Limit { axis, limit, least: said } => {
+    match *reason {
+        Reason::Limit { axis, limit, least: said } => {
             assert_eq!((limit, least(axis, limits[1 - axis])), (limits[axis], Some(said)));
             assert!(said > limit);
         }
-        Cause::Limits { limits: of, least: said } => {
+        Reason::Limits { limits: of, least: said } => {
             assert_eq!((of, [0, 1].map(|axis| least(axis, u64::MAX))), (limits, said.map(Some)));
             assert!([0, 1].iter().all(|&axis| said[axis] > limits[axis]));
         }
@@ -222,10 +222,10 @@ fn check_cause(cause: &Cause, front: &[[u64; 2]], limits: [u64; 2]) {
 }
 
 fn check_heaviest(why: &Explanation, mission: &Mission) {
-    let total = match why.cause {
-        Cause::Limit { axis, least, .. } => Some((axis, least)),
-        Cause::Limits { least, .. } => Some((mission.order[0], least[mission.order[0]])),
-        Cause::NoAlternative { .. } | Cause::SomeLimit { .. } | Cause::Undecided { .. } => None,
+    let total = match why.reason {
+        Reason::Limit { axis, least, .. } => Some((axis, least)),
+        Reason::Limits { least, .. } => Some((mission.order[0], least[mission.order[0]])),
+        Reason::NoAlternative { .. } | Reason::SomeLimit { .. } | Reason::Undecided { .. } => None,
     };
     assert_eq!(total.is_some(), !why.heaviest.is_empty());
     for heavy in &why.heaviest {
@@ -240,12 +240,8 @@ fn check_heaviest(why: &Explanation, mission: &Mission) {
 fn compare(name: &str, why: &Explanation, mission: &Mission) {
     let heaviest = why.heaviest.iter().map(|it| it.wording(mission));
     let relaxations = why.relaxations.iter().map(|it| it.wording(mission));
-    let lines = std::iter::once(why.cause.wording(mission)).chain(heaviest).chain(relaxations);
-    let said = lines.collect::<Vec<_>>().join(
-        "
-",
-    ) + "
-";
+    let lines = std::iter::once(why.reason.wording(mission)).chain(heaviest).chain(relaxations);
+    let said = lines.collect::<Vec<_>>().join("\n") + "\n";
     cotama_golden::compare(format!("tests/golden/infeasible_{name}.txt"), &said);
 }
 
@@ -265,7 +261,7 @@ fn half_the_energy_is_too_little() {
     let all = mission.available();
     let limits = [600_000, 4_320_000];
     let why = explain(&mission, limits, all).unwrap();
-    assert_eq!(why.cause, Cause::Limit { axis: ENERGY, limit: 4_320_000, least: 4_675_896 });
+    assert_eq!(why.reason, Reason::Limit { axis: ENERGY, limit: 4_320_000, least: 4_675_896 });
     assert_eq!(
         why.relaxations[0],
         Relaxation::RaiseLimit { axis: ENERGY, from: 4_320_000, to: 4_320_000 + 355_896 }
@@ -310,13 +306,13 @@ fn without_the_sonar_the_glazed_zones_have_no_alternative() {
     let available = mission.available().without(SONAR, 1);
     let why = explain(&mission, mission.limits, available).unwrap();
     let zone = |id| mission.zones.iter().position(|zone| zone.id == id).unwrap();
-    let cause = Cause::NoAlternative {
+    let reason = Reason::NoAlternative {
         activity: 1,
         lacks: vec![Equipment::NONE.with(SONAR, 1).unwrap()],
         constraints: vec![(zone("glass-out"), Constraint::Hardware)],
         others: vec![2, 6, 9, 15],
     };
-    assert_eq!(why.cause, cause);
+    assert_eq!(why.reason, reason);
     compare("no_sonar", &why, &mission);
     check(&why, &mission, mission.limits, available);
 }
@@ -350,7 +346,7 @@ fn a_search_cut_short_says_so() {
     // One unit from a plan it takes long to see that there is none; far from one, to find the least
     // limit.
     for (limits, what) in
-        [([duration, energy - 1], "cause"), ([duration, energy / 2], "relaxations")]
+        [([duration, energy - 1], "reason"), ([duration, energy / 2], "relaxations")]
     {
         let why = explain(&mission, limits, all).unwrap();
         check(&why, &mission, limits, all);
@@ -365,14 +361,14 @@ fn a_search_cut_short_says_so() {
                 within.relaxations.iter().all(|it| suffices(it, &mission, limits, all)),
                 "{within:?}"
             );
-            check_cause(&within.cause, &front, limits);
-            let undecided = within.cause == Cause::Undecided { steps };
+            check_reason(&within.reason, &front, limits);
+            let undecided = within.reason == Reason::Undecided { steps };
             assert!(!undecided || within.relaxations.is_empty());
-            cut_short += usize::from(undecided == (what == "cause"));
+            cut_short += usize::from(undecided == (what == "reason"));
         }
         assert!(cut_short > 0, "no search was cut short that looked for the {what}");
     }
-    let said = Cause::Undecided { steps: 7 }.wording(&mission);
+    let said = Reason::Undecided { steps: 7 }.wording(&mission);
     assert_eq!(said, "neither a plan nor the proof that there is none was found in 7 steps");
 }
 
@@ -412,14 +408,18 @@ fn a_limit_of_nothing_is_raised_too() {
     let mission = patrol();
     let all = mission.available();
     let why = explain(&mission, [0, 0], all).unwrap();
-    assert!(matches!(why.cause, Cause::Limits { .. }));
+    assert!(matches!(why.reason, Reason::Limits { .. }));
     let why = explain(&mission, [600_000, 0], all).unwrap();
     let raise = why.relaxations[0].wording(&mission);
     assert_eq!(raise, "raise the energy limit from 0 mJ to 4675896 mJ (+4675896 mJ)");
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 500,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
     #[test]
     fn an_explanation_is_given_exactly_where_there_is_no_plan_and_its_relaxations_suffice(
         which in 0..3usize,
@@ -429,7 +429,8 @@ proptest! {
     ) {
         let mission = [patrol, slow_is_cheap, lasers_in_glass][which]();
         let limits = [duration, energy];
-        let available = lost.iter().fold(mission.available(), |all, &(kind, count)| all.without(kind, count));
+        let without = |all: Equipment, &(kind, count): &(usize, u8)| all.without(kind, count);
+        let available = lost.iter().fold(mission.available(), without);
         match explain(&mission, limits, available) {
             None => prop_assert!(feasible(&mission, limits, available)),
             Some(why) => {

@@ -56,7 +56,9 @@ proptest! {
     }
 
     #[test]
-    fn less_hardware_leaves_a_part_of_the_candidates(lost in prop::collection::vec((0..4usize, 0..3u8), 0..4)) {
+    fn less_hardware_leaves_a_part_of_the_candidates(
+        lost in prop::collection::vec((0..4usize, 0..3u8), 0..4),
+    ) {
         let patrol = embedded::mission("patrol").unwrap();
         let mission = Mission::parse(patrol.name, patrol.text).unwrap();
         let activities = mission.scenario().activities();
@@ -67,19 +69,21 @@ proptest! {
             let mut candidates = vec![EMPTY; buffer_sizes(&activities).0];
             let mut lists = vec![&[][..]; activities.len()];
             let lists = remaining(&activities, first, available, &mut candidates, &mut lists)?;
-            Ok(lists.iter().map(|list| list.iter().map(|it| it.id).collect()).collect::<Vec<Vec<_>>>())
+            let ids = lists.iter().map(|list| list.iter().map(|it| it.id).collect());
+            Ok(ids.collect::<Vec<Vec<_>>>())
         };
         let whole = ids(all).unwrap();
         match ids(less) {
             Ok(part) => {
                 for ((part, whole), activity) in part.iter().zip(&whole).zip(&activities) {
-                    let covered = |id: &&u16| less.covers(activity.alternatives[usize::from(**id)].needs);
-                    prop_assert_eq!(part, &whole.iter().filter(covered).copied().collect::<Vec<_>>());
+                    let needs = |id: u16| activity.alternatives[usize::from(id)].needs;
+                    let covered = whole.iter().copied().filter(|&id| less.covers(needs(id)));
+                    prop_assert_eq!(part, &covered.collect::<Vec<_>>());
                 }
             }
             Err(RemainingError::NoCandidates { activity }) => {
                 let alternatives = activities[activity].alternatives;
-                prop_assert!(alternatives.iter().all(|alternative| !less.covers(alternative.needs)));
+                prop_assert!(alternatives.iter().all(|it| !less.covers(it.needs)));
             }
             Err(other) => prop_assert!(false, "{}", other),
         }
@@ -87,7 +91,10 @@ proptest! {
 
     #[test]
     fn two_halves_cost_the_whole_but_for_rounding(
-        length in 0..1_000_000u64, cut in 0..1_000_000u64, speed in 1..2_000u64, power in 0..50_000u64,
+        length in 0..1_000_000u64,
+        cut in 0..1_000_000u64,
+        speed in 1..2_000u64,
+        power in 0..50_000u64,
     ) {
         let alternative = Alternative::travelling(speed, power, Equipment::NONE, 3);
         let cost = |mm| alternative.cost(Rest::Travel(Millimetres(mm)));
@@ -96,12 +103,16 @@ proptest! {
             prop_assert!((a[0] + b[0]).abs_diff(whole[0]) <= 1);
             // A millisecond more or less is so much energy; each rounding adds half a millijoule.
             let millisecond = power.div_ceil(1000) as u32;
-            prop_assert!((u64::from(a[1]) + u64::from(b[1])).abs_diff(whole[1].into()) <= u64::from(millisecond + 2));
+            let parts = u64::from(a[1]) + u64::from(b[1]);
+            prop_assert!(parts.abs_diff(whole[1].into()) <= u64::from(millisecond + 2));
         }
     }
 
     #[test]
-    fn the_harmless_speed_is_the_largest(mass in 1..=1_000_000_000u64, energy in 1..=1_000_000_000u64) {
+    fn the_harmless_speed_is_the_largest(
+        mass in 1..=1_000_000_000u64,
+        energy in 1..=1_000_000_000u64,
+    ) {
         let v = u128::from(harmless_speed(mass, cotama_core::units::Millijoules(energy)).0);
         let harmless = |v: u128| u128::from(mass) * v * v < 2_000_000 * u128::from(energy);
         prop_assert!((v == 0 || harmless(v)) && !harmless(v + 1));

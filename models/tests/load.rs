@@ -64,7 +64,8 @@ fn particles_are_what_the_processor_affords() {
         [Load::Heavy, Load::Busy, Load::Quiet].map(|load| most(FollowingOptimal, load)),
         PARTICLES.map(|it| Ok(Some(it)))
     );
-    assert_eq!(most(FollowingOdometric, Load::Quiet), Ok(None)); // it does not localise with particles
+    // It does not localise with particles.
+    assert_eq!(most(FollowingOdometric, Load::Quiet), Ok(None));
     for (load, particles) in [(Load::Heavy, 100), (Load::Busy, 200), (Load::Quiet, 500)] {
         let is_in_time = |particles| {
             let tasks = tasks(FollowingOptimal, load, particles);

@@ -5,7 +5,6 @@ use cotama_core::net::{EventId, PlaceId};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
-use cotama_models::cotama::decision;
 use cotama_verification::flat::flat;
 use cotama_verification::pt::Pt;
 use std::collections::{BTreeSet, HashSet};
@@ -133,11 +132,4 @@ fn every_state_of_the_rounds_is_one_of_the_interleavings() {
         (pt.places.len(), pt.transitions.len(), reached.len(), known.len()),
         (17, 27, 55, 31)
     );
-}
-
-#[test]
-fn the_decisional_level_is_one_net_too() {
-    let net = flat(&decision::SYSTEM).unwrap();
-    assert_eq!(net.view().net().defect(), None);
-    assert_eq!((net.places.len(), net.transitions.len()), (105, 4_077));
 }

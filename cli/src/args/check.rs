@@ -29,8 +29,9 @@ else how many tokens are there, can each transition fire.
 Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
 pass through markings.
 
-Systems: with --semantics rounds the place `round` is marked between two rounds, and `turn.outside`
-when it is the turn of what is outside. What happens in a round is shown, not the way of its token.
+Systems: with --semantics rounds, the default, the place `round` is marked between two rounds, and
+`turn.outside` when it is the turn of what is outside. What happens in a round is shown, not the way
+of its token.
 
 Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
@@ -52,7 +53,7 @@ Examples:
   $ cotama check watchdog --property 'bound(w1 -> Fault)'
   $ cotama check door --untimed --property 'AG (Opening -> AF Open) assuming weak(opened)'
   $ cotama check delivery
-  $ cotama check decision --semantics rounds --property 'AG (round & gs.Safe -> ls.Idle)'";
+  $ cotama check delivery --property 'AG (round & gs.Safe -> ls.Idle)'";
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
 What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an \
@@ -62,7 +63,7 @@ net, it is shown which firings can be repeated to add tokens for ever.
 Examples:
   $ cotama statespace door
   $ cotama statespace kanban:3 --json
-  $ cotama statespace decision --semantics rounds
+  $ cotama statespace delivery
   $ cotama statespace door --untimed --mcc
   $ cotama export philosophers:4 --output four.pnml && cotama statespace four.pnml --jobs 2";
 
@@ -120,8 +121,7 @@ pub(crate) struct CheckArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: interleaving; rounds where a
-    /// system has requirements]
+    /// What it means that nets of a system work together [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
@@ -147,8 +147,7 @@ pub(crate) struct StatespaceArgs {
     /// Leaves the intervals of transitions out: they fire in any order, at any time
     #[arg(long)]
     pub(crate) untimed: bool,
-    /// What it means that nets of a system work together [default: interleaving; rounds where a
-    /// system has requirements]
+    /// What it means that nets of a system work together [default: rounds]
     #[arg(long, value_enum, value_name = "MEANING")]
     pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]

@@ -147,7 +147,8 @@ pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, W,
 ///
 /// let mut level = DecisionalLevel::default();
 /// assert!(level.permit().is_none());
-/// let _ = level.tell(Millis(0), Told::Mission(global::Event::mission_received), Cause(0), &mut ());
+/// let mission = Told::Mission(global::Event::mission_received);
+/// let _ = level.tell(Millis(0), mission, Cause(0), &mut ());
 /// let _ = level.round(Millis(100), &mut ()); // the drive starts: a path is planned
 /// let _ = level.tell(Millis(100), Told::Drive(local::Event::path_ready), Cause(0), &mut ());
 /// assert_eq!(level.situation(Losses::NONE).local, local::State::Following);

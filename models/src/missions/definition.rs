@@ -124,7 +124,8 @@ pub struct Robot {
 /// ```
 /// use cotama_core::units::{Millijoules, MillimetresPerSecond};
 /// # use cotama_models::missions::harmless_speed;
-/// assert_eq!(harmless_speed(25_000, Millijoules(4_000)), MillimetresPerSecond(565)); // 25 kg, 4 J: below 565.7
+/// // 25 kg, 4 J: below 565.7 mm/s
+/// assert_eq!(harmless_speed(25_000, Millijoules(4_000)), MillimetresPerSecond(565));
 /// ```
 pub const fn harmless_speed(mass_g: u64, energy: Millijoules) -> MillimetresPerSecond {
     // In these units, m v² / 2 < E is m_g * v² < 2,000,000 * E_mJ.

@@ -14,12 +14,14 @@ pub struct Embedded {
 const MISSIONS: [Embedded; 2] = [
     Embedded {
         name: "patrol",
-        description: "Patrol of Lambert et al. 2024: 187 m through two halls, two valves to inspect, 600 s and 2.4 Wh",
+        description: "Patrol of Lambert et al. 2024: 187 m through two halls, two valves to \
+                      inspect, 600 s and 2.4 Wh",
         text: include_str!("../../missions/patrol.toml"),
     },
     Embedded {
         name: "delivery",
-        description: "Delivery of Durand et al. 2010: to office A, receive an object, to office B, deliver it; supervised by COTAMA",
+        description: "Delivery of Durand et al. 2010: to office A, receive an object, to office B, \
+                      deliver it; supervised by COTAMA",
         text: include_str!("../../missions/delivery.toml"),
     },
 ];

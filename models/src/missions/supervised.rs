@@ -142,7 +142,8 @@ fn too_long(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> {
             if least > limit {
                 let (id, name) = (&objective.id, AXES[axis]);
                 let message = format!(
-                    "`{id}` alone passes the limit of {name}: at least {least} {unit} of {limit} {unit}"
+                    "`{id}` alone passes the limit of {name}: at least {least} {unit} of {limit} \
+                     {unit}"
                 );
                 let help = format!("raise the limit of {name}, or let `{id}` do less");
                 errors.push(
@@ -191,7 +192,8 @@ fn could_block(definition: &Definition, scenario: &Scenario) -> Vec<Diagnostic> 
         let options = activity.labels.join(", ");
         let left = if drives { ", and no teleoperation without CAM and LAN" } else { "" };
         let message = format!(
-            "`{id}` could block at {at}: without {without} none of its options is left ({options}){left}"
+            "`{id}` could block at {at}: without {without} none of its options is left \
+             ({options}){left}"
         );
         let help = format!("add an option that does not need {without}");
         let help = if drives { format!("{help}, or the modules CAM and LAN") } else { help };

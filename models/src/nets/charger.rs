@@ -106,11 +106,15 @@ cotama_core::net! {
             taper   on Tapered [on]: Voltage => Done do on = false emit Off after 10_000 ms;
             top_up  on Sagged [!hot & !on]: Done => Current do on = true emit FullCurrent;
 
-            precharge_timer [on]: Precharge => Fault do on = false emit Off & Alarm within 1_800_000..=1_800_000 ms;
-            current_timer   [on]: Current => Fault do on = false emit Off & Alarm within 14_400_000..=14_400_000 ms;
-            voltage_timer   [on]: Voltage => Fault do on = false emit Off & Alarm within 7_200_000..=7_200_000 ms;
+            precharge_timer [on]:
+                Precharge => Fault do on = false emit Off & Alarm within 1_800_000..=1_800_000 ms;
+            current_timer   [on]:
+                Current => Fault do on = false emit Off & Alarm within 14_400_000..=14_400_000 ms;
+            voltage_timer   [on]:
+                Voltage => Fault do on = false emit Off & Alarm within 7_200_000..=7_200_000 ms;
 
-            overheat on Overheated [on & !hot]: Charging => Fault do on = false & hot = true emit Off & Alarm;
+            overheat on Overheated [on & !hot]:
+                Charging => Fault do on = false & hot = true emit Off & Alarm;
             warm     on Overheated [!hot]: _ => _ read Unpowered do hot = true;
             cool     on Cooled [hot]:      _ => _ read Unpowered do hot = false;
             unplug   on Removed [on]: Charging => Idle do on = false emit Off;

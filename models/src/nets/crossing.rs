@@ -27,7 +27,8 @@
 //! assert!(lights.offer(Millis(4_000), &Event::Button).fired());
 //! assert_eq!(lights.tokens(Place::Green), 1); // cars have their ten seconds
 //! let mut turns = [0; 4];
-//! for (turn, place) in turns.iter_mut().zip([Place::Yellow, Place::Red, Place::Walk, Place::Green]) {
+//! let places = [Place::Yellow, Place::Red, Place::Walk, Place::Green];
+//! for (turn, place) in turns.iter_mut().zip(places) {
 //!     while lights.tokens(place) == 0 {
 //!         *turn = lights.wake_at().map_or(0, |at| at.0);
 //!         assert!(!lights.advance(Millis(*turn)).behind);
@@ -83,7 +84,9 @@ cotama_core::net! {
             served: Green => Yielding within 10_000..=10_000 ms;
             warn  [request]: Yielding => Yellow emit CarsYellow;
             red:   Yellow => Red emit CarsRed within 3_000..=3_000 ms;
-            walk  [request]: Stop => Walk read Red do request = false emit PedestriansGreen within 1_000..=1_000 ms;
+            walk  [request]:
+                Stop => Walk read Red do request = false emit PedestriansGreen
+                within 1_000..=1_000 ms;
             halt:  Walk => Clear emit PedestriansRed within 8_000..=8_000 ms;
             go:    Clear & Red => Stop & Green emit CarsGreen within 4_000..=4_000 ms;
         }

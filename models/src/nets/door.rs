@@ -16,15 +16,16 @@
 //!   of `Open` and gives it back.
 //! - `ignore` says where an event is no news. `handles(all)` then shows that nothing was forgotten.
 //!
-//! Time is told, never asked for: [`wake_at`](cotama_core::player::Player::wake_at) says when the door
-//! wants to be woken.
+//! Time is told, never asked for: [`wake_at`](cotama_core::player::Player::wake_at) says when the
+//! door wants to be woken.
 //!
 //! ```
 //! use cotama_core::{player::Outcome, player::Why, units::Millis};
 //! use cotama_models::nets::door::{Event, Player, State, Transition};
 //!
 //! let mut door = Player::new();
-//! assert_eq!(door.offer(Millis(0), &Event::Call), Outcome::Fired { transition: Transition::call, settled: 0 });
+//! let called = Outcome::Fired { transition: Transition::call, settled: 0 };
+//! assert_eq!(door.offer(Millis(0), &Event::Call), called);
 //! assert!(door.offer(Millis(2_000), &Event::EndOpen).fired());
 //! assert_eq!((door.state(), door.wake_at()), (State::Open, Some(Millis(7_000))));
 //!

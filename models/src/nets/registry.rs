@@ -114,7 +114,8 @@ impl fmt::Display for FindError {
                 let found = quoted(found);
                 write!(
                     f,
-                    "{found} is no number from 0 to {}: say which net of the family, as `{family}:5`",
+                    "{found} is no number from 0 to {}: say which net of the family, as \
+                     `{family}:5`",
                     u32::MAX
                 )
             }
@@ -132,7 +133,8 @@ impl core::error::Error for FindError {}
 ///
 /// assert_eq!(find("watchdog").unwrap().places[0].name, "Idle");
 /// assert_eq!(find("kanban:5").unwrap().places[0].initial, 5);
-/// assert_eq!(find("canban:5").unwrap_err().to_string(), "there is no net `canban`; did you mean `kanban`?");
+/// let misspelt = find("canban:5").unwrap_err().to_string();
+/// assert_eq!(misspelt, "there is no net `canban`; did you mean `kanban`?");
 /// ```
 ///
 /// # Errors

@@ -60,7 +60,11 @@ proptest! {
     }
 
     #[test]
-    fn every_module_has_one_status(faulty in modules(), lost in resources(), suspected in modules()) {
+    fn every_module_has_one_status(
+        faulty in modules(),
+        lost in resources(),
+        suspected in modules(),
+    ) {
         let status = Health { faulty, lost, suspected }.status_vector();
         for &module in Module::ALL {
             let of = status.of(module);

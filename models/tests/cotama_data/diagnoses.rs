@@ -193,7 +193,11 @@ proptest! {
     /// A mode with the flags it always raises, and some it sometimes does, is always among the
     /// candidates.
     #[test]
-    fn what_happened_is_among_the_candidates(at in 0..FailureMode::ALL.len(), bits: u64, lost in 0..Resource::ALL.len()) {
+    fn what_happened_is_among_the_candidates(
+        at in 0..FailureMode::ALL.len(),
+        bits: u64,
+        lost in 0..Resource::ALL.len(),
+    ) {
         let mode = FailureMode::ALL[at];
         let status = without(Resource::ALL[lost]);
         let sometimes = mode.rule().signature.sometimes;

@@ -123,11 +123,12 @@ fn rows_whose_report_is_answered_otherwise_than_printed() {
     assert_eq!(
         others,
         [
-            "ODO1 local: Global",   // every configuration needs NAV
-            "PWR1 global: Record",  // nobody is left to report it
-            "SW3 global: Record",   // the same
-            "LOC1 local: AdaptMcl", // a unique diagnosis knows that the filter is the cause, and odometry takes over
-            "OPR1 local: Global",   // the operator who does not answer cannot be asked
+            "ODO1 local: Global",  // every configuration needs NAV
+            "PWR1 global: Record", // nobody is left to report it
+            "SW3 global: Record",  // the same
+            // A unique diagnosis knows that the filter is the cause, and odometry takes over.
+            "LOC1 local: AdaptMcl",
+            "OPR1 local: Global", // the operator who does not answer cannot be asked
         ]
     );
 }

@@ -104,7 +104,11 @@ follow!(second);
 follow!(third);
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 10_000, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 10_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn the_executive_and_the_nets_of_its_watchdogs_agree_event_by_event(
@@ -120,7 +124,9 @@ proptest! {
             _ => third(&mut players.2, it, executive),
         };
         for now in (0..800).map(|ms| Micros(ms * 1_000)) {
-            let need = |jobs: [usize; 3]| core::array::from_fn(|task| Micros(needs[jobs[task] % needs.len()][task]));
+            let need = |jobs: [usize; 3]| {
+                core::array::from_fn(|task| Micros(needs[jobs[task] % needs.len()][task]))
+            };
             while let Some(it) = executive.simulate(now, &need(jobs)) {
                 follow(it, &executive);
                 jobs[it.task] += usize::from(it.what == What::Released);

@@ -83,7 +83,8 @@ fn the_contests_own_nets_have_as_many_parts() {
     let Some(folder) = std::env::var_os("COTAMA_MCC_DIR") else {
         // Not `eprintln`, which the test runner keeps to itself.
         let skipped =
-            b"SKIPPED: COTAMA_MCC_DIR names no folder with the nets of the Model Checking Contest\n";
+            b"SKIPPED: COTAMA_MCC_DIR names no folder with the nets of the Model Checking \
+              Contest\n";
         return std::io::stderr().write_all(skipped).unwrap();
     };
     for (file, net) in [

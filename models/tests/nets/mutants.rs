@@ -214,6 +214,7 @@ fn mistakes_in_the_behaviour() {
 
 #[test]
 fn mistakes_in_the_accuracy() {
-    let rounds = "they matter in synchronous rounds only: with five failed trials the accuracy falls at once";
+    let rounds = "they matter in synchronous rounds only: with five failed trials the accuracy \
+                  falls at once";
     assert_eq!(judge(&ace::accuracy::NET, rounds), (538, 329, 0, 201, 8));
 }

@@ -39,8 +39,9 @@ fn a_wrong_name_gets_advice() {
     assert_eq!(says("watchdgo"), "there is no net `watchdgo`; did you mean `watchdog`?");
     assert_eq!(
         says("lift"),
-        "there is no net `lift`; there are door, watchdog, charger, crossing, ace_request, ace_selection, \
-         ace_behaviour, ace_accuracy, philosophers:N, token_ring:N, kanban:N, fms:N, swimming_pool:N"
+        "there is no net `lift`; there are door, watchdog, charger, crossing, ace_request, \
+         ace_selection, ace_behaviour, ace_accuracy, philosophers:N, token_ring:N, kanban:N, \
+         fms:N, swimming_pool:N"
     );
     assert_eq!(says("kanban"), "`kanban` is a family of nets: say which one, as `kanban:5`");
     assert_eq!(says("door:5"), "`door` is one net and takes no number: say `door`");

@@ -139,7 +139,8 @@ impl File {
             ]);
             let _ = write!(
                 zones,
-                "[[zone]]\nid = \"zone{zone}\"\nx_start_mm = {start}\nx_end_mm = {end}\nspeed_max_mm_s = 200\n{hardware}"
+                "[[zone]]\nid = \"zone{zone}\"\nx_start_mm = {start}\nx_end_mm = \
+                 {end}\nspeed_max_mm_s = 200\n{hardware}"
             );
         }
         let mut events = String::new();

@@ -104,7 +104,6 @@ roots! {
     machine ace_behaviour: cotama_models::nets::ace::behaviour;
     machine ace_accuracy: cotama_models::nets::ace::accuracy;
     machine contextual: cotama_models::cotama::contextual;
-    machine environment: cotama_models::cotama::environment;
     machine faults: cotama_models::cotama::faults;
     machine global: cotama_models::cotama::global;
     machine local: cotama_models::cotama::local;

@@ -110,7 +110,6 @@ macro_rules! roots {
 }
 
 roots! {
-    decision: cotama_models::cotama::decision;
     delivery: cotama_models::cotama::delivery;
     recovering: cotama_models::cotama::recovering;
     watched: crate::on_time::watched;

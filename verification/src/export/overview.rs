@@ -118,11 +118,11 @@ fn said(system: &System<'_>) -> Vec<Said> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cotama_models::cotama::{decision, delivery};
+    use cotama_models::cotama::{delivery, recovering};
 
     #[test]
     fn every_link_and_every_shared_place_is_drawn_once() {
-        for system in [decision::SYSTEM, delivery::SYSTEM] {
+        for system in [delivery::SYSTEM, recovering::SYSTEM] {
             let mut boxes = OwnedNet::new("boxes", "");
             for component in system.components {
                 boxes.place(OwnedPlace::new(component.name, 0)).unwrap();

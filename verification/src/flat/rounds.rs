@@ -114,16 +114,48 @@ impl Item {
 /// settle, or when the net would be too large.
 ///
 /// ```
-/// use cotama_models::cotama::decision;
+/// use cotama_core::{net, system};
 /// use cotama_verification::check::{Model, Options, Verdict, check};
 /// use cotama_verification::{flat, property};
 ///
-/// let rounds = flat::rounds(&decision::SYSTEM)?;
-/// let net = rounds.net()?;
+/// net! {
+///     /// Rings at a door and goes in.
+///     pub mod visitor {
+///         places { Outside: 1, Inside }
+///         events { arrive, opened }
+///         outputs { ring }
+///         transitions {
+///             ring on arrive: Outside => Outside emit ring;
+///             enter on opened: Outside => Inside;
+///         }
+///         ignore { arrive in Inside; opened in Inside; }
+///     }
+/// }
+/// net! {
+///     /// Opens when somebody rings.
+///     pub mod door {
+///         places { Closed: 1, Open }
+///         events { bell }
+///         outputs { click }
+///         transitions { open on bell: Closed => Open emit click; }
+///         ignore { bell in Open; }
+///     }
+/// }
+/// system! {
+///     /// A visitor and a door.
+///     pub mod house {
+///         nets { visitor: visitor, door: door }
+///         links { visitor.ring => door.bell mail 1; door.click => visitor.opened now; }
+///     }
+/// }
+///
+/// # fn main() -> Result<(), flat::FlatError> {
+/// let net = flat::rounds(&house::SYSTEM)?.net()?;
 /// let model = Model::from(&net.view().net());
-/// let moves = property::parse("AG (round & gs.Safe -> ls.Idle)", model.pt()).unwrap();
-/// assert_eq!(check(&model, &moves, &Options::default()).verdict, Verdict::Holds(true));
-/// # Ok::<(), cotama_verification::flat::FlatError>(())
+/// let inside = property::parse("AG (round & door.Open -> visitor.Inside)", model.pt()).unwrap();
+/// assert_eq!(check(&model, &inside, &Options::default()).verdict, Verdict::Holds(true));
+/// # Ok(())
+/// # }
 /// ```
 pub fn rounds(system: &System<'_>) -> Result<Rounds, FlatError> {
     if let Some(defect) = system.defect() {

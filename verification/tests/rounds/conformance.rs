@@ -213,7 +213,7 @@ fn players_and_nets_of_rounds_agree() {
 
 #[test]
 fn the_decisional_level_agrees() {
-    let system = cotama_models::cotama::decision::SYSTEM;
+    let system = crate::reconstruction::reconstruction::SYSTEM;
     // One word more than it has, and no place without a bound.
     assert!(
         system.components.iter().all(|it| it

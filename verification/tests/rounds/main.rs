@@ -6,16 +6,17 @@
 #![allow(clippy::type_complexity, clippy::needless_for_each)]
 #![allow(missing_docs)]
 
+mod asked;
 mod breaks;
 mod cells;
 mod conformance;
-mod decision;
 mod delivery;
 mod delivery_mutants;
 mod liveness;
 mod mutants;
 mod mutations;
 mod reactions;
+mod reconstruction;
 mod recovering;
 mod responses;
 mod steps;

@@ -1,23 +1,23 @@
 //! Six ways to break the decisional level, each found in as few rounds as there can be.
 
-use crate::decision::{ASKED, shortest};
+use crate::asked::{ASKED, shortest};
+use crate::reconstruction::reconstruction;
 use cotama_core::net::{Net, Role, Transition};
 use cotama_core::system::{Component, System};
-use cotama_models::cotama::decision;
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{Size, rounds};
 use cotama_verification::pt::Pt;
 
 /// Changes transitions of nets; test data, which lives to the end.
 fn with(change: impl Fn(&Component<'static>, &mut Transition<'static>)) -> System<'static> {
-    let components = decision::SYSTEM.components.iter().map(|it| {
+    let components = reconstruction::SYSTEM.components.iter().map(|it| {
         let mut transitions = it.net.transitions.to_vec();
         transitions.iter_mut().for_each(|transition| change(it, transition));
         let net: &'static Net<'static> =
             Box::leak(Box::new(Net { transitions: transitions.leak(), ..*it.net }));
         Component { name: it.name, net }
     });
-    System { components: components.collect::<Vec<_>>().leak(), ..decision::SYSTEM }
+    System { components: components.collect::<Vec<_>>().leak(), ..reconstruction::SYSTEM }
 }
 
 /// Without these guards of these transitions, `net.transition` and whatever follows it.
@@ -68,7 +68,7 @@ const GOALS: [&str; 4] = ["ls.l3", "ls.l11", "env.goal", "env.operator_goal"];
 
 #[test]
 fn as_written_nothing_is_violated() {
-    found(&decision::SYSTEM, (4_166, 22_810), &[]);
+    found(&reconstruction::SYSTEM, (4_166, 22_810), &[]);
 }
 
 #[test]
@@ -143,11 +143,11 @@ fn teleoperation_without_a_camera_is_found() {
 
 #[test]
 fn an_abort_that_keeps_a_pending_start_is_found() {
-    let clears = decision::SYSTEM.clears;
-    let events = decision::SYSTEM.components[1].net.events;
+    let clears = reconstruction::SYSTEM.clears;
+    let events = reconstruction::SYSTEM.components[1].net.events;
     let kept =
         clears.iter().copied().filter(|it| events[it.mailbox.0 as usize].name != "start_drive");
-    let mutant = System { clears: kept.collect::<Vec<_>>().leak(), ..decision::SYSTEM };
+    let mutant = System { clears: kept.collect::<Vec<_>>().leak(), ..reconstruction::SYSTEM };
     found(
         &mutant,
         (6_644, 37_565),

@@ -1,7 +1,7 @@
 //! How many rounds a reaction takes at worst.
 
-use crate::decision::{ALONE, ANSWER, LOSSES, watch, watch_loss};
-use cotama_models::cotama::decision;
+use crate::asked::{ALONE, ANSWER, LOSSES, watch, watch_loss};
+use crate::reconstruction::reconstruction;
 use cotama_verification::check::{Extent, Model, Options, Verdict, check};
 use cotama_verification::flat::{Looks, Rounds, rounds};
 use cotama_verification::property;
@@ -20,15 +20,15 @@ fn worst(rounds: &Rounds, name: &str) -> u64 {
 }
 
 fn holds(text: &str) -> Verdict {
-    let net = rounds(&decision::SYSTEM).unwrap().net().unwrap();
+    let net = rounds(&reconstruction::SYSTEM).unwrap().net().unwrap();
     let model = Model::from(&net.view().net());
     check(&model, &property::parse(text, model.pt()).unwrap(), &Options::default()).verdict
 }
 
 fn lasting(observer: (&str, Looks, &str, &str)) -> u64 {
-    let mut rounds = rounds(&decision::SYSTEM).unwrap();
+    let mut rounds = rounds(&reconstruction::SYSTEM).unwrap();
     if observer.0 == "answer" {
-        watch(&mut rounds, crate::decision::HARD, 1);
+        watch(&mut rounds, crate::asked::HARD, 1);
     }
     watch(&mut rounds, observer, MANY);
     worst(&rounds, observer.0)
@@ -59,7 +59,7 @@ fn every_report_is_read_in_the_round_after_it() {
 #[test]
 fn what_is_lost_is_used_for_two_rounds_at_most() {
     let worst = LOSSES.map(|loss| {
-        let mut rounds = rounds(&decision::SYSTEM).unwrap();
+        let mut rounds = rounds(&reconstruction::SYSTEM).unwrap();
         watch_loss(&mut rounds, loss, MANY);
         (loss.0, worst(&rounds, &format!("without_{}", loss.0)))
     });

@@ -1,8 +1,8 @@
 //! What holds after the next firing, as a formula about the marking before it.
 
 use crate::delivery::explored;
+use crate::reconstruction::reconstruction;
 use cotama_core::net::TransitionId;
-use cotama_models::cotama::decision;
 use cotama_verification::flat::rounds;
 use cotama_verification::property::{Atom, Ctl, Formula, Linear, Question, parse};
 use cotama_verification::pt::Pt;
@@ -67,7 +67,7 @@ fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
 
 #[test]
 fn what_holds_after_the_next_firing_is_told_before_it() {
-    let (pt, graph) = explored(&rounds(&decision::SYSTEM).unwrap());
+    let (pt, graph) = explored(&rounds(&reconstruction::SYSTEM).unwrap());
     let asked =
         |formula: Formula| ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default()).verdict;
     let not = |it: &Formula| Formula::Not(it.clone().into());

@@ -1,6 +1,6 @@
 //! The decision of the contextual supervisor, as a function: the same as the net
-//! [`contextual`](crate::cotama::contextual), for firmware that needs no net for it and for tests over
-//! every case.
+//! [`contextual`](crate::cotama::contextual), for firmware that needs no net for it and for tests
+//! over every case.
 
 use super::situation::{Loss, Losses, Situation};
 use crate::cotama::members::members;
@@ -145,11 +145,12 @@ pub const fn lost_after(report: Report, situation: Situation) -> Losses {
 /// fit together.
 ///
 /// Severity decides first (stated, Durand et al., TAROS 2010, Section IV); the cells are inferred
-/// from it and from what is still available, see [`by_rules`](crate::cotama::by_rules). A question that no
-/// operator can answer is a global event.
+/// from it and from what is still available, see [`by_rules`](crate::cotama::by_rules). A question
+/// that no operator can answer is a global event.
 ///
 /// ```
-/// use cotama_models::cotama::{Decision, Loss, Losses, Report, Situation, decide, local, path_following};
+/// use cotama_models::cotama::{Decision, Loss, Losses, Report, Situation, decide};
+/// use cotama_models::cotama::{local, path_following};
 /// let driving = Situation {
 ///     local: local::State::Following,
 ///     following: path_following::State::Optimal,

@@ -147,17 +147,19 @@ pub const fn judge(report: Report, severity: Severity, situation: Situation) -> 
     }
 }
 
-/// The decision by the two rules. [`decide`](crate::cotama::decide) is the same but for seven cells:
+/// The decision by the two rules. [`decide`](crate::cotama::decide) is the same but for seven
+/// cells:
 ///
 /// | report | place | rules | table | why the table says less |
 /// |---|---|---|---|---|
 /// | planner | following | local | record | no planner runs there; such a report never comes |
-/// | refusal | planning, following | global | record | nobody was asked there; such a report never comes |
-/// | camera | hand-over, teleprogrammed | local | record | the operator is asked already; `l7` of [`local`](crate::cotama::local) keeps teleoperation shut |
+/// | refusal | planning, following | global | record | nobody was asked; it never comes |
+/// | camera | hand-over, teleprogrammed | local | record | the operator is asked already (`l7`) |
 /// | hard | hand-over, teleprogrammed | local | record | the operator is asked already |
 ///
 /// and but for situations in which an earlier loss is not answered yet ([`is_settled`]): there the
-/// rules answer both, and the table each loss by its own report.
+/// rules answer both, and the table each loss by its own report. The transition `l7` of
+/// [`local`](crate::cotama::local) keeps teleoperation shut without a camera.
 pub const fn by_rules(report: Report, situation: Situation) -> Decision {
     judge(report, severity(report, situation), situation)
 }

@@ -146,7 +146,8 @@ impl Losses {
     ///
     /// ```
     /// use cotama_models::cotama::{Losses, Modules, Module::{Dvz, Gui, Mcl, Ust}};
-    /// let lacking = |modules: &[_]| Losses::lacking(Modules::ALL.without(Modules::of(modules))).to_string();
+    /// let without = |modules: &[_]| Modules::ALL.without(Modules::of(modules));
+    /// let lacking = |modules: &[_]| Losses::lacking(without(modules)).to_string();
     /// assert_eq!(lacking(&[Mcl]), "mcl");
     /// assert_eq!(lacking(&[Gui]), "-"); // it guides in PF.DEG alone
     /// assert_eq!(lacking(&[Gui, Ust]), "mcl sonar vital");

@@ -24,7 +24,8 @@ pub fn functions() -> impl Iterator<Item = &'static str> {
 ///
 /// ```
 /// use cotama_models::cotama::ribs;
-/// let power: Vec<_> = ribs("supply energy").map(|rib| format!("{}: {}", rib.component, rib.modes)).collect();
+/// let power = ribs("supply energy").map(|rib| format!("{}: {}", rib.component, rib.modes));
+/// let power: Vec<_> = power.collect();
 /// assert_eq!(power, ["battery: BAT1 BAT2", "battery or connector: BAT3", "laptop battery: PWR1"]);
 /// ```
 pub fn ribs(function: &str) -> impl Iterator<Item = Rib> {

@@ -32,8 +32,8 @@ impl FailureMode {
         Health { faulty, lost: rule.lost, suspected: Modules::NONE }
     }
 
-    /// Its class by the two rules of [`by_rules`](crate::cotama::by_rules): the worse of severity and what
-    /// is left available, and global where the operator is needed and cannot be reached.
+    /// Its class by the two rules of [`by_rules`](crate::cotama::by_rules): the worse of severity
+    /// and what is left available, and global where the operator is needed and cannot be reached.
     ///
     /// ```
     /// use cotama_models::cotama::{Class, FailureMode, Modules, Situation, local, path_following};
@@ -100,8 +100,9 @@ const _: () = {
 pub struct FmecaCsv;
 
 /// The columns of [`FmecaCsv`].
-pub const FMECA_COLUMNS: &str = "id,function,component,failure_mode,cause,effect,severity_auto,severity_teleop,\
-modules_lost,observer,detection_rule,detection_latency_s,cs_event_auto,reaction,persistence,mtbf_h,rate_source,injection";
+pub const FMECA_COLUMNS: &str = "id,function,component,failure_mode,cause,effect,\
+    severity_auto,severity_teleop,modules_lost,observer,detection_rule,detection_latency_s,\
+    cs_event_auto,reaction,persistence,mtbf_h,rate_source,injection";
 
 impl fmt::Display for FmecaCsv {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,5 +1,8 @@
 //! Dependability: what can fail (FMECA), how it shows (flags), and what is concluded (diagnosis).
 
+#[macro_use]
+mod rows;
+
 mod causes;
 mod diagnosis;
 mod flags;

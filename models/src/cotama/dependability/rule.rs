@@ -64,8 +64,8 @@ pub struct Rule {
     /// How it shows.
     pub signature: Signature,
     /// The report to the contextual supervisor; none for what is recorded only. A report means in
-    /// each mode what [`decide`](crate::cotama::decide) says. Hard faults without a report of their own ask
-    /// for judgement: [`Report::Ambiguous`] (inferred).
+    /// each mode what [`decide`](crate::cotama::decide) says. Hard faults without a report of their
+    /// own ask for judgement: [`Report::Ambiguous`] (inferred).
     pub report: Option<Report>,
 }
 

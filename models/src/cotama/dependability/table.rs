@@ -3,11 +3,6 @@
 //! Source: the rows marked as seed rules follow Durand et al., TAROS 2010, Sections IV to VI; the
 //! others fill the same form for a Pioneer 3-DX and are assumed, with shares and common causes
 //! after Carlson and Murphy, IEEE Trans. Robotics 21, 2005, where a row says so.
-//!
-//! A row is: name, id, function, component, failure { cause, effect; severity (autonomous,
-//! operator), class, persistence; lost (words, modules, resources); seen by (words, words, latency
-//! in ms; flags always, flags sometimes, modules without which and with which it cannot be); answer
-//! (report, words); rate (MTBF in thousandths of an hour, label, source), injection }.
 
 use super::flags::{Flag, Flags};
 use super::rule::{Description, Persistence, Rule, Signature};
@@ -16,114 +11,36 @@ use crate::cotama::label::Label;
 use crate::cotama::members::members;
 use crate::cotama::modules::{Module, Modules, Resource, Resources};
 
-macro_rules! rows {
-    ($($mode:ident $id:literal $function:literal $component:literal $failure:literal {
-        cause $cause:literal, effect $effect:literal;
-        severity $autonomous:ident $operator:ident, class $class:ident, $persistence:ident;
-        lost $modules:literal $faulty:tt [$($lost:ident),*];
-        seen $observer:literal $detection:literal $latency:literal ($($signature:tt)*);
-        answer $report:tt $reaction:literal;
-        rate $mtbf:literal $label:ident $rate:literal, injection $injection:literal;
-    })+) => {
-        members! {
-            /// A failure mode: a row of the FMECA.
-            FailureMode,
-            /// Failure modes.
-            FailureModes(u64) { $(#[doc = concat!($component, ": ", $failure, ".")] $mode = $id,)+ }
-        }
-
-        /// What firmware needs of the FMECA, in the order of [`FailureMode`].
-        pub static RULES: [Rule; FailureMode::ALL.len()] = [$(Rule {
-            faulty: faulty!($faulty),
-            one_module: matches!(stringify!($faulty).as_bytes(), b"one"),
-            lost: Resources::of(&[$(Resource::$lost),*]),
-            autonomous: Severity::$autonomous,
-            operator: Severity::$operator,
-            class: Class::$class,
-            persistence: Persistence::$persistence,
-            latency_ms: $latency,
-            signature: signature!($($signature)*),
-            report: report!($report),
-        }),+];
-
-        /// The words of the FMECA, in the order of [`FailureMode`].
-        pub static TEXTS: [Description; FailureMode::ALL.len()] = [$(Description {
-            function: $function,
-            component: $component,
-            failure: $failure,
-            cause: $cause,
-            effect: $effect,
-            modules: $modules,
-            observer: $observer,
-            detection: $detection,
-            silent: silent!($($signature)*),
-            reaction: $reaction,
-            mtbf_mh: $mtbf,
-            rate_label: Label::$label,
-            rate: $rate,
-            injection: $injection,
-        }),+];
-    };
-}
-
-macro_rules! faulty {
-    (all) => { Modules::ALL };
-    (one) => { Modules::NONE };
-    ([$($module:ident),*]) => { Modules::of(&[$(Module::$module),*]) };
-}
-
-macro_rules! signature {
-    (silent $reason:literal) => { signature!(flags []) };
-    (flags [$($always:ident),*] $(sometimes [$($sometimes:ident),+])? $(with $present:ident)? $(without $absent:ident)?) => {
-        Signature {
-            always: Flags::of(&[$(Flag::$always),*]),
-            sometimes: Flags::of(&[$($(Flag::$sometimes),+)?]),
-            present: Modules::of(&[$(Module::$present)?]),
-            absent: Modules::of(&[$(Module::$absent)?]),
-        }
-    };
-}
-
-macro_rules! silent {
-    (silent $reason:literal) => {
-        Some($reason)
-    };
-    (flags $($rest:tt)*) => {
-        None
-    };
-}
-
-macro_rules! report {
-    (-) => {
-        None
-    };
-    ($report:ident) => {
-        Some(Report::$report)
-    };
-}
-
 rows! {
     Son1 "SON1" "perceive obstacles" "sonar array" "one transducer stuck at maximum range" {
-        cause "broken transducer or cable", effect "obstacle not seen in one sector; MCL weights biased";
+        cause "broken transducer or cable",
+        effect "obstacle not seen in one sector; MCL weights biased";
         severity Medium Medium, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
-        seen "O-SEN" "range = 5 m for more than T_stuck while the robot moves more than d_min (seed rule)" 5_000 (flags [SonarFar] with Ust);
-        answer Sonar "degraded path following without avoidance and MCL, lower speed; teleoperation without avoidance";
+        seen "O-SEN"
+             "range = 5 m for more than T_stuck while the robot moves more than d_min (seed rule)"
+             5_000 (flags [SonarFar] with Ust);
+        answer Sonar "degraded path following without avoidance and MCL, lower speed; \
+                      teleoperation without avoidance";
         rate 400_000 Assumed "assumed", injection "sonar[i]=5.0 from t on";
     }
     Son2 "SON2" "perceive obstacles" "sonar array" "whole array silent" {
         cause "array power or serial board lost", effect "no range data";
         severity Medium Medium, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
-        seen "O-SEN" "no fresh range for 3 firing cycles (timing check)" 1_000 (flags [SonarSilent] sometimes [SonarFar] with Ust);
+        seen "O-SEN" "no fresh range for 3 firing cycles (timing check)"
+             1_000 (flags [SonarSilent] sometimes [SonarFar] with Ust);
         answer Sonar "as SON1";
         rate 800_000 Assumed "assumed", injection "all sonars 5.0 or no update";
     }
     Son3 "SON3" "perceive obstacles" "sonar array" "stuck at a short range" {
-        cause "dirt, damaged foil, cross-talk", effect "phantom obstacle; robot stops or turns back";
+        cause "dirt, damaged foil, cross-talk",
+        effect "phantom obstacle; robot stops or turns back";
         severity Medium Weak, class Adapter, Permanent;
         lost "UST MCL SMZ DVZ SIM" [] [SonarArrays];
-        seen "O-SEN; O-PF" "range constant within 1 cm while robot moves more than 1 m; backward motion too long" 4_000 (flags [SonarNear] sometimes [Backward] with Ust);
+        seen "O-SEN; O-PF"
+             "range constant within 1 cm while robot moves more than 1 m; backward motion too long"
+             4_000 (flags [SonarNear] sometimes [Backward] with Ust);
         answer Sonar "as SON1";
         rate 600_000 Assumed "assumed", injection "sonar[i]=0.3 from t on";
     }
@@ -131,7 +48,8 @@ rows! {
         cause "acoustics, other robot, smooth walls", effect "noisy map matching";
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
-        seen "O-SEN" "share of rejected readings above threshold over 2 s" 2_000 (flags [SonarOutliers] with Ust);
+        seen "O-SEN" "share of rejected readings above threshold over 2 s"
+             2_000 (flags [SonarOutliers] with Ust);
         answer - "raise the rejection threshold or fewer weights in MCL";
         rate 10_000 Assumed "assumed", injection "with p replace a reading by U(0.1,5)";
     }
@@ -139,7 +57,8 @@ rows! {
         cause "cable, encoder disc, connector", effect "odometry turns falsely; heading lost";
         severity Hard Medium, class Local, Permanent;
         lost "NAV ODO" [Nav, Odo] [Encoders];
-        seen "O-EFF; O-LOC" "multiple-model Kalman filter residual; odometry-MCL distance" 1_500 (flags [WheelResidual, PoseDistance] with Odo);
+        seen "O-EFF; O-LOC" "multiple-model Kalman filter residual; odometry-MCL distance"
+             1_500 (flags [WheelResidual, PoseDistance] with Odo);
         answer Vital "stop, ask the operator; degraded teleoperation";
         rate 700_000 Assumed "assumed", injection "ticks_l=0";
     }
@@ -147,7 +66,8 @@ rows! {
         cause "loose disc, electrical noise", effect "drift";
         severity Medium Weak, class Adapter, Intermittent;
         lost "ODO" [Odo] [];
-        seen "O-LOC; O-EFF" "odometry-MCL distance growth above rate limit" 6_000 (flags [PoseGrowth] sometimes [WheelResidual, Backward] with Odo);
+        seen "O-LOC; O-EFF" "odometry-MCL distance growth above rate limit"
+             6_000 (flags [PoseGrowth] sometimes [WheelResidual, Backward] with Odo);
         answer - "use MCL pose, inflate odometry noise";
         rate 300_000 Assumed "assumed", injection "ticks*=1-u, u in 0.05..0.3";
     }
@@ -155,7 +75,8 @@ rows! {
         cause "floor", effect "jump of the odometric pose";
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
-        seen "O-LOC; O-EFF" "residual peak then back to normal" 2_000 (flags [PosePeak] sometimes [WheelPeak]);
+        seen "O-LOC; O-EFF" "residual peak then back to normal"
+             2_000 (flags [PosePeak] sometimes [WheelPeak]);
         answer - "inflate odometry noise for some seconds";
         rate 3_000 Assumed "assumed", injection "add pose jump 0.05-0.3 m or 5-20 deg";
     }
@@ -179,7 +100,8 @@ rows! {
         cause "bent plate, dirt", effect "robot refuses to move";
         severity Hard Hard, class Local, Permanent;
         lost "P3D(bumper)" [] [Bumpers];
-        seen "P3D; O-SEN" "bumper closed while sonars see free space" 1_000 (flags [Bumper, FreeAhead]);
+        seen "P3D; O-SEN" "bumper closed while sonars see free space"
+             1_000 (flags [Bumper, FreeAhead]);
         answer Ambiguous "stop, ask the operator; mask the switch on his order";
         rate 1_500_000 Assumed "assumed", injection "bumper forced 1";
     }
@@ -195,17 +117,23 @@ rows! {
         cause "bandwidth, driver", effect "operator acts on old images";
         severity Weak Medium, class Adapter, Transient;
         lost "CAM" [Cam] [];
-        seen "O-COM; O-SEN" "frame age above 0.5 s" 500 (flags [OldFrame] sometimes [LinkPoor] with Cam);
+        seen "O-COM; O-SEN" "frame age above 0.5 s"
+             500 (flags [OldFrame] sometimes [LinkPoor] with Cam);
         answer - "lower frame rate and speed limit";
-        rate 20_000 Assumed "assumed; limited bandwidth for video is a listed common cause in Carlson & Murphy 2005", injection "frame age += 0.5..3 s";
+        rate 20_000 Assumed "assumed; limited bandwidth for video is a listed common cause in \
+                             Carlson & Murphy 2005",
+        injection "frame age += 0.5..3 s";
     }
     Mot1 "MOT1" "move" "drive motor or gearbox" "no torque on one side" {
         cause "brush, gear, H-bridge", effect "robot turns on the spot";
         severity Fatal Fatal, class Global, Permanent;
         lost "P3D(motor) NAV" [Nav] [Motors];
-        seen "O-EFF; P3D stall" "Kalman multiple-model: wheel speed does not follow command" 1_000 (flags [WheelDisobeys, Stall]);
+        seen "O-EFF; P3D stall" "Kalman multiple-model: wheel speed does not follow command"
+             1_000 (flags [WheelDisobeys, Stall]);
         answer Vital "security objective: stop and alarm";
-        rate 250_000 Assumed "assumed (share of the 6-20 h field MTBF of Carlson & Murphy 2005); effectors 20 % assumed", injection "v_wheel=0";
+        rate 250_000 Assumed "assumed (share of the 6-20 h field MTBF of Carlson & Murphy 2005); \
+                              effectors 20 % assumed",
+        injection "v_wheel=0";
     }
     Mot2 "MOT2" "move" "drive motor" "reduced torque" {
         cause "worn brushes, hot driver, low battery", effect "slow, lags the path";
@@ -235,7 +163,8 @@ rows! {
         cause "hair, screw", effect "arc motion";
         severity Hard Hard, class Local, Permanent;
         lost "-" [] [];
-        seen "O-EFF; O-PF" "path error does not converge" 3_000 (flags [WheelResidual, NoConvergence]);
+        seen "O-EFF; O-PF" "path error does not converge"
+             3_000 (flags [WheelResidual, NoConvergence]);
         answer Ambiguous "stop, ask the operator";
         rate 700_000 Assumed "assumed", injection "yaw disturbance 0.3 rad/s";
     }
@@ -253,7 +182,8 @@ rows! {
         lost "-" [] [];
         seen "P3D" "voltage below 11.5 V for 10 s" 10_000 (flags [BatteryLow]);
         answer Ambiguous "ask the operator; go to the charger";
-        rate 8_000 Stated "datasheet: 8-10 h run with three batteries", injection "voltage model; capacity fault 0.3..1";
+        rate 8_000 Stated "datasheet: 8-10 h run with three batteries",
+        injection "voltage model; capacity fault 0.3..1";
     }
     Bat2 "BAT2" "supply energy" "battery" "critical voltage" {
         cause "discharge, dead cell", effect "imminent loss of control";
@@ -269,13 +199,17 @@ rows! {
         lost "P3D" [P3d] [Battery];
         seen "LAN heartbeat at the operator side" "no message for 2 s" 2_000 (flags [RobotSilent]);
         answer Vital "robot safe by itself (wheels stop); operator alarm";
-        rate 400_000 Assumed "assumed (share of the 6-20 h field MTBF of Carlson & Murphy 2005); power 10 % assumed", injection "all off";
+        rate 400_000 Assumed "assumed (share of the 6-20 h field MTBF of Carlson & Murphy 2005); \
+                              power 10 % assumed",
+        injection "all off";
     }
     Pwr1 "PWR1" "supply energy" "laptop battery" "laptop goes down" {
         cause "discharge", effect "control lost; firmware watchdog stops the motors";
         severity Fatal Fatal, class Global, Permanent;
         lost "all" all [LaptopCpu];
-        seen "P3D firmware" "no command for 2 s: firmware watchdog stops the robot" 2_000 (silent "the laptop itself is down: nothing of the architecture is left to see it; the firmware stops the robot");
+        seen "P3D firmware" "no command for 2 s: firmware watchdog stops the robot"
+             2_000 (silent "the laptop itself is down: nothing of the architecture is left to see \
+                            it; the firmware stops the robot");
         answer - "firmware stop";
         rate 60_000 Assumed "assumed", injection "architecture silent";
     }
@@ -285,7 +219,9 @@ rows! {
         lost "P3D and all" all [SerialLink];
         seen "P3D; firmware watchdog" "no packet for 5 cycles (0.5 s)" 500 (flags [PacketSilence]);
         answer Vital "security objective; firmware stops after 2 s";
-        rate 200_000 Assumed "assumed (share of the 6-20 h field MTBF of Carlson & Murphy 2005); control system 35 % assumed", injection "drop all packets";
+        rate 200_000 Assumed "assumed (share of the 6-20 h field MTBF of Carlson & Murphy 2005); \
+                              control system 35 % assumed",
+        injection "drop all packets";
     }
     P3d2 "P3D2" "talk to the robot" "serial/USB link" "packets lost or corrupt" {
         cause "noise, load", effect "late data";
@@ -299,7 +235,8 @@ rows! {
         cause "brown-out", effect "pose zeroed, parameters lost";
         severity Hard Medium, class Local, Transient;
         lost "ODO" [Odo] [];
-        seen "P3D; O-LOC" "sequence restart, jump of pose" 1_000 (flags [SequenceRestart] sometimes [PoseJump]);
+        seen "P3D; O-LOC" "sequence restart, jump of pose"
+             1_000 (flags [SequenceRestart] sometimes [PoseJump]);
         answer Ambiguous "stop, re-initialise, ask the operator";
         rate 200_000 Assumed "assumed", injection "odometry reset to 0";
     }
@@ -307,7 +244,8 @@ rows! {
         cause "too many particles, load of the laptop", effect "loop over 0.1 s";
         severity Medium Weak, class Adapter, Permanent;
         lost "-" [] [];
-        seen "SCH" "K consecutive violations in spite of the extra time (seed rule)" 300 (flags [MclLate] with Mcl);
+        seen "SCH" "K consecutive violations in spite of the extra time (seed rule)"
+             300 (flags [MclLate] with Mcl);
         answer Slow "fewer particles";
         rate 20_000 Assumed "assumed; happens once in the seed run", injection "cpu_time(MCL)*=k";
     }
@@ -331,9 +269,12 @@ rows! {
         cause "software fault", effect "its outputs stop";
         severity Hard Hard, class Local, Permanent;
         lost "that module" one [];
-        seen "SCH" "no completion at all for K periods" 300 (flags [ModuleSilent] sometimes [ModuleLate]);
+        seen "SCH" "no completion at all for K periods"
+             300 (flags [ModuleSilent] sometimes [ModuleLate]);
         answer Ambiguous "restart once; else another configuration; else operator";
-        rate 40_000 Assumed "assumed; one study finds 54 % of failures in the control system (Carlson & Murphy 2005)", injection "kill module";
+        rate 40_000 Assumed "assumed; one study finds 54 % of failures in the control system \
+                             (Carlson & Murphy 2005)",
+        injection "kill module";
     }
     Sw2 "SW2" "compute" "any module" "wrong value (NaN, out of interval)" {
         cause "software fault", effect "corrupt data downstream";
@@ -347,7 +288,9 @@ rows! {
         cause "driver, kernel", effect "all silent";
         severity Fatal Fatal, class Global, Permanent;
         lost "all" all [LaptopCpu];
-        seen "P3D firmware" "no command for 2 s" 2_000 (silent "the laptop itself hangs: nothing of the architecture runs to see it; the firmware stops the robot");
+        seen "P3D firmware" "no command for 2 s"
+             2_000 (silent "the laptop itself hangs: nothing of the architecture runs to see it; \
+                            the firmware stops the robot");
         answer - "firmware stop";
         rate 150_000 Assumed "assumed", injection "architecture silent";
     }
@@ -355,7 +298,9 @@ rows! {
         cause "symmetric corridor, people, bad start", effect "wrong pose";
         severity Hard Weak, class Local, Permanent;
         lost "MCL" [Mcl] [];
-        seen "O-LOC" "pose jump, spread, odometry-MCL distance" 3_000 (flags [PoseGrowth] sometimes [PoseDistance, PoseJump, Spread, Backward] with Mcl);
+        seen "O-LOC" "pose jump, spread, odometry-MCL distance"
+             3_000 (flags [PoseGrowth]
+                    sometimes [PoseDistance, PoseJump, Spread, Backward] with Mcl);
         answer Mcl "operator, or odometry if the cause is known to be MCL";
         rate 12_000 Assumed "assumed", injection "replace the cloud at a wrong pose";
     }
@@ -363,7 +308,8 @@ rows! {
         cause "moved furniture, closed door", effect "avoidance loops; backward motion; MCL biased";
         severity Hard Weak, class Local, Permanent;
         lost "-" [] [];
-        seen "O-LOC and O-PF" "two flags, no unique diagnosis (seed)" 8_000 (flags [PoseGrowth, Backward] with Mcl);
+        seen "O-LOC and O-PF" "two flags, no unique diagnosis (seed)"
+             8_000 (flags [PoseGrowth, Backward] with Mcl);
         answer Ambiguous "ask the operator, new path";
         rate 4_000 Assumed "assumed", injection "add an obstacle across the path";
     }
@@ -371,7 +317,8 @@ rows! {
         cause "time without fix", effect "collision with a wall";
         severity Medium Weak, class Adapter, Permanent;
         lost "-" [] [];
-        seen "P3D (bumper)" "bumper in degraded mode -> hard (seed)" 100 (flags [Bumper] without Mcl);
+        seen "P3D (bumper)" "bumper in degraded mode -> hard (seed)"
+             100 (flags [Bumper] without Mcl);
         answer Collision "operator, degraded teleoperation";
         rate 500 Assumed "assumed; grows with distance (odometry model)", injection "emergent";
     }
@@ -403,15 +350,19 @@ rows! {
         cause "range, access point", effect "no help possible";
         severity Weak Fatal, class Adapter, Transient;
         lost "LAN CAM" [Lan, Cam] [WifiCard];
-        seen "O-COM" "link flag, no heartbeat for 2 s" 2_000 (flags [LinkDown] sometimes [LinkPoor, NoFrame, OldFrame] with Lan);
+        seen "O-COM" "link flag, no heartbeat for 2 s"
+             2_000 (flags [LinkDown] sometimes [LinkPoor, NoFrame, OldFrame] with Lan);
         answer Wifi "go on alone; fatal as soon as help is needed";
-        rate 5_000 Assumed "assumed; limited WiFi range is a listed common cause in Carlson & Murphy 2005", injection "lan=off for 5..120 s or for ever";
+        rate 5_000 Assumed "assumed; limited WiFi range is a listed common cause in Carlson & \
+                            Murphy 2005",
+        injection "lan=off for 5..120 s or for ever";
     }
     Com2 "COM2" "talk to the operator" "WiFi" "weak signal, high delay" {
         cause "range, load", effect "slow teleoperation";
         severity Weak Medium, class Adapter, Transient;
         lost "-" [] [];
-        seen "O-COM" "level or noise out of interval" 1_000 (flags [LinkPoor] sometimes [OldFrame] with Lan);
+        seen "O-COM" "level or noise out of interval"
+             1_000 (flags [LinkPoor] sometimes [OldFrame] with Lan);
         answer - "lower image rate and speed limit";
         rate 1_000 Assumed "assumed", injection "delay 0.2..2 s, loss 1..30 %";
     }

@@ -106,42 +106,68 @@ pub const CONFIGURATIONS: [ConfigurationFacts; Configuration::ALL.len()] = {
     use Mode::{Autonomous, Rest, Teleoperated, Teleprogrammed};
     use SubObjective as S;
     [
-        row(C::Planning, S::Planning, Autonomous, 0, Inferred, &[P3d, Nav, Ppl], &[Lan], NO_SPEED, Inferred),
-        row(C::FollowingOptimal, S::Following, Autonomous, 0, Stated, &[P3d, Sim, Ust, Mcl, Nav, Smz], &[Lan], FULL_SPEED, Stated),
-        row(C::FollowingReduced, S::Following, Autonomous, 1, Stated, &[P3d, Sim, Ust, Mcl, Nav, Smz], &[Lan], FULL_SPEED, Stated),
-        row(C::FollowingOdometric, S::Following, Autonomous, 3, Inferred, &[P3d, Sim, Ust, Nav, Smz], &[Lan], FULL_SPEED, Assumed),
-        row(C::FollowingDegraded, S::Following, Autonomous, 4, Stated, &[P3d, Nav, Gui], &[Lan], DEGRADED_SPEED, Assumed),
-        row(C::FollowingDvz, S::Following, Autonomous, 2, Inferred, &[P3d, Sim, Ust, Mcl, Nav, Dvz, Gui], &[Lan], FULL_SPEED, Assumed),
-        row(C::Teleprogramming, S::Teleprogramming, Teleprogrammed, 0, Inferred, &[P3d, Nav, Lan], &[Cam, Ppl], NO_SPEED, Inferred),
-        row(C::TeleoperationFull, S::Teleoperation, Teleoperated, 0, Inferred, &[P3d, Sim, Ust, Dvz, Nav, Cam, Lan], &[], FULL_SPEED, Assumed),
-        row(C::TeleoperationDegraded, S::Teleoperation, Teleoperated, 1, Inferred, &[P3d, Nav, Cam, Lan], &[], DEGRADED_SPEED, Assumed),
-        row(C::Security, S::Security, Rest, 0, Stated, &[P3d], &[Lan], NO_SPEED, Stated),
+        row(C::Planning, S::Planning, Autonomous, 0)
+            .modules(&[P3d, Nav, Ppl], &[Lan], Inferred)
+            .speed(NO_SPEED, Inferred),
+        row(C::FollowingOptimal, S::Following, Autonomous, 0)
+            .modules(&[P3d, Sim, Ust, Mcl, Nav, Smz], &[Lan], Stated)
+            .speed(FULL_SPEED, Stated),
+        row(C::FollowingReduced, S::Following, Autonomous, 1)
+            .modules(&[P3d, Sim, Ust, Mcl, Nav, Smz], &[Lan], Stated)
+            .speed(FULL_SPEED, Stated),
+        row(C::FollowingOdometric, S::Following, Autonomous, 3)
+            .modules(&[P3d, Sim, Ust, Nav, Smz], &[Lan], Inferred)
+            .speed(FULL_SPEED, Assumed),
+        row(C::FollowingDegraded, S::Following, Autonomous, 4)
+            .modules(&[P3d, Nav, Gui], &[Lan], Stated)
+            .speed(DEGRADED_SPEED, Assumed),
+        row(C::FollowingDvz, S::Following, Autonomous, 2)
+            .modules(&[P3d, Sim, Ust, Mcl, Nav, Dvz, Gui], &[Lan], Inferred)
+            .speed(FULL_SPEED, Assumed),
+        row(C::Teleprogramming, S::Teleprogramming, Teleprogrammed, 0)
+            .modules(&[P3d, Nav, Lan], &[Cam, Ppl], Inferred)
+            .speed(NO_SPEED, Inferred),
+        row(C::TeleoperationFull, S::Teleoperation, Teleoperated, 0)
+            .modules(&[P3d, Sim, Ust, Dvz, Nav, Cam, Lan], &[], Inferred)
+            .speed(FULL_SPEED, Assumed),
+        row(C::TeleoperationDegraded, S::Teleoperation, Teleoperated, 1)
+            .modules(&[P3d, Nav, Cam, Lan], &[], Inferred)
+            .speed(DEGRADED_SPEED, Assumed),
+        row(C::Security, S::Security, Rest, 0)
+            .modules(&[P3d], &[Lan], Stated)
+            .speed(NO_SPEED, Stated),
     ]
 };
 
-#[allow(clippy::too_many_arguments)] // a row of the table above, in its columns
 const fn row(
     configuration: Configuration,
     sub_objective: SubObjective,
     mode: Mode,
     rank: u8,
-    label: Label,
-    required: &[Module],
-    optional: &[Module],
-    speed: MillimetresPerSecond,
-    speed_label: Label,
 ) -> ConfigurationFacts {
-    let (required, optional) = (Modules::of(required), Modules::of(optional));
     ConfigurationFacts {
         configuration,
         sub_objective,
         mode,
-        required,
-        optional,
+        required: Modules::NONE,
+        optional: Modules::NONE,
         rank,
-        speed,
-        label,
-        speed_label,
+        speed: NO_SPEED,
+        label: Inferred,
+        speed_label: Inferred,
+    }
+}
+
+impl ConfigurationFacts {
+    const fn modules(mut self, required: &[Module], optional: &[Module], label: Label) -> Self {
+        (self.required, self.optional) = (Modules::of(required), Modules::of(optional));
+        self.label = label;
+        self
+    }
+
+    const fn speed(mut self, speed: MillimetresPerSecond, label: Label) -> Self {
+        (self.speed, self.speed_label) = (speed, label);
+        self
     }
 }
 
@@ -154,7 +180,8 @@ impl Configuration {
     /// Whether the modules that it requires are available.
     ///
     /// ```
-    /// use cotama_models::cotama::{Configuration, Modules, Resource::SonarArrays, Resources, available};
+    /// use cotama_models::cotama::Resource::SonarArrays;
+    /// use cotama_models::cotama::{Configuration, Modules, Resources, available};
     /// let left = available(Modules::NONE, Resources::of(&[SonarArrays]));
     /// assert!(!Configuration::FollowingOdometric.runs_on(left));
     /// assert!(Configuration::FollowingDegraded.runs_on(left));
@@ -172,7 +199,10 @@ impl Configuration {
     ///     FollowingOptimal.scheduled().to_string(),
     ///     "GOM P3D SIM UST MCL NAV SMZ LAN O-SEN O-EFF O-COM O-LOC O-PF"
     /// );
-    /// assert_eq!(FollowingDegraded.scheduled().to_string(), "GOM P3D NAV GUI LAN O-EFF O-COM O-PF");
+    /// assert_eq!(
+    ///     FollowingDegraded.scheduled().to_string(),
+    ///     "GOM P3D NAV GUI LAN O-EFF O-COM O-PF"
+    /// );
     /// ```
     pub const fn scheduled(self) -> Modules {
         let facts = self.facts();

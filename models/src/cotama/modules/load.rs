@@ -4,8 +4,10 @@
 //! | number | value | |
 //! | --- | --- | --- |
 //! | control loop of each sub-objective | less than 100 ms | stated |
-//! | period of the loop: that of the robot's information packets | 100 ms | of the robot's firmware |
-//! | deadline of a module; extra time, which ends with the period; misses in a row that are a fault | 80 ms; 20 ms; 3 | assumed |
+//! | period of the loop: that of the robot's packets | 100 ms | of the robot's firmware |
+//! | deadline of a module | 80 ms | assumed |
+//! | extra time, which ends with the period | 20 ms | assumed |
+//! | misses in a row that are a fault | 3 | assumed |
 //! | costs of modules and of a particle | see [`COSTS`], [`PARTICLES`] | assumed |
 //! | load of the computer beside the modules | see [`Load`] | assumed |
 //!
@@ -29,7 +31,8 @@
 //!
 //! let tasks = load::tasks(FollowingOptimal, Load::Busy, 500, &mut tasks);
 //! let late = TaskSet::new(tasks).unwrap().schedulable(Overruns::None);
-//! assert!(matches!(late, Err(Unschedulable::Late { task, .. }) if task == tasks.len() - 1)); // the localisation
+//! let localisation = tasks.len() - 1;
+//! assert!(matches!(late, Err(Unschedulable::Late { task, .. }) if task == localisation));
 //! ```
 
 use super::configurations::Configuration;

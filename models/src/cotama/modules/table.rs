@@ -232,9 +232,11 @@ impl Module {
 /// them all (inferred).
 ///
 /// ```
-/// use cotama_models::cotama::{Module::{Dvz, Mcl, Sim, Smz, Ust}, Modules, Resource::SonarArrays, Resources, available};
-/// // Stated: with the sonars go UST, MCL and SMZ, and SIM is useless. Inferred: DVZ goes too. The observers O-SEN and
-/// // O-LOC lose what they observe.
+/// use cotama_models::cotama::Module::{Dvz, Mcl, Sim, Smz, Ust};
+/// use cotama_models::cotama::Resource::SonarArrays;
+/// use cotama_models::cotama::{Modules, Resources, available};
+/// // Stated: with the sonars go UST, MCL and SMZ, and SIM is useless. Inferred: DVZ goes too. The
+/// // observers O-SEN and O-LOC lose what they observe.
 /// let left = available(Modules::NONE, Resources::of(&[SonarArrays]));
 /// assert!(left.common(Modules::of(&[Sim, Ust, Mcl, Smz, Dvz])).is_empty());
 /// assert_eq!(Modules::ALL.without(left).to_string(), "SIM UST MCL SMZ DVZ O-SEN O-LOC");

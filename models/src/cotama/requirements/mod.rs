@@ -4,7 +4,9 @@
 mod guarded;
 mod properties;
 mod recovery_properties;
+mod requirement;
 
 pub use guarded::Guarded;
-pub use properties::{Asked, REQUIREMENTS, Requirement, Said, Watch};
+pub use properties::REQUIREMENTS;
 pub use recovery_properties::{RECOVERY_REQUIREMENTS, REPLACED};
+pub use requirement::{Asked, Requirement, Said, Watch};

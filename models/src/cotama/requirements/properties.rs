@@ -2,12 +2,12 @@
 //!
 //! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation
 //! module, WD watchdog, DP the permit to move, M the robot. Texts are in the language of `cotama
-//! check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds: `round` is marked
-//! between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E` when it
-//! has, and `turn.outside` when every net has had its turn.
+//! check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds: `round` is
+//! marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E`
+//! when it has, and `turn.outside` when every net has had its turn.
 //!
 //! Where the shipped system differs from the model that Durand et al. (TAROS 2010) let us
-//! reconstruct, [`decision`](crate::cotama::decision):
+//! reconstruct (`verification/tests/rounds/reconstruction.rs`):
 //! - flags of observers go through the observation module, which reads them in the round in which
 //!   the contextual supervisor decides, so that no reaction is later (improved: the paper has the
 //!   module, the first model left it out);
@@ -15,125 +15,12 @@
 //!   avoidance (inferred);
 //! - what moves the robot holds a permit, which `halt` destroys (improved);
 //! - hard failures without a report of their own are reported as `hard` (inferred);
-//! - the environment is two nets, faults and operator; what is really lost is known to the first
-//!   one alone (improved).
+//! - faults and the operator are two nets; what is really lost is known to the first one alone
+//!   (improved).
 
 use super::guarded::Guarded;
+use super::requirement::{Asked, Requirement, Watch, at_end, requirements, said};
 use crate::cotama::label::Label;
-use cotama_core::net::{PlaceId, Transition};
-use cotama_core::system::System;
-
-/// Something that the decisional level is required to do. What is known of it may come in parts,
-/// each with its own proof.
-#[derive(Clone, Copy, Debug)]
-pub struct Requirement {
-    /// Its short name, for example `GS3`.
-    pub id: &'static str,
-    /// What is required, in a sentence.
-    pub sentence: &'static str,
-    /// Where it comes from.
-    pub label: Label,
-    /// What a checker is asked.
-    pub asked: Option<Asked>,
-    /// What transitions say.
-    pub said: &'static [Said],
-    /// What transitions look at.
-    pub guarded: &'static [Guarded],
-    /// The file of the tests that show the rest.
-    pub tests: Option<&'static str>,
-}
-
-/// A property of the net of rounds.
-#[derive(Clone, Copy, Debug)]
-pub struct Asked {
-    /// What it takes to remember.
-    pub watches: &'static [Watch],
-    /// The property.
-    pub text: &'static str,
-}
-
-/// Counts in how many rounds a duty lasts: it begins where the first condition is found and ends
-/// where the second one is, no sooner than a round later. It is a place of its name.
-#[derive(Clone, Copy, Debug)]
-pub struct Watch {
-    /// Its name.
-    pub name: &'static str,
-    /// Whether it looks at the end of a round, or else when every net has had its turn and what is
-    /// outside has not.
-    pub at_end: bool,
-    /// What begins it.
-    pub begins: &'static str,
-    /// What ends it.
-    pub ends: &'static str,
-    /// It counts no further.
-    pub most: u32,
-}
-
-/// Every transition of a net that goes from one of the places `from` to one of the places `to` says
-/// `output`.
-#[derive(Clone, Copy, Debug)]
-pub struct Said {
-    /// The net, by its name in the system.
-    pub net: &'static str,
-    /// Where they come from; without any, from wherever but `to`.
-    pub from: &'static [&'static str],
-    /// Where they go.
-    pub to: &'static [&'static str],
-    /// What they say.
-    pub output: &'static str,
-    /// The event that they answer, where not all of them are meant.
-    pub on: Option<&'static str>,
-}
-
-impl Said {
-    /// The transitions of a system that do not say it; of a system without such a net none.
-    ///
-    /// ```
-    /// use cotama_models::cotama::{REQUIREMENTS, delivery};
-    /// let mut said = REQUIREMENTS.iter().flat_map(|it| it.said);
-    /// assert!(said.all(|it| it.unsaid(&delivery::SYSTEM).next().is_none()));
-    /// ```
-    pub fn unsaid<'s>(self, system: &System<'s>) -> impl Iterator<Item = &'s str> {
-        let net = system.components.iter().find(|it| it.name == self.net).map(|it| it.net);
-        net.into_iter().flat_map(move |net| {
-            let named = |place: PlaceId, names: &[&str]| {
-                net.places.get(place.0 as usize).is_some_and(|it| names.contains(&it.name))
-            };
-            let is_meant = move |it: &&Transition<'s>| {
-                let goes = it.give.iter().any(|arc| named(arc.place, self.to));
-                let comes = it.take.iter().any(|arc| named(arc.place, self.from));
-                let stays = it.take.iter().any(|arc| named(arc.place, self.to));
-                let event = it.on.and_then(|on| net.events.get(on.0 as usize)).map(|it| it.name);
-                let answers = self.on.is_none() || self.on == event;
-                goes && answers && (comes || (self.from.is_empty() && !stays))
-            };
-            let says = move |it: &Transition<'s>| {
-                it.emits.iter().any(|id| {
-                    net.outputs.get(id.0 as usize).is_some_and(|it| it.name == self.output)
-                })
-            };
-            net.transitions.iter().filter(is_meant).filter(move |it| !says(it)).map(|it| it.name)
-        })
-    }
-}
-
-pub(super) const fn said(
-    net: &'static str,
-    from: &'static [&'static str],
-    to: &'static [&'static str],
-    output: &'static str,
-) -> Said {
-    Said { net, from, to, output, on: None }
-}
-
-pub(super) const fn at_end(
-    name: &'static str,
-    begins: &'static str,
-    ends: &'static str,
-    most: u32,
-) -> Watch {
-    Watch { name, at_end: true, begins, ends, most }
-}
 
 /// What is lost and used at the ends of rounds in a row.
 macro_rules! used_without {
@@ -147,63 +34,54 @@ macro_rules! used_without {
     };
 }
 
-macro_rules! requirements {
-    ($(#[doc = $doc:literal])* $list:ident; $($id:ident $label:ident $sentence:literal
-        $(, checked $text:expr $(, watched by [$($watch:expr),+])?)?
-        $(, said [$($said:expr),+])?
-        $(, guarded [$($guarded:expr),+])?
-        $(, tested in $file:literal)?;)+) => {
-        $(#[doc = $doc])*
-        pub static $list: &[Requirement] = &[$(Requirement {
-            id: stringify!($id),
-            sentence: $sentence,
-            label: Label::$label,
-            asked: requirements!(asked $($text $(, [$($watch),+])?)?),
-            said: &[$($($said),+)?],
-            guarded: &[$($($guarded),+)?],
-            tests: requirements!(tests $($file)?),
-        }),+];
-    };
-    (asked) => { None };
-    (asked $text:expr) => { Some(Asked { watches: &[], text: $text }) };
-    (asked $text:expr, [$($watch:expr),+]) => { Some(Asked { watches: &[$($watch),+], text: $text }) };
-    (tests) => { None };
-    (tests $file:literal) => { Some($file) };
-}
-
-pub(super) use requirements;
-
 requirements! {
     /// The requirements of [`delivery`](crate::cotama::delivery).
     REQUIREMENTS;
     GS1 Stated "The mission is in exactly one place.",
-        checked "AG gs.Wait + gs.DriveA + gs.Receive + gs.DriveB + gs.Deliver + gs.Done + gs.Security + gs.Safe = 1";
-    GS2 Inferred "A drive is under way only while the mission drives, and then it is, but for the round of its start and of its end.",
-        checked "AG (round -> (ls.Idle | gs.DriveA | gs.DriveB) & (ls.Idle & (gs.DriveA | gs.DriveB) -> \
-                 ls.start_drive.waiting | gs.drive_done.waiting))";
-    GS3 Stated "A global event is answered in the next round; then the robot stops for good as soon as it stands, and says so.",
+        checked "AG gs.Wait + gs.DriveA + gs.Receive + gs.DriveB + gs.Deliver + gs.Done + \
+                 gs.Security + gs.Safe = 1";
+    GS2 Inferred "A drive is under way only while the mission drives, and then it is, but for the \
+                  round of its start and of its end.",
+        checked "AG (round -> (ls.Idle | gs.DriveA | gs.DriveB) & \
+                 (ls.Idle & (gs.DriveA | gs.DriveB) -> ls.start_drive.waiting | \
+                 gs.drive_done.waiting))";
+    GS3 Stated "A global event is answered in the next round; then the robot stops for good as \
+                soon as it stands, and says so.",
         checked "AG (secured <= 1 & (turn.outside & gs.Security -> fireable(gs.secured)))",
         watched by [at_end("secured", "gs.global_event.waiting", "gs.Security | gs.Safe", 2)],
         said [said("gs", &[], &["Safe"], "alarm"), said("gs", &[], &["Safe"], "wifi_warning")];
     GS4 Stated "Who was told to halt never moves again, and stays stopped.",
-        checked "AG ((gs.Security | gs.Safe -> ls.Idle & permit.Destroyed) & (gs.Security -> AX (gs.Security | gs.Safe)) & \
-                 (gs.Safe -> AX gs.Safe) & (round & (gs.Security | gs.Safe) -> !ls.start_drive.waiting))",
+        checked "AG ((gs.Security | gs.Safe -> ls.Idle & permit.Destroyed) & \
+                 (gs.Security -> AX (gs.Security | gs.Safe)) & (gs.Safe -> AX gs.Safe) & \
+                 (round & (gs.Security | gs.Safe) -> !ls.start_drive.waiting))",
         said [said("gs", &[], &["Security"], "halt")];
-    GS5 Stated "The mission is done when the object is delivered, not before it was received, and that not before the first drive.",
-        checked "!E[!gs.Deliver U gs.Done] & !E[!gs.DriveB U gs.Deliver] & !E[!gs.Receive U gs.DriveB] & !E[!gs.DriveA U gs.Receive]";
-    GS6 Stated "From everywhere the mission can end: accomplished, or stopped for good; and it can be accomplished.",
+    GS5 Stated "The mission is done when the object is delivered, not before it was received, and \
+                that not before the first drive.",
+        checked "!E[!gs.Deliver U gs.Done] & !E[!gs.DriveB U gs.Deliver] & !E[!gs.Receive U \
+                 gs.DriveB] & !E[!gs.DriveA U gs.Receive]";
+    GS6 Stated "From everywhere the mission can end: accomplished, or stopped for good; and it can \
+                be accomplished.",
         checked "EF gs.Done & AG (!deadlock & EF ((gs.Done | gs.Safe) & ls.Idle))";
     GS7 Stated "A global event is never masked.",
         checked "AG (after.gs.global_event -> gs.Security | gs.Safe)";
-    LS1 Stated "A drive is in one place, so that at most one mode is active; path following and teleoperation run in theirs only.",
-        checked "AG (ls.Idle + ls.Planning + ls.Following + ls.HandOver + ls.Teleprogrammed + ls.Teleoperated + ls.End = 1 & \
-                 pf.Off + ls.Following = 1 & to.Off + ls.Teleoperated = 1)";
-    LS2 Stated "The robot may move exactly while it follows a path or the operator drives; who hands over stops it.",
+    LS1 Stated "A drive is in one place, so that at most one mode is active; path following and \
+                teleoperation run in theirs only.",
+        checked "AG (ls.Idle + ls.Planning + ls.Following + ls.HandOver + ls.Teleprogrammed + \
+                 ls.Teleoperated + ls.End = 1 & pf.Off + ls.Following = 1 & \
+                 to.Off + ls.Teleoperated = 1)";
+    LS2 Stated "The robot may move exactly while it follows a path or the operator drives; who \
+                hands over stops it.",
         checked "AG (permit.Granted <-> ls.Following | ls.Teleoperated)",
         said [
-            said("ls", &["Planning", "Following", "Teleoperated"], &["HandOver", "Teleprogrammed"], "stop_robot")
+            said(
+                "ls",
+                &["Planning", "Following", "Teleoperated"],
+                &["HandOver", "Teleprogrammed"],
+                "stop_robot"
+            )
         ];
-    LS3 Stated "A hard failure is answered after two rounds: the operator is asked, or the mission stops.",
+    LS3 Stated "A hard failure is answered after two rounds: the operator is asked, or the mission \
+                stops.",
         checked "AG answer <= 1",
         watched by [
             at_end(
@@ -223,22 +101,29 @@ requirements! {
             }
         ],
         said [said("ls", &[], &["HandOver"], "op_request")];
-    LS4 Stated "Who waits for the operator can be told that no answer comes, and then the mission stops after two rounds.",
+    LS4 Stated "Who waits for the operator can be told that no answer comes, and then the mission \
+                stops after two rounds.",
         checked "AG (refused <= 2 & (turn.outside & ls.HandOver -> fireable(operator.gives_up1)))",
         watched by [at_end("refused", "cs.refusal.waiting", "gs.Security | gs.Safe", 3)];
-    LS5 Inferred "No goal is reached while a flag, a report, a local or a global event is unanswered.",
-        checked "AG (round & ls.End -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | cs.hard.waiting | \
-                 cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
-                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
-                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
-                 gom.bumper_flag.waiting | gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting | \
+    LS5 Inferred "No goal is reached while a flag, a report, a local or a global event is \
+                  unanswered.",
+        checked "AG (round & ls.End -> \
+                 !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | \
+                 cs.hard.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
+                 cs.slow.waiting | cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | \
+                 cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
+                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
+                 gom.mcl_flag.waiting | gom.drift_flag.waiting | gom.bumper_flag.waiting | \
+                 gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
-    LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, unless something vital is lost; and it ends \
-        when failures do and everybody goes on.",
-        checked "AG (EF ls.Idle & (gom.vital & gom.wifi & !ls.Idle & !gs.global_event.waiting & !cs.refusal.waiting & faults.wifi & \
-                 faults.vital -> EF ls.End))",
+    LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, \
+                unless something vital is lost; and it ends when failures do and everybody goes \
+                on.",
+        checked "AG (EF ls.Idle & (gom.vital & gom.wifi & !ls.Idle & !gs.global_event.waiting & \
+                 !cs.refusal.waiting & faults.wifi & faults.vital -> EF ls.End))",
         tested in "verification/tests/rounds/liveness.rs";
-    LS7 Stated "No two of planning, path following and teleoperation run together; what ends is stopped.",
+    LS7 Stated "No two of planning, path following and teleoperation run together; what ends is \
+                stopped.",
         checked "AG (pf.Off + to.Off >= 1 & (ls.Planning -> pf.Off & to.Off))",
         said [
             said("ls", &[], &["Planning"], "run_pp"),
@@ -247,39 +132,59 @@ requirements! {
             said("ls", &["Teleoperated"], &["End", "HandOver", "Idle", "Teleprogrammed"], "to_stop")
         ];
     LS8 Inferred "The operator is asked at most once for each hard report.",
-        checked "AG ((!ls.HandOver & !turn.ls.local_event -> AX !ls.HandOver) & (!ls.local_event.waiting & !(turn.cs.ambiguous | \
-                 turn.cs.camera | turn.cs.collision | turn.cs.hard | turn.cs.planner) -> AX !ls.local_event.waiting) & \
+        checked "AG ((!ls.HandOver & !turn.ls.local_event -> AX !ls.HandOver) & \
+                 (!ls.local_event.waiting & \
+                 !(turn.cs.ambiguous | turn.cs.camera | turn.cs.collision | turn.cs.hard | \
+                 turn.cs.planner) -> AX !ls.local_event.waiting) & \
                  (after.ls.local_event -> !ls.local_event.waiting))";
-    LS9 Inferred "The operator drives only with camera and link, as far as is known, whoever asks for it.",
-        guarded [Guarded { net: "ls", from: "HandOver", to: "Teleoperated", by: &["gom.camera", "gom.wifi"] }];
+    LS9 Inferred "The operator drives only with camera and link, as far as is known, whoever asks \
+                  for it.",
+        guarded [Guarded {
+            net: "ls",
+            from: "HandOver",
+            to: "Teleoperated",
+            by: &["gom.camera", "gom.wifi"],
+        }];
     AS1 Stated "Path following runs one set of modules at a time, and teleoperation too.",
-        checked "AG (pf.Off + pf.Optimal + pf.Reduced + pf.Odometric + pf.Degraded = 1 & to.Off + to.Full + to.Degraded = 1)";
+        checked "AG (pf.Off + pf.Optimal + pf.Reduced + pf.Odometric + pf.Degraded = 1 & \
+                 to.Off + to.Full + to.Degraded = 1)";
     AS2 Stated "What is lost is used at the ends of two rounds at most.",
-        checked "AG (without_mcl <= 2 & without_sonar <= 2 & without_avoidance <= 2 & without_camera <= 2 & without_wifi <= 2 & without_vital <= 2)",
+        checked "AG (without_mcl <= 2 & without_sonar <= 2 & without_avoidance <= 2 & \
+                 without_camera <= 2 & without_wifi <= 2 & without_vital <= 2)",
         watched by [
             used_without!("without_mcl", "mcl", "pf.Optimal | pf.Reduced"),
-            used_without!("without_sonar", "sonar", "pf.Optimal | pf.Reduced | pf.Odometric | to.Full"),
+            used_without!("without_sonar", "sonar", "pf.Optimal | pf.Reduced | pf.Odometric | \
+                                                     to.Full"),
             used_without!("without_avoidance", "avoidance", "to.Full"),
             used_without!("without_camera", "camera", "to.Full | to.Degraded"),
             used_without!("without_wifi", "wifi", "to.Full | to.Degraded"),
             used_without!(
                 "without_vital",
                 "vital",
-                "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | to.Degraded"
+                "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | \
+                 to.Degraded"
             )
         ];
-    AS3 Inferred "Until it is stopped, path following only degrades, and only when an adapter event asks for it.",
-        checked "AG ((pf.Reduced -> AX !pf.Optimal) & (pf.Odometric -> AX !(pf.Optimal | pf.Reduced)) & \
+    AS3 Inferred "Until it is stopped, path following only degrades, and only when an adapter \
+                  event asks for it.",
+        checked "AG ((pf.Reduced -> AX !pf.Optimal) & \
+                 (pf.Odometric -> AX !(pf.Optimal | pf.Reduced)) & \
                  (pf.Degraded -> AX (pf.Degraded | pf.Off)) & (to.Degraded -> AX !to.Full) & \
-                 (pf.Optimal & !(turn.pf.adapt_rt | turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> AX (pf.Optimal | pf.Off)) & \
-                 (pf.Reduced & !(turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> AX (pf.Reduced | pf.Off)) & \
+                 (pf.Optimal & !(turn.pf.adapt_rt | turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> \
+                 AX (pf.Optimal | pf.Off)) & \
+                 (pf.Reduced & !(turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> \
+                 AX (pf.Reduced | pf.Off)) & \
                  (pf.Odometric & !turn.pf.adapt_sonar -> AX (pf.Odometric | pf.Off)) & \
                  (to.Full & !turn.to.adapt_sonar -> AX (to.Full | to.Off)))";
-    AS4 Stated "Particles are reduced twice at most, each time with a request, and all are back when path following ends.",
-        checked "AG ((pf.Reduced -> pf.level <= 1) & (pf.Reduced | pf.level = 2) & (pf.level = 0 -> AX (pf.level = 0 | \
-                 !pf.Reduced)) & (pf.Reduced & pf.level = 1 & !turn.pf.adapt_rt -> AX (pf.level = 1 | !pf.Reduced)))",
+    AS4 Stated "Particles are reduced twice at most, each time with a request, and all are back \
+                when path following ends.",
+        checked "AG ((pf.Reduced -> pf.level <= 1) & (pf.Reduced | pf.level = 2) & \
+                 (pf.level = 0 -> AX (pf.level = 0 | !pf.Reduced)) & \
+                 (pf.Reduced & pf.level = 1 & \
+                 !turn.pf.adapt_rt -> AX (pf.level = 1 | !pf.Reduced)))",
         said [said("pf", &["Optimal", "Reduced"], &["Reduced"], "reduce_particles").on("adapt_rt")];
-    AS5 Inferred "An adapter event is read in the next round, and answered where it is not too late.",
+    AS5 Inferred "An adapter event is read in the next round, and answered where it is not too \
+                  late.",
         checked "AG ((after.pf.adapt_rt -> !pf.adapt_rt.waiting & !pf.Optimal) & \
                  (turn.pf.adapt_rt & pf.Reduced & pf.level = 1 -> AX pf.level = 0) & \
                  (after.pf.adapt_mcl -> !pf.adapt_mcl.waiting & !pf.Optimal & !pf.Reduced) & \
@@ -288,37 +193,64 @@ requirements! {
                  (after.pf.adapt_bump -> !pf.adapt_bump.waiting) & \
                  (after.to.adapt_sonar -> !to.adapt_sonar.waiting & !to.Full) & \
                  (turn.pf.adapt_rt & pf.Off -> AX pf.Off))",
-        said [said("pf", &["Optimal", "Reduced", "Odometric"], &["Optimal", "Reduced", "Odometric"], "limit_speed").on("adapt_bump")];
+        said [
+            said(
+                "pf",
+                &["Optimal", "Reduced", "Odometric"],
+                &["Optimal", "Reduced", "Odometric"],
+                "limit_speed"
+            )
+            .on("adapt_bump")
+        ];
     AS6 Stated "Who runs without avoidance limits the speed.",
-        said [said("pf", &[], &["Degraded"], "limit_speed"), said("to", &[], &["Degraded"], "limit_speed")];
-    AS7 Stated "Path following starts with what is available: all modules, without localisation, or without sonars.",
+        said [
+            said("pf", &[], &["Degraded"], "limit_speed"),
+            said("to", &[], &["Degraded"], "limit_speed")
+        ];
+    AS7 Stated "Path following starts with what is available: all modules, without localisation, \
+                or without sonars.",
         checked "AG (turn.outside -> (pf.Off & !faults.sonar -> AX (pf.Off | pf.Degraded)) & \
-                 (pf.Off & gom.sonar & !gom.mcl -> AX (pf.Off | pf.Odometric)) & (pf.Off & gom.sonar & gom.mcl -> AX (pf.Off | \
-                 pf.Optimal)) & (to.Off & !faults.sonar -> AX !to.Full) & (to.Off & !faults.avoidance -> AX !to.Full) & (to.Off & gom.avoidance -> AX !to.Degraded) & \
-                 (!(faults.camera & faults.wifi) -> AX (!to.Off | ls.Teleoperated | !permit.Granted | ls.Following)) & \
+                 (pf.Off & gom.sonar & !gom.mcl -> AX (pf.Off | pf.Odometric)) & \
+                 (pf.Off & gom.sonar & gom.mcl -> AX (pf.Off | pf.Optimal)) & \
+                 (to.Off & !faults.sonar -> AX !to.Full) & \
+                 (to.Off & !faults.avoidance -> AX !to.Full) & \
+                 (to.Off & gom.avoidance -> AX !to.Degraded) & \
+                 (!(faults.camera & faults.wifi) -> \
+                 AX (!to.Off | ls.Teleoperated | !permit.Granted | ls.Following)) & \
                  (to.Off & !(gom.camera & gom.wifi) -> AX to.Off))";
-    CS1 Stated "What a report means is a function of the report, of where the robot is and of what is left; where it is reached, it is this one.",
+    CS1 Stated "What a report means is a function of the report, of where the robot is and of what \
+                is left; where it is reached, it is this one.",
         checked DECISIONS,
         tested in "models/tests/cotama_data/decisions.rs";
     CS2 Stated "The more severe, the stronger the answer.",
         tested in "models/tests/cotama_data/decisions.rs";
-    CS3 Inferred "Every flag that tells something new is reported and decided upon in the next round, once.",
-        checked "AG ((turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | cs.hard.waiting | \
-                 cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
-                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
-                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | gom.drift_flag.waiting | \
-                 gom.bumper_flag.waiting | gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting)) & \
-                 (turn.gom.vital_flag & gom.vital -> AX cs.vital.waiting) & (turn.gom.wifi_flag & gom.wifi -> AX cs.wifi_lost.waiting) & \
-                 (turn.gom.camera_flag & gom.camera -> AX cs.camera.waiting) & (turn.gom.sonar_flag & gom.sonar -> AX cs.sonar.waiting) & \
+    CS3 Inferred "Every flag that tells something new is reported and decided upon in the next \
+                  round, once.",
+        checked "AG ((turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | \
+                 cs.collision.waiting | cs.hard.waiting | cs.mcl_lost.waiting | \
+                 cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
+                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | \
+                 gom.vital_flag.waiting | gom.wifi_flag.waiting | gom.camera_flag.waiting | \
+                 gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | \
+                 gom.drift_flag.waiting | gom.bumper_flag.waiting | gom.planner_flag.waiting | \
+                 gom.hard_flag.waiting | gom.deadline_flag.waiting)) & \
+                 (turn.gom.vital_flag & gom.vital -> AX cs.vital.waiting) & \
+                 (turn.gom.wifi_flag & gom.wifi -> AX cs.wifi_lost.waiting) & \
+                 (turn.gom.camera_flag & gom.camera -> AX cs.camera.waiting) & \
+                 (turn.gom.sonar_flag & gom.sonar -> AX cs.sonar.waiting) & \
                  (turn.gom.mcl_flag & gom.mcl -> AX cs.mcl_lost.waiting) & \
                  (turn.gom.avoidance_flag & gom.avoidance -> AX cs.avoidance.waiting) & \
-                 (turn.gom.drift_flag & !gom.suspected -> AX cs.ambiguous.waiting) & (turn.gom.bumper_flag -> AX cs.collision.waiting) & \
-                 (turn.gom.planner_flag -> AX cs.planner.waiting) & (turn.gom.hard_flag -> AX cs.hard.waiting) & \
+                 (turn.gom.drift_flag & !gom.suspected -> AX cs.ambiguous.waiting) & \
+                 (turn.gom.bumper_flag -> AX cs.collision.waiting) & \
+                 (turn.gom.planner_flag -> AX cs.planner.waiting) & \
+                 (turn.gom.hard_flag -> AX cs.hard.waiting) & \
                  (turn.gom.deadline_flag -> AX cs.slow.waiting))";
     CS4 Inferred "The adapters are asked only for what they have the modules for.",
-        checked "AG (turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | pf.adapt_sonar.waiting | pf.adapt_bump.waiting) & \
-                 !faults.vital) & !(to.adapt_sonar.waiting & !(faults.camera & faults.wifi & faults.vital)))";
-    CS5 Inferred "No operator is asked who cannot be reached, and none is waited for during more than two rounds.",
+        checked "AG (turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | \
+                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting) & !faults.vital) & \
+                 !(to.adapt_sonar.waiting & !(faults.camera & faults.wifi & faults.vital)))";
+    CS5 Inferred "No operator is asked who cannot be reached, and none is waited for during more \
+                  than two rounds.",
         checked "AG ((turn.outside -> !(ls.local_event.waiting & !faults.wifi)) & alone <= 2)",
         watched by [at_end(
             "alone",
@@ -326,27 +258,46 @@ requirements! {
             "!((ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) & !faults.wifi)",
             3
         )];
-    GM1 Inferred "The status vector is closed under dependencies: without sonars there is neither localisation by particles nor avoidance.",
-        checked "AG ((gom.mcl -> gom.sonar) & (gom.avoidance -> gom.sonar) & (turn.outside -> (gom.avoidance <-> faults.sonar & faults.avoidance) & (gom.sonar <-> faults.sonar) & (gom.camera <-> faults.camera) & \
-                 (gom.wifi <-> faults.wifi) & (gom.vital <-> faults.vital) & (gom.mcl -> faults.mcl)))",
+    GM1 Inferred "The status vector is closed under dependencies: without sonars there is neither \
+                  localisation by particles nor avoidance.",
+        checked "AG ((gom.mcl -> gom.sonar) & (gom.avoidance -> gom.sonar) & \
+                 (turn.outside -> (gom.avoidance <-> faults.sonar & faults.avoidance) & \
+                 (gom.sonar <-> faults.sonar) & (gom.camera <-> faults.camera) & \
+                 (gom.wifi <-> faults.wifi) & (gom.vital <-> faults.vital) & \
+                 (gom.mcl -> faults.mcl)))",
         tested in "models/tests/cotama_data/availability.rs";
     GM2 Inferred "Nothing that is lost is available again.",
-        checked "AG ((!gom.mcl -> AX !gom.mcl) & (!gom.sonar -> AX !gom.sonar) & (!gom.avoidance -> AX !gom.avoidance) & (!gom.camera -> AX !gom.camera) & \
+        checked "AG ((!gom.mcl -> AX !gom.mcl) & (!gom.sonar -> AX !gom.sonar) & \
+                 (!gom.avoidance -> AX !gom.avoidance) & (!gom.camera -> AX !gom.camera) & \
                  (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital))",
         tested in "models/tests/cotama_data/availability.rs";
-    GM3 Inferred "What tells nothing new is not reported: a loss that is known, and a suspicion until the robot sets out again.",
-        checked "AG ((after.gom.drift_flag -> gom.suspected) & (turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & (turn.gom.drift_flag & gom.suspected -> \
-                 AX !cs.ambiguous.waiting) & cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + cs.hard.waiting + \
-                 cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + cs.slow.waiting + cs.sonar.waiting + \
-                 cs.vital.waiting + cs.wifi_lost.waiting + cs.avoidance.waiting <= 1 & (gom.suspected & turn.outside & !ls.Planning & !ls.Following -> \
-                 AX (gom.suspected <-> !ls.Planning & !ls.Following)) & (gom.suspected & turn.ls.start_drive & ls.Idle -> \
-                 AX !gom.suspected) & (gom.suspected & turn.outside & ls.Planning -> AX (gom.suspected <-> !ls.Following)))";
-    WD1 Stated "Fewer violations in a row than the limit raise no real-time fault.", tested in "verification/tests/tpn/watchdog.rs";
-    WD2 Stated "As many violations in a row as the limit raise one before the next release.", tested in "verification/tests/tpn/watchdog.rs";
-    WD3 Inferred "The violations counted are at most the limit.", tested in "verification/tests/tpn/watchdog.rs";
-    WD4 Inferred "A module that overruns delays the others by its extra time at most.", tested in "verification/tests/tpn/watchdog.rs";
-    WD5 Inferred "A job that was skipped publishes nothing.", tested in "verification/tests/tpn/watchdog.rs";
-    WD6 Inferred "A job in time ends the count.", tested in "verification/tests/tpn/watchdog.rs";
+    GM3 Inferred "What tells nothing new is not reported: a loss that is known, and a suspicion \
+                  until the robot sets out again.",
+        checked "AG ((after.gom.drift_flag -> gom.suspected) & \
+                 (turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & \
+                 (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & \
+                 (turn.gom.drift_flag & gom.suspected -> AX !cs.ambiguous.waiting) & \
+                 cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + \
+                 cs.hard.waiting + cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + \
+                 cs.slow.waiting + cs.sonar.waiting + cs.vital.waiting + cs.wifi_lost.waiting + \
+                 cs.avoidance.waiting <= 1 & \
+                 (gom.suspected & turn.outside & !ls.Planning & \
+                 !ls.Following -> AX (gom.suspected <-> !ls.Planning & !ls.Following)) & \
+                 (gom.suspected & turn.ls.start_drive & ls.Idle -> AX !gom.suspected) & \
+                 (gom.suspected & turn.outside & \
+                 ls.Planning -> AX (gom.suspected <-> !ls.Following)))";
+    WD1 Stated "Fewer violations in a row than the limit raise no real-time fault.",
+        tested in "verification/tests/tpn/watchdog.rs";
+    WD2 Stated "As many violations in a row as the limit raise one before the next release.",
+        tested in "verification/tests/tpn/watchdog.rs";
+    WD3 Inferred "The violations counted are at most the limit.",
+        tested in "verification/tests/tpn/watchdog.rs";
+    WD4 Inferred "A module that overruns delays the others by its extra time at most.",
+        tested in "verification/tests/tpn/watchdog.rs";
+    WD5 Inferred "A job that was skipped publishes nothing.",
+        tested in "verification/tests/tpn/watchdog.rs";
+    WD6 Inferred "A job in time ends the count.",
+        tested in "verification/tests/tpn/watchdog.rs";
     DP1 Assumed "Between two rounds the robot may move only in path following and teleoperation.",
         checked "AG (round & permit.Granted -> ls.Following | ls.Teleoperated)";
     DP2 Assumed "There is no permit any more once it was destroyed.",
@@ -355,43 +306,55 @@ requirements! {
         checked "AG (gs.Security | gs.Safe <-> permit.Destroyed)";
     M1 Stated "Whatever fails, in whatever order: stopped for good, the robot never moves again.",
         checked "AG (gs.Safe -> AG !permit.Granted)";
-    M2 Inferred "The permit is withdrawn in the very turn in which a local or a global event is read.",
-        checked "AG ((after.ls.local_event -> !permit.Granted) & (after.gs.global_event -> permit.Destroyed))";
-}
-
-impl Said {
-    /// The same of the transitions that answer this event.
-    pub(super) const fn on(self, event: &'static str) -> Self {
-        Self { on: Some(event), ..self }
-    }
+    M2 Inferred "The permit is withdrawn in the very turn in which a local or a global event is \
+                 read.",
+        checked "AG ((after.ls.local_event -> !permit.Granted) & \
+                 (after.gs.global_event -> permit.Destroyed))";
 }
 
 /// The cells of the table of decisions: what waits when the contextual supervisor has read a
 /// report.
 const DECISIONS: &str = "AG (\
     (after.cs.slow -> (pf.adapt_rt.waiting <-> pf.Optimal | (pf.Reduced & pf.level >= 1)) & \
-        (pf.adapt_mcl.waiting <-> pf.Reduced & pf.level = 0) & (pf.Reduced & pf.level = 0 -> !gom.mcl) & \
-        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
-    (after.cs.mcl_lost -> (pf.adapt_mcl.waiting <-> pf.Optimal | pf.Reduced) & ls.local_event.waiting + gs.global_event.waiting + \
-        pf.adapt_rt.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
-    (after.cs.sonar -> (pf.adapt_sonar.waiting <-> ls.Following & !pf.Degraded) & (to.adapt_sonar.waiting <-> to.Full) & \
-        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_bump.waiting = 0) & \
-    (after.cs.avoidance -> (to.adapt_sonar.waiting <-> to.Full) & ls.local_event.waiting + gs.global_event.waiting + \
-        pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting = 0) & \
+        (pf.adapt_mcl.waiting <-> pf.Reduced & pf.level = 0) & \
+        (pf.Reduced & pf.level = 0 -> !gom.mcl) & \
+        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_sonar.waiting + \
+        pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
+    (after.cs.mcl_lost -> (pf.adapt_mcl.waiting <-> pf.Optimal | pf.Reduced) & \
+        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + \
+        pf.adapt_sonar.waiting + pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
+    (after.cs.sonar -> (pf.adapt_sonar.waiting <-> ls.Following & !pf.Degraded) & \
+        (to.adapt_sonar.waiting <-> to.Full) & \
+        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + \
+        pf.adapt_mcl.waiting + pf.adapt_bump.waiting = 0) & \
+    (after.cs.avoidance -> (to.adapt_sonar.waiting <-> to.Full) & \
+        ls.local_event.waiting + gs.global_event.waiting + \
+        pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + \
+        pf.adapt_bump.waiting = 0) & \
     (after.cs.ambiguous -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | ls.Following)) & \
         (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | ls.Following))) & \
     (after.cs.collision -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | pf.Degraded)) & \
-        (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | pf.Degraded)) & (pf.adapt_bump.waiting <-> ls.Following & !pf.Degraded)) & \
-    (after.cs.hard -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | ls.Following | ls.Teleoperated)) & \
-        (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | ls.Following | ls.Teleoperated))) & \
-    (after.cs.planner -> (ls.local_event.waiting <-> gom.wifi & ls.Planning) & (gs.global_event.waiting <-> !gom.wifi & ls.Planning)) & \
+        (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | pf.Degraded)) & \
+        (pf.adapt_bump.waiting <-> ls.Following & !pf.Degraded)) & \
+    (after.cs.hard -> (ls.local_event.waiting <-> gom.wifi & \
+        (ls.Planning | ls.Following | ls.Teleoperated)) & \
+        (gs.global_event.waiting <-> !gom.wifi & \
+        (ls.Planning | ls.Following | ls.Teleoperated))) & \
+    (after.cs.planner -> (ls.local_event.waiting <-> gom.wifi & ls.Planning) & \
+        (gs.global_event.waiting <-> !gom.wifi & ls.Planning)) & \
     (after.cs.camera -> (ls.local_event.waiting <-> gom.wifi & ls.Teleoperated) & \
         (gs.global_event.waiting <-> !gom.wifi & ls.Teleoperated)) & \
-    (turn.cs.wifi_lost & (ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) -> AX gs.global_event.waiting) & \
-    (turn.cs.wifi_lost & !(ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) -> AX !gs.global_event.waiting) & \
+    (turn.cs.wifi_lost & (ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) -> \
+        AX gs.global_event.waiting) & \
+    (turn.cs.wifi_lost & !(ls.HandOver | ls.Teleprogrammed | ls.Teleoperated) -> \
+        AX !gs.global_event.waiting) & \
     (after.cs.vital -> gs.global_event.waiting) & \
-    (after.cs.refusal -> (gs.global_event.waiting <-> ls.HandOver | ls.Teleprogrammed | ls.Teleoperated)) & \
-    (after.cs.ambiguous | after.cs.collision | after.cs.hard | after.cs.planner | after.cs.camera | after.cs.vital | after.cs.refusal -> \
-        pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + to.adapt_sonar.waiting = 0) & \
-    (turn.outside -> gs.global_event.waiting + ls.local_event.waiting + pf.adapt_rt.waiting + pf.adapt_mcl.waiting + \
-        pf.adapt_sonar.waiting + pf.adapt_bump.waiting + to.adapt_sonar.waiting <= 1))";
+    (after.cs.refusal -> (gs.global_event.waiting <-> ls.HandOver | ls.Teleprogrammed | \
+        ls.Teleoperated)) & \
+    (after.cs.ambiguous | after.cs.collision | after.cs.hard | after.cs.planner | \
+        after.cs.camera | after.cs.vital | after.cs.refusal -> \
+        pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + \
+        to.adapt_sonar.waiting = 0) & \
+    (turn.outside -> gs.global_event.waiting + ls.local_event.waiting + pf.adapt_rt.waiting + \
+        pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + \
+        to.adapt_sonar.waiting <= 1))";

@@ -25,7 +25,10 @@ net! {
             avoidance,
             mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
         }
-        outputs { global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, adapt_sonar_teleoperation }
+        outputs {
+            global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump,
+            adapt_sonar_teleoperation,
+        }
         transitions {
             slow1 on slow [optimal & level >= 1]: Ready => Ready emit adapt_rt;
             slow2 on slow [reduced & level >= 1]: Ready => Ready emit adapt_rt;
@@ -82,7 +85,8 @@ net! {
         }
         transitions {
             better1 on sonar_back [degraded]: Ready => Ready emit adapt_better;
-            better2 on avoidance_back [teleoperated & !avoiding]: Ready => Ready emit adapt_better_teleoperation;
+            better2 on avoidance_back [teleoperated & !avoiding]:
+                Ready => Ready emit adapt_better_teleoperation;
             better3 on mcl_back [odometric]: Ready => Ready emit adapt_better;
         }
     }

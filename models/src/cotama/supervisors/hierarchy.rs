@@ -106,7 +106,8 @@ net! {
             gs_abort,
         }
         outputs {
-            run_pp, stop_pp, pf_start, pf_stop, to_start, to_stop, stop_robot, op_request, drive_done,
+            run_pp, stop_pp, pf_start, pf_stop, to_start, to_stop,
+            stop_robot, op_request, drive_done,
             /// The goal is reached: the drive is done with the next round.
             ended,
         }
@@ -114,7 +115,8 @@ net! {
         transitions {
             l1 on start_drive: Idle => Planning emit run_pp;
             l2 on path_ready: Planning => Following emit stop_pp & pf_start;
-            l3 on goal_reached [!local_pending & !global_pending]: Following => End emit pf_stop & ended;
+            l3 on goal_reached [!local_pending & !global_pending]:
+                Following => End emit pf_stop & ended;
             l4 on local_event: Planning => HandOver emit stop_pp & stop_robot & op_request;
             l5 on local_event: Following => HandOver emit pf_stop & stop_robot & op_request;
             l6 on op_teleprogram: HandOver => Teleprogrammed;
@@ -122,7 +124,8 @@ net! {
             l8 on op_waypoints: Teleprogrammed => Planning emit run_pp;
             l9 on op_path: Teleprogrammed => Following emit pf_start;
             l10 on op_teleprogram: Teleoperated => Teleprogrammed emit to_stop & stop_robot;
-            l11 on op_goal_reached [!local_pending & !global_pending]: Teleoperated => End emit to_stop & ended;
+            l11 on op_goal_reached [!local_pending & !global_pending]:
+                Teleoperated => End emit to_stop & ended;
             l12 on local_event: Teleoperated => HandOver emit to_stop & stop_robot & op_request;
             l13 on local_event: Teleprogrammed => HandOver emit op_request;
             l14 on tick: End => Idle emit drive_done;
@@ -130,7 +133,9 @@ net! {
             abort on gs_abort: Driving => Idle emit stop_pp & pf_stop & to_stop;
         }
         laws {
-            invariant(Idle & Planning & Following & HandOver & Teleprogrammed & Teleoperated & End = 1);
+            invariant(
+                Idle & Planning & Following & HandOver & Teleprogrammed & Teleoperated & End = 1
+            );
             always_can(Idle);
             reachable(End);
             deadlock_free;
@@ -181,7 +186,13 @@ net! {
             as3 on pf_stop: Odometric => Off;
             as4 on pf_stop: Degraded => Off;
         }
-        ignore { adapt_rt in Off; adapt_mcl in Off; adapt_sonar in Off; adapt_bump in Off; pf_stop in Off; }
+        ignore {
+            adapt_rt in Off;
+            adapt_mcl in Off;
+            adapt_sonar in Off;
+            adapt_bump in Off;
+            pf_stop in Off;
+        }
         laws {
             invariant(Off & Optimal & Reduced & Odometric & Degraded = 1);
             always_can(Off);
@@ -234,7 +245,12 @@ net! {
             bs2 on to_stop: Degraded => Off;
         }
         ignore { adapt_sonar in Off; to_stop in Off; }
-        laws { invariant(Off & Full & Degraded = 1); always_can(Off); deadlock_free; deterministic; }
+        laws {
+            invariant(Off & Full & Degraded = 1);
+            always_can(Off);
+            deadlock_free;
+            deterministic;
+        }
     }
 }
 

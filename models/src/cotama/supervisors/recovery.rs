@@ -1,14 +1,14 @@
 //! When a module that was lost is available again: the hysteresis before the supervisors go up.
 //!
 //! Durand et al. (TAROS 2010) state how the supervisors degrade and no way back. Where a user asks
-//! for one, the supervisors of [`recovering`](crate::cotama::recovering) do not hear of a module that works
-//! again before it was sound without a break for a time, and only so many times in a mission; then
-//! it is lost for good. So a contact that is loose moves nothing, and whatever fails, modes change
-//! a bounded number of times.
+//! for one, the supervisors of [`recovering`](crate::cotama::recovering) do not hear of a module
+//! that works again before it was sound without a break for a time, and only so many times in a
+//! mission; then it is lost for good. So a contact that is loose moves nothing, and whatever fails,
+//! modes change a bounded number of times.
 //!
 //! | number | value | |
 //! | --- | --- | --- |
-//! | sound without a break | 10 s | assumed: twice the longest latency of an observer of the sonars in the FMECA |
+//! | sound without a break | 10 s | assumed: twice the longest latency of a sonar observer |
 //! | returns in a mission | 2 | assumed |
 //!
 //! The net stands before the supervisors, one for each module, as the
@@ -27,7 +27,8 @@
 //! }
 //! assert_eq!(sonar.state(), State::Settling);
 //! assert_eq!(sonar.advance(Millis(68_999)).fired, 0);
-//! assert_eq!(sonar.advance(Millis(69_000)).fired, 1); // 10 s after it was last heard to be sound again
+//! // 10 s after it was last heard to be sound again
+//! assert_eq!(sonar.advance(Millis(69_000)).fired, 1);
 //! assert_eq!(sonar.state(), State::Available);
 //! ```
 //!

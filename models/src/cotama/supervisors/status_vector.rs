@@ -48,15 +48,22 @@ net! {
             /// be suspected again.
             settle,
         }
-        outputs { vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision, planner, hard, slow }
+        outputs {
+            vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision,
+            planner, hard, slow,
+        }
         transitions {
             vital on vital_flag [vital]: Watching => Watching do vital = false emit vital;
             wifi on wifi_flag [wifi]: Watching => Watching do wifi = false emit wifi_lost;
             camera on camera_flag [camera]: Watching => Watching do camera = false emit camera;
-            sonar on sonar_flag [sonar]: Watching => Watching do sonar = false & mcl = false & avoidance = false emit sonar_lost;
-            avoidance on avoidance_flag [avoidance]: Watching => Watching do avoidance = false emit avoidance_lost;
+            sonar on sonar_flag [sonar]:
+                Watching => Watching do sonar = false & mcl = false & avoidance = false
+                emit sonar_lost;
+            avoidance on avoidance_flag [avoidance]:
+                Watching => Watching do avoidance = false emit avoidance_lost;
             mcl on mcl_flag [mcl]: Watching => Watching do mcl = false emit mcl_lost;
-            drift on drift_flag [!suspected]: Watching => Watching do suspected = true emit ambiguous;
+            drift on drift_flag [!suspected]:
+                Watching => Watching do suspected = true emit ambiguous;
             bumper on bumper_flag: Watching => Watching emit collision;
             planner on planner_flag: Watching => Watching emit planner;
             hard on hard_flag: Watching => Watching emit hard;
@@ -87,9 +94,12 @@ net! {
         }
         outputs { sonar_back, avoidance_back, mcl_back }
         transitions {
-            sonar_back on sonar_sound [!sonar]: Watching => Watching do sonar = true emit sonar_back;
-            avoidance_back on avoidance_sound [!avoidance & sonar]: Watching => Watching do avoidance = true emit avoidance_back;
-            mcl_back on mcl_sound [!mcl & sonar & !given_up]: Watching => Watching do mcl = true emit mcl_back;
+            sonar_back on sonar_sound [!sonar]:
+                Watching => Watching do sonar = true emit sonar_back;
+            avoidance_back on avoidance_sound [!avoidance & sonar]:
+                Watching => Watching do avoidance = true emit avoidance_back;
+            mcl_back on mcl_sound [!mcl & sonar & !given_up]:
+                Watching => Watching do mcl = true emit mcl_back;
         }
     }
 }

@@ -44,7 +44,8 @@ net! {
             wifi on lose_wifi [wifi]: Ready => Ready do wifi = false emit wifi_flag;
             camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
             sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
-            avoidance on lose_avoidance [avoidance]: Ready => Ready do avoidance = false emit avoidance_flag;
+            avoidance on lose_avoidance [avoidance]:
+                Ready => Ready do avoidance = false emit avoidance_flag;
             mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
             drift on drift: Ready => Ready emit drift_flag;
             bump on bump: Ready => Ready emit bumper_flag;
@@ -64,13 +65,19 @@ net! {
         events { regain_sonar, regain_avoidance, regain_mcl }
         outputs { sonar_sound, avoidance_sound, mcl_sound }
         transitions {
-            sonar1 on regain_sonar [!sonar & avoidance & mcl]: Ready => Ready do sonar = true emit sonar_sound & avoidance_sound & mcl_sound;
-            sonar2 on regain_sonar [!sonar & avoidance & !mcl]: Ready => Ready do sonar = true emit sonar_sound & avoidance_sound;
-            sonar3 on regain_sonar [!sonar & !avoidance & mcl]: Ready => Ready do sonar = true emit sonar_sound & mcl_sound;
-            sonar4 on regain_sonar [!sonar & !avoidance & !mcl]: Ready => Ready do sonar = true emit sonar_sound;
+            sonar1 on regain_sonar [!sonar & avoidance & mcl]:
+                Ready => Ready do sonar = true emit sonar_sound & avoidance_sound & mcl_sound;
+            sonar2 on regain_sonar [!sonar & avoidance & !mcl]:
+                Ready => Ready do sonar = true emit sonar_sound & avoidance_sound;
+            sonar3 on regain_sonar [!sonar & !avoidance & mcl]:
+                Ready => Ready do sonar = true emit sonar_sound & mcl_sound;
+            sonar4 on regain_sonar [!sonar & !avoidance & !mcl]:
+                Ready => Ready do sonar = true emit sonar_sound;
             /// Without sonars nobody can tell yet.
-            avoidance1 on regain_avoidance [!avoidance & !sonar]: Ready => Ready do avoidance = true;
-            avoidance2 on regain_avoidance [!avoidance & sonar]: Ready => Ready do avoidance = true emit avoidance_sound;
+            avoidance1 on regain_avoidance [!avoidance & !sonar]:
+                Ready => Ready do avoidance = true;
+            avoidance2 on regain_avoidance [!avoidance & sonar]:
+                Ready => Ready do avoidance = true emit avoidance_sound;
             mcl1 on regain_mcl [!mcl & !sonar]: Ready => Ready do mcl = true;
             mcl2 on regain_mcl [!mcl & sonar]: Ready => Ready do mcl = true emit mcl_sound;
         }
@@ -91,7 +98,8 @@ net! {
         transitions {
             teleprogram1 on teleprogram [hand_over & wifi]: Ready => Ready emit op_teleprogram;
             teleprogram2 on teleprogram [teleoperated & wifi]: Ready => Ready emit op_teleprogram;
-            teleoperate on teleoperate [hand_over & wifi & camera]: Ready => Ready emit op_teleoperate;
+            teleoperate on teleoperate [hand_over & wifi & camera]:
+                Ready => Ready emit op_teleoperate;
             waypoints on waypoints [teleprogrammed & wifi]: Ready => Ready emit op_waypoints;
             new_path on new_path [teleprogrammed & wifi]: Ready => Ready emit op_path;
             arrived on arrived [teleoperated & wifi]: Ready => Ready emit op_goal_reached;

@@ -1,18 +1,18 @@
 //! Limits that cannot be met, and what they would have to be.
 
 use super::trials::{Found, Plan, Trial, Trials};
-use super::{Cause, HEAVIEST, Heavy, Relaxation};
+use super::{HEAVIEST, Heavy, Reason, Relaxation};
 use crate::missions::mission::Mission;
 use cotama_core::exact::Objective;
 use std::cmp::Ordering;
 
-/// The cause when every activity has alternatives, its heaviest activities, and the limits raised.
+/// The reason when every activity has alternatives, its heaviest activities, and the limits raised.
 pub(super) fn raised(
     trials: &mut Trials<'_>,
     mission: &Mission,
     as_is: &Trial<'_>,
     steps: u64,
-) -> (Cause, Vec<Heavy>, Vec<Relaxation>) {
+) -> (Reason, Vec<Heavy>, Vec<Relaxation>) {
     let mut raised = Vec::new();
     let mut neither = true;
     for axis in mission.order {
@@ -37,20 +37,20 @@ pub(super) fn raised(
     raised.sort_by(|(a, _), (b, _)| by_size(a, b));
     raised.dedup_by(|(a, _), (b, _)| a == b);
 
-    let (cause, heaviest) = match raised.first() {
+    let (reason, heaviest) = match raised.first() {
         _ if neither => {
             let cheapest = [0, 1].map(|axis| trials.cheapest(as_is, axis));
             let [first, _] = mission.order;
             let least = [0, 1].map(|axis| cheapest[axis].cost[axis]);
-            (Cause::Limits { limits: as_is.limits, least }, heaviest(&cheapest[first], first))
+            (Reason::Limits { limits: as_is.limits, least }, heaviest(&cheapest[first], first))
         }
         // A plan that may not be the cheapest proves nothing of its limit.
         Some((Relaxation::RaiseLimit { axis, from, to }, plan)) if plan.best => {
-            (Cause::Limit { axis: *axis, limit: *from, least: *to }, heaviest(plan, *axis))
+            (Reason::Limit { axis: *axis, limit: *from, least: *to }, heaviest(plan, *axis))
         }
-        _ => (Cause::SomeLimit { steps }, vec![]),
+        _ => (Reason::SomeLimit { steps }, vec![]),
     };
-    (cause, heaviest, raised.into_iter().map(|(relaxation, _)| relaxation).collect())
+    (reason, heaviest, raised.into_iter().map(|(relaxation, _)| relaxation).collect())
 }
 
 /// Raises the limits to what a plan costs where that is above them.

@@ -18,7 +18,7 @@
 //! constraint has its reason.
 //!
 //! ```
-//! use cotama_models::missions::infeasible::{Cause, explain};
+//! use cotama_models::missions::infeasible::{Reason, explain};
 //! use cotama_models::missions::{Mission, embedded};
 //! let patrol = embedded::mission("patrol").unwrap();
 //! let mission = Mission::parse(patrol.name, patrol.text).unwrap();
@@ -26,9 +26,10 @@
 //! assert_eq!(explain(&mission, mission.limits, all), None);
 //!
 //! let why = explain(&mission, [600_000, 4_320_000], all).unwrap(); // 1.2 Wh instead of 2.4 Wh
-//! assert_eq!(why.cause, Cause::Limit { axis: 1, limit: 4_320_000, least: 4_675_896 });
+//! assert_eq!(why.reason, Reason::Limit { axis: 1, limit: 4_320_000, least: 4_675_896 });
 //! let relaxation = why.relaxations[0].wording(&mission);
-//! assert_eq!(relaxation, "raise the energy limit from 4320000 mJ to 4675896 mJ (+355896 mJ, 8.2 %)");
+//! let raised = "raise the energy limit from 4320000 mJ to 4675896 mJ (+355896 mJ, 8.2 %)";
+//! assert_eq!(relaxation, raised);
 //! ```
 
 mod limits;
@@ -53,9 +54,9 @@ pub const HEAVIEST: usize = 5;
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Explanation {
     /// What cannot be met.
-    pub cause: Cause,
-    /// The activities that cost most on the axis of the cause, in the plan of the least total
-    /// there; at most [`HEAVIEST`], the heaviest first. Empty when the cause is not a limit.
+    pub reason: Reason,
+    /// The activities that cost most on the axis of the reason, in the plan of the least total
+    /// there; at most [`HEAVIEST`], the heaviest first. Empty when the reason is not a limit.
     pub heaviest: Vec<Heavy>,
     /// What suffices, each alone, in the order told in the [module's documentation](self).
     pub relaxations: Vec<Relaxation>,
@@ -66,7 +67,7 @@ pub struct Explanation {
 
 /// What cannot be met.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Cause {
+pub enum Reason {
     /// One limit, while the other is kept. Where either could be raised, the one that needs less of
     /// its limit.
     Limit {
@@ -193,27 +194,27 @@ pub fn explain_within(
         Found::Plan(_) => return None,
         Found::Nothing => {}
         Found::Unknown => {
-            let cause = Cause::Undecided { steps };
+            let reason = Reason::Undecided { steps };
             return Some(Explanation {
-                cause,
+                reason,
                 heaviest: vec![],
                 relaxations: vec![],
                 complete: false,
             });
         }
     }
-    let (cause, heaviest, mut relaxations) = match no_alternative(mission, available) {
-        Some(cause) => (cause, vec![], vec![]),
+    let (reason, heaviest, mut relaxations) = match no_alternative(mission, available) {
+        Some(reason) => (reason, vec![], vec![]),
         None => limits::raised(&mut trials, mission, &as_is, steps),
     };
     let constraints = trials.lift_all(mission);
     relaxations.extend(lifts(&mut trials, &as_is, &constraints));
     relaxations.extend(kept_hardware(&mut trials, mission, &as_is));
     relaxations.extend(dropped_objectives(&mut trials, mission, &as_is));
-    Some(Explanation { cause, heaviest, relaxations, complete: trials.complete() })
+    Some(Explanation { reason, heaviest, relaxations, complete: trials.complete() })
 }
 
-fn no_alternative(mission: &Mission, available: Equipment) -> Option<Cause> {
+fn no_alternative(mission: &Mission, available: Equipment) -> Option<Reason> {
     let activities = &mission.scenario().activities;
     let mut empty = activities.iter().enumerate().filter_map(|(index, activity)| {
         activity.alternatives.iter().all(|it| !available.covers(it.needs)).then_some(index)
@@ -237,7 +238,7 @@ fn no_alternative(mission: &Mission, available: Equipment) -> Option<Cause> {
         .collect();
     constraints.sort_unstable();
     constraints.dedup();
-    Some(Cause::NoAlternative { activity, lacks, constraints, others })
+    Some(Reason::NoAlternative { activity, lacks, constraints, others })
 }
 
 /// Each constraint that suffices, or a set without one to spare.

@@ -1,6 +1,6 @@
 //! Explanations for people: one sentence each, with ids and units.
 
-use super::{Cause, Heavy, Relaxation};
+use super::{Heavy, Reason, Relaxation};
 use crate::missions::definition::AXES;
 use crate::missions::mission::Mission;
 use crate::missions::scenario::Constraint;
@@ -13,8 +13,8 @@ fn axis(axis: usize) -> (&'static str, &'static str) {
     (AXES.get(axis).copied().unwrap_or("unknown"), unit)
 }
 
-impl Cause {
-    /// The cause in a sentence, without a full stop.
+impl Reason {
+    /// The reason in a sentence, without a full stop.
     pub fn wording(&self, mission: &Mission) -> String {
         match self {
             Self::Limit { axis, limit, least } => {

@@ -1,8 +1,8 @@
 //! The global supervisor of a mission, made from its objectives.
 //!
 //! For two drives with an object received between them and delivered at the end, it is
-//! [`global`](crate::cotama::global) up to the names of places and transitions. [`check`] looks at every
-//! marking before the robot moves.
+//! [`global`](crate::cotama::global) up to the names of places and transitions. [`check`] looks at
+//! every marking before the robot moves.
 //!
 //! ```
 //! use cotama_models::missions::mission_net::{check, global_supervisor};
@@ -13,7 +13,8 @@
 //! let mut net = global_supervisor(&mission.objectives).unwrap();
 //! assert_eq!(check(&net.view().net(), &mission.objectives).unwrap().markings, 8);
 //!
-//! net.transitions[4].give[0].place = net.transitions[0].take[0].place; // delivered, and again from the start
+//! // Delivered, and again from the start.
+//! net.transitions[4].give[0].place = net.transitions[0].take[0].place;
 //! let faults = check(&net.view().net(), &mission.objectives).unwrap_err();
 //! assert_eq!(faults[0].to_string(), "`Deliver` could block: from there `Done` is out of reach");
 //! ```
@@ -94,8 +95,8 @@ impl From<Defect> for MissionNetError {
     }
 }
 
-/// The events of a global supervisor, in the order of [`global`](crate::cotama::global), and that of
-/// waiting.
+/// The events of a global supervisor, in the order of [`global`](crate::cotama::global), and that
+/// of waiting.
 const EVENTS: [(&str, &str); 7] = [
     ("global_event", "The objective cannot be managed, or goes on without a vital part."),
     ("drive_done", "The drive has reached its goal."),
@@ -139,8 +140,8 @@ fn kinds(objectives: &[Objective]) -> Result<Vec<Does>, MissionNetError> {
 /// The global supervisor of these objectives (Durand et al., TAROS 2010, Section VI): one place
 /// each, one after the other, and from wherever the mission is to security on a global event.
 ///
-/// The events and outputs are those of [`global`](crate::cotama::global); a mission in which the robot
-/// waits has `wait_over` as well.
+/// The events and outputs are those of [`global`](crate::cotama::global); a mission in which the
+/// robot waits has `wait_over` as well.
 ///
 /// # Errors
 /// [`MissionNetError`]: objectives of a plain mission, none or too many of them, a name twice.

@@ -22,7 +22,8 @@ impl Faults {
     /// # use cotama_models::missions::{Mission, embedded, faults::Faults};
     /// # let patrol = embedded::mission("patrol").unwrap();
     /// # let mission = Mission::parse(patrol.name, patrol.text).unwrap();
-    /// let text = "format = \"panorama-faults/1\"\nevent = [{ x_mm = 5, kind = \"obstacl\", delay_ms = 9 }]";
+    /// let text = "format = 'panorama-faults/1'
+    /// event = [{ x_mm = 5, kind = 'obstacl', delay_ms = 9 }]";
     /// let errors = Faults::parse("faults.toml", text, &mission).unwrap_err();
     /// let first = "faults.toml:2:29: unknown event `obstacl`; did you mean `obstacle`?";
     /// assert_eq!(errors.to_string().lines().next(), Some(first));

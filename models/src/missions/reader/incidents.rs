@@ -95,7 +95,8 @@ fn can(
         if let Some(lacking) = configuration.facts().required.iter().find(|module| !has(module)) {
             let (id, lacking) = (configuration.name(), lacking.name());
             let message = format!(
-                "the operator cannot `{}`: `{id}` runs the module {lacking}, which the robot does not have",
+                "the operator cannot `{}`: `{id}` runs the module {lacking}, which the robot does \
+                 not have",
                 answer.name()
             );
             let help = format!("add [hardware.{lacking}], or another answer");

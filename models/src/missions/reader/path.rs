@@ -142,7 +142,8 @@ fn suit_the_way(
         (false, [lead]) if *lead != Task::Move => return true,
         (true, _) => "an objective that travels needs `MOV`, and no other task but `LOC`",
         (false, _) => {
-            "an objective that stays at one place needs one of `TUR`, `DET`, `RCV`, `DLV`, `WAI`, and not `MOV`"
+            "an objective that stays at one place needs one of `TUR`, `DET`, `RCV`, `DLV`, `WAI`, \
+             and not `MOV`"
         }
     };
     let help = "change its tasks, or its `x_start_mm` and `x_end_mm`";

@@ -9,7 +9,8 @@
 //! let mut candidates = [EMPTY; 32];
 //! let mut lists = [&[][..]; 1];
 //! let rest = Rest::Travel(Millimetres(10_000));
-//! let activities = remaining(&ACTIVITIES[16..], rest, AVAILABLE, &mut candidates, &mut lists).unwrap();
+//! let last = &ACTIVITIES[16..];
+//! let activities = remaining(last, rest, AVAILABLE, &mut candidates, &mut lists).unwrap();
 //! let problem = Problem::new(activities, LIMITS, ORDER).unwrap();
 //! assert_eq!(problem.combinations(), Some(21));
 //! ```

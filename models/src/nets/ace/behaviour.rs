@@ -6,9 +6,9 @@
 //!
 //! | behaviour | does |
 //! | --- | --- |
-//! | [`Explore`](Place::Explore) | drives to the most promising border of the unknown; finds people, grows the map |
+//! | [`Explore`](Place::Explore) | drives to a border of the unknown; finds people, grows the map |
 //! | [`FollowPerson`](Place::FollowPerson) | follows a tracked person, over a street for instance |
-//! | [`GoInDirection`](Place::GoInDirection) | along the sidewalk where a person pointed, up to the next crossing |
+//! | [`GoInDirection`](Place::GoInDirection) | along the sidewalk, as a person pointed |
 //! | [`ReachGoal`](Place::ReachGoal) | the shortest way to a goal |
 //! | [`Idle`](Place::Idle) | stands |
 //!
@@ -76,11 +76,15 @@ cotama_core::net! {
         }
         transitions {
             explore   on Explore [!planner]: Unplanned => Explore do planner = true emit PlannerOn;
-            direct    on GoInDirection [!planner]: Unplanned => GoInDirection do planner = true emit PlannerOn;
-            reach     on ReachGoal [!planner]: Unplanned => ReachGoal do planner = true emit PlannerOn;
-            follow    on FollowPerson [planner]: Planned => FollowPerson do planner = false emit PlannerOff;
+            direct    on GoInDirection [!planner]:
+                Unplanned => GoInDirection do planner = true emit PlannerOn;
+            reach     on ReachGoal [!planner]:
+                Unplanned => ReachGoal do planner = true emit PlannerOn;
+            follow    on FollowPerson [planner]:
+                Planned => FollowPerson do planner = false emit PlannerOff;
             stand     on Idle [planner]: Planned => Idle do planner = false emit Stop & PlannerOff;
-            release   on Released [planner]: Planned => Idle do planner = false emit Stop & PlannerOff;
+            release   on Released [planner]:
+                Planned => Idle do planner = false emit Stop & PlannerOff;
 
             explore_instead on Explore: Planned => Explore;
             direct_instead  on GoInDirection: Planned => GoInDirection;

@@ -13,7 +13,7 @@
 //! | [`request`] | what a subsystem that asks is told; one net for each subsystem |
 //! | [`selection`] | which subsystem's behaviour is active |
 //! | [`behaviour`] | which of the five behaviours that is, and whether the path planner runs |
-//! | [`accuracy`] | whether the active behaviour succeeds, how strictly it is checked, and when it has failed |
+//! | [`accuracy`] | whether the active behaviour succeeds, how strictly that is checked |
 //!
 //! What is marked *print* in the documentation of a net stands in the dissertation; what is marked
 //! *reading* is our interpretation, or completes what is not said there.

@@ -25,7 +25,7 @@
 //!
 //! ```
 //! use cotama_core::{player::Outcome, units::Millis};
-//! use cotama_models::nets::ace::selection::{Event, Place, Player, Transition};
+//! use cotama_models::nets::ace::selection::{Event, Firing, Output, Place, Player, Transition};
 //!
 //! let (mut ace, now) = (Player::new(), Millis(0));
 //! // A passer-by shows the way; then the robot sees a curb.
@@ -35,10 +35,10 @@
 //!
 //! // Navigation asks in vain.
 //! let mut told = Vec::new();
-//! let mut listen = |firing: &cotama_core::player::Firing<'_, _, _, _>| told.extend_from_slice(firing.outputs);
+//! let mut listen = |firing: &Firing<'_>| told.extend(firing.outputs());
 //! let outcome = ace.offer_with(now, &Event::NavigationTriggers, &mut listen);
 //! assert_eq!(outcome, Outcome::Fired { transition: Transition::navigation_asks, settled: 2 });
-//! assert_eq!(told, [cotama_models::nets::ace::selection::Output::NavigationRefused]);
+//! assert_eq!(told, [Output::NavigationRefused]);
 //! assert_eq!(ace.tokens(Place::Traversability), 1);
 //! ```
 
@@ -140,48 +140,73 @@ cotama_core::net! {
             Subsystem: Navigation & Vision & Interaction & Traversability & Emergency;
         }
         transitions {
-            navigation_asks     on NavigationTriggers     [!navigation]:     Ready => PriorityCheck do navigation = true;
-            vision_asks         on VisionTriggers         [!vision]:         Ready => PriorityCheck do vision = true;
-            interaction_asks    on InteractionTriggers    [!interaction]:    Ready => PriorityCheck do interaction = true;
-            traversability_asks on TraversabilityTriggers [!traversability]: Ready => PriorityCheck do traversability = true;
-            emergency_asks      on EmergencyTriggers      [!emergency]:      Ready => PriorityCheck do emergency = true;
+            navigation_asks     on NavigationTriggers     [!navigation]:
+                Ready => PriorityCheck do navigation = true;
+            vision_asks         on VisionTriggers         [!vision]:
+                Ready => PriorityCheck do vision = true;
+            interaction_asks    on InteractionTriggers    [!interaction]:
+                Ready => PriorityCheck do interaction = true;
+            traversability_asks on TraversabilityTriggers [!traversability]:
+                Ready => PriorityCheck do traversability = true;
+            emergency_asks      on EmergencyTriggers      [!emergency]:
+                Ready => PriorityCheck do emergency = true;
 
             /// A trigger during the check waits in its slot.
-            navigation_joins     on NavigationTriggers     [!navigation]:     _ => _ read PriorityCheck do navigation = true;
-            vision_joins         on VisionTriggers         [!vision]:         _ => _ read PriorityCheck do vision = true;
-            interaction_joins    on InteractionTriggers    [!interaction]:    _ => _ read PriorityCheck do interaction = true;
-            traversability_joins on TraversabilityTriggers [!traversability]: _ => _ read PriorityCheck do traversability = true;
-            emergency_joins      on EmergencyTriggers      [!emergency]:      _ => _ read PriorityCheck do emergency = true;
+            navigation_joins     on NavigationTriggers     [!navigation]:
+                _ => _ read PriorityCheck do navigation = true;
+            vision_joins         on VisionTriggers         [!vision]:
+                _ => _ read PriorityCheck do vision = true;
+            interaction_joins    on InteractionTriggers    [!interaction]:
+                _ => _ read PriorityCheck do interaction = true;
+            traversability_joins on TraversabilityTriggers [!traversability]:
+                _ => _ read PriorityCheck do traversability = true;
+            emergency_joins      on EmergencyTriggers      [!emergency]:
+                _ => _ read PriorityCheck do emergency = true;
 
             /// The newest wins.
-            navigation_renews     on NavigationTriggers     [navigation]:     _ => _ read PriorityCheck emit NavigationReplaced;
-            vision_renews         on VisionTriggers         [vision]:         _ => _ read PriorityCheck emit VisionReplaced;
-            interaction_renews    on InteractionTriggers    [interaction]:    _ => _ read PriorityCheck emit InteractionReplaced;
-            traversability_renews on TraversabilityTriggers [traversability]: _ => _ read PriorityCheck emit TraversabilityReplaced;
-            emergency_renews      on EmergencyTriggers      [emergency]:      _ => _ read PriorityCheck emit EmergencyReplaced;
+            navigation_renews     on NavigationTriggers     [navigation]:
+                _ => _ read PriorityCheck emit NavigationReplaced;
+            vision_renews         on VisionTriggers         [vision]:
+                _ => _ read PriorityCheck emit VisionReplaced;
+            interaction_renews    on InteractionTriggers    [interaction]:
+                _ => _ read PriorityCheck emit InteractionReplaced;
+            traversability_renews on TraversabilityTriggers [traversability]:
+                _ => _ read PriorityCheck emit TraversabilityReplaced;
+            emergency_renews      on EmergencyTriggers      [emergency]:
+                _ => _ read PriorityCheck emit EmergencyReplaced;
 
             /// Of the slots that are filled the most important one is checked first.
             emergency_accepted [emergency]: UpToEmergency => Emergency
                 read PriorityCheck do emergency = false emit EmergencyAccepted;
-            traversability_accepted [traversability & !emergency]: UpToTraversability => Traversability
+            traversability_accepted [traversability & !emergency]:
+                UpToTraversability => Traversability
                 read PriorityCheck do traversability = false emit TraversabilityAccepted;
-            interaction_accepted [interaction & !traversability & !emergency]: UpToInteraction => Interaction
+            interaction_accepted [interaction & !traversability & !emergency]:
+                UpToInteraction => Interaction
                 read PriorityCheck do interaction = false emit InteractionAccepted;
-            vision_accepted [vision & !interaction & !traversability & !emergency]: UpToVision => Vision
+            vision_accepted [vision & !interaction & !traversability & !emergency]:
+                UpToVision => Vision
                 read PriorityCheck do vision = false emit VisionAccepted;
-            navigation_accepted [navigation & !vision & !interaction & !traversability & !emergency]: UpToNavigation => Navigation
+            navigation_accepted
+                [navigation & !vision & !interaction & !traversability & !emergency]:
+                UpToNavigation => Navigation
                 read PriorityCheck do navigation = false emit NavigationAccepted;
 
             traversability_refused [PriorityCheck & traversability & !emergency]: _ => _
                 read Emergency do traversability = false emit TraversabilityRefused;
             interaction_refused [PriorityCheck & interaction & !traversability & !emergency]: _ => _
                 read AboveInteraction do interaction = false emit InteractionRefused;
-            vision_refused [PriorityCheck & vision & !interaction & !traversability & !emergency]: _ => _
+            vision_refused [PriorityCheck & vision & !interaction & !traversability & !emergency]:
+                _ => _
                 read AboveVision do vision = false emit VisionRefused;
-            navigation_refused [PriorityCheck & navigation & !vision & !interaction & !traversability & !emergency]: _ => _
+            navigation_refused
+                [PriorityCheck & navigation
+                & !vision & !interaction & !traversability & !emergency]:
+                _ => _
                 read AboveNavigation do navigation = false emit NavigationRefused;
 
-            decided [!navigation & !vision & !interaction & !traversability & !emergency]: PriorityCheck => Active;
+            decided [!navigation & !vision & !interaction & !traversability & !emergency]:
+                PriorityCheck => Active;
 
             complete on Completed: Active & Subsystem => Inactive & Nobody emit Released;
             fail     on Failed:    Active & Subsystem => Inactive & Nobody emit Released;

@@ -4,7 +4,8 @@ use cotama_core::net::owned::{OwnedLaw, OwnedNet};
 /// A flexible manufacturing system: 22 places, 20 transitions.
 pub const FMS: Family = Family {
     name: "fms",
-    description: "A flexible manufacturing system with three machines and n parts of each of three kinds.",
+    description: "A flexible manufacturing system with three machines and n parts of each of three \
+                  kinds.",
     least: 1,
     most: 65_535,
     grow,

@@ -4,7 +4,8 @@ use cotama_core::net::owned::{OwnedLaw, OwnedNet};
 /// The dining philosophers: `5n` places, `5n` transitions, `3^n` markings, two of which are dead.
 pub const PHILOSOPHERS: Family = Family {
     name: "philosophers",
-    description: "Dining philosophers, who take one fork after the other, in either order, and may starve together.",
+    description: "Dining philosophers, who take one fork after the other, in either order, and may \
+                  starve together.",
     least: 2,
     most: 10_000,
     grow,

@@ -4,7 +4,8 @@ use cotama_core::net::owned::{OwnedLaw, OwnedNet};
 /// Dijkstra's self-stabilising ring: `(n + 1)^2` places, `n + 1 + n^2 (n + 1)` transitions.
 pub const TOKEN_RING: Family = Family {
     name: "token_ring",
-    description: "Dijkstra's self-stabilising token ring of n + 1 processes with n + 1 values each.",
+    description: "Dijkstra's self-stabilising token ring of n + 1 processes with n + 1 values \
+                  each.",
     least: 1,
     most: 50,
     grow,

@@ -1,7 +1,7 @@
 //! The ten properties of COTAMA's decisional level, as questions to its net of rounds.
 
+use crate::reconstruction::reconstruction;
 use cotama_core::system::System;
-use cotama_models::cotama::decision;
 use cotama_verification::certificate::{Evidence, verify};
 use cotama_verification::check::{Checker, Model, Options, Verdict};
 use cotama_verification::explicit::{Goal, Graph, Limits};
@@ -167,7 +167,7 @@ pub(crate) fn shortest(rounds: &Rounds, pt: &Pt, property: &Property) -> Option<
 
 #[test]
 fn the_decisional_level_has_4166_states_between_rounds() {
-    let rounds = rounds(&decision::SYSTEM).unwrap();
+    let rounds = rounds(&reconstruction::SYSTEM).unwrap();
     let net = rounds.net().unwrap();
     assert_eq!(net.view().net().defect(), None);
     assert_eq!((net.places.len(), net.transitions.len()), (146, 828));
@@ -183,7 +183,7 @@ fn the_decisional_level_has_4166_states_between_rounds() {
 fn all_ten_properties_hold() {
     let options = Options { evidence: true, ..Options::default() };
     let known = ASKED.map(|asked| {
-        let (_, pt, property) = asked.of(&decision::SYSTEM);
+        let (_, pt, property) = asked.of(&reconstruction::SYSTEM);
         let model = Model::from(pt);
         let answer = Checker::new(&model).answer(&property, &options);
         assert_eq!(answer.verdict, Verdict::Holds(true), "{}", asked.name);
