@@ -115,7 +115,7 @@ macro_rules! lists {
         /// assert_eq!(words(&system), Some(1)); // how many machine words a marking needs
         /// let packed = Packed::<1>::of(&system).unwrap();
         /// let mut player = Player::<_, 1>::start(packed.load(&system), Millis(0), &mut ());
-        /// assert!(player.offer(Millis(0), &press).fired());
+        /// assert!(player.offer(Millis(0), &press.into()).fired());
         /// assert_eq!(player.tokens(on), 1);
         /// ```
         #[cfg(feature = "alloc")]
