@@ -112,13 +112,14 @@ macro_rules! __net_extended {
 macro_rules! __system_extended {
     (
         { $($nets:tt)* } { $($links:tt)* } { $($shared:tt)* } { $($pending:tt)* } { $($clears:tt)* }
-        { $($head:tt)* } $base:ident $(:: $base_in:ident)* {
+        { $($laws:tt)* } { $($head:tt)* } $base:ident $(:: $base_in:ident)* {
             $(instead { $( $old:ident : $new:ident $(:: $new_in:ident)* ),* $(,)? })?
             $(nets { $($more_nets:tt)* })?
             $(links { $($more_links:tt)* })?
             $(shared { $($more_shared:tt)* })?
             $(pending { $($more_pending:tt)* })?
             $(clears { $($more_clears:tt)* })?
+            $(laws { $($more_laws:tt)* })?
         }
     ) => {
         const _: () = $crate::__private::system::replaced::<$base $(:: $base_in)* ::Program>(
@@ -137,6 +138,7 @@ macro_rules! __system_extended {
                 shared { $($shared)* $($($more_shared)*)? }
                 pending { $($pending)* $($($more_pending)*)? }
                 clears { $($clears)* $($($more_clears)*)? }
+                laws { $($laws)* $($($more_laws)*)? }
             }
         }
     };

@@ -59,6 +59,7 @@ pub mod __private {
         pub use crate::net::source::*;
     }
     pub mod system {
+        pub use crate::system::laws::{Claim, check as check_laws};
         pub use crate::system::source::*;
     }
 }

@@ -1,4 +1,4 @@
-//! A part of the language `system!`: how links deliver.
+//! Parts of the language `system!`: how links deliver, and laws.
 
 /// When a link delivers.
 #[doc(hidden)]
@@ -24,6 +24,27 @@ macro_rules! __system_delivery {
             stringify!($output),
             ": say when it arrives: `now`, in the same step, or `mail 1`, ",
             "at the turn of its receiver, in a mailbox with room for 1"
+        ))
+    };
+}
+
+/// A law.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __system_claim {
+    ($system:ident handles ( all )) => {
+        $crate::__private::system::Claim::HandlesAll
+    };
+    ($system:ident left_to_checker) => {
+        $crate::__private::system::Claim::LeftToChecker
+    };
+    ($system:ident $($other:tt)*) => {
+        compile_error!(concat!(
+            "system `",
+            stringify!($system),
+            "`: there is no law `",
+            stringify!($($other)*),
+            "`; there are `handles(all)` and `left_to_checker`"
         ))
     };
 }

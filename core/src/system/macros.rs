@@ -59,6 +59,10 @@
 /// | `shared` | `ls.camera & cs.camera = env.camera;` | whose place a shared place is |
 /// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
 /// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
+/// | `laws` | `handles(all);` | whatever is delivered to a net is used, or ignored on purpose |
+/// | | `left_to_checker;` | the laws are for the model checker: nothing is explored while compiling |
+///
+#[doc = include_str!("laws/law.md")]
 ///
 /// # A system with more
 ///
@@ -114,9 +118,9 @@
 ///
 /// # What it makes
 ///
-/// A module with `SYSTEM` (the plain data), `SIZE`, the enums `Event`, `Place`, `Output`
-/// and `Transition` with a variant for each net, the functions `state::NET`, the types `Program`,
-/// `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M` along.
+/// A module with `SYSTEM` (the plain data), `SIZE`, `EXPLORED`, the enums `Event`, `Place`,
+/// `Output` and `Transition` with a variant for each net, the functions `state::NET`, the types
+/// `Program`, `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M` along.
 #[macro_export]
 macro_rules! system {
     (
@@ -138,6 +142,7 @@ macro_rules! system {
                 $clearer:ident . $clear_on:ident
                     empties $( $cleared:ident . $clear_box:ident )&+ ;
             )* })?
+            $(laws { $( $law:ident $(( $($law_of:tt)* ))? ; )* })?
         }
     ) => {
         impl $crate::__private::system::Written for $name::Program {
@@ -172,6 +177,8 @@ macro_rules! system {
                     (stringify!($cleared), stringify!($clear_box)),
                 ), )+ )* )?
             ];
+            const LAWS: &'static [$crate::__private::system::Claim] =
+                &[$( $( $crate::__system_claim!($name $law $(( $($law_of)* ))?), )* )?];
         }
 
         $( impl $crate::__private::system::Part for $name::parts::$component {
@@ -185,7 +192,7 @@ macro_rules! system {
         } )*
 
         $(#[doc = $doc])*
-        #[allow(unreachable_pub)]
+        #[allow(long_running_const_eval, unreachable_pub)]
         $vis mod $name {
             use $crate::__private::system::{self as system_source, Part};
             use $crate::player::code as system_code;
@@ -197,6 +204,7 @@ macro_rules! system {
                 { $( $( $( $borrower.$borrowed )&+ = $owner.$owned; )* )? }
                 { $( $( $( $watcher.$watches )&+ = $box_owner.$box_event; )* )? }
                 { $( $( $clearer.$clear_on empties $( $cleared.$clear_box )&+; )* )? }
+                { $( $( $law $(( $($law_of)* ))?; )* )? }
             }
 
             /// Its nets, as types: a module in a function does not see what stands beside it.
@@ -260,6 +268,14 @@ macro_rules! system {
             > = system_code::Arrays::of(&SYSTEM);
             static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);
+
+            /// In how many states it rests, where its laws were checked while compiling.
+            #[allow(dead_code)]
+            pub const EXPLORED: Option<usize> = system_source::check_laws(
+                &SYSTEM,
+                &ARRAYS.code($crate::player::SETTLE, false),
+                <Program as system_source::Written>::LAWS,
+            );
 
             #[allow(dead_code, non_camel_case_types)]
             enum Number { $( $component, )* }

@@ -8,6 +8,12 @@
 mod clauses;
 pub(crate) mod data;
 pub(crate) mod defect;
+#[allow(
+    clippy::large_types_passed_by_value,
+    clippy::result_large_err,
+    reason = "texts and ways live while compiling"
+)]
+pub(crate) mod laws;
 mod macros;
 #[allow(clippy::large_types_passed_by_value, reason = "texts live while compiling")]
 pub(crate) mod source;
@@ -16,3 +22,4 @@ mod tests;
 
 pub use data::{Binding, Clear, Component, DEPTH, Delivery, Link, Of, System, Target};
 pub use defect::SystemDefect;
+pub use laws::{Culprit, STATES, Step, Violation, judge};

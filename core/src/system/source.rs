@@ -122,6 +122,8 @@ pub trait Written {
     const BINDINGS: &'static [WrittenBinding<'static>];
     /// `clears`.
     const CLEARS: &'static [WrittenClear<'static>];
+    /// `laws`.
+    const LAWS: &'static [super::laws::Claim];
 }
 
 /// The types of a net of a system.

@@ -9,3 +9,4 @@ mod by_the_player;
 mod draw;
 mod programs;
 mod random;
+mod systems;
