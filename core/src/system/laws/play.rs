@@ -38,6 +38,11 @@ impl<const W: usize> Play<W> {
         Self { marking, forgotten: None, endless: false }
     }
 
+    /// Whether an event was forgotten, or the system does not settle.
+    pub(super) const fn is_wrong(&self) -> bool {
+        self.forgotten.is_some() || self.endless
+    }
+
     /// An event is offered from outside, and all nets settle.
     pub(super) const fn offer(&mut self, code: &Code<'_, W>, event: u16) {
         self.whole(code, Next::On(event));
@@ -206,9 +211,15 @@ impl<const W: usize> Play<W> {
         let mut at = first;
         while at < end {
             let entry = &code.entries[at as usize];
-            if code.holds(&self.marking, &entry.need)
-                && code.holds(&code.bounds, &plus(&self.marking, &entry.delta))
+            // As `Code::holds`, without its calls: no field borrows from another.
+            let mut word = 0;
+            while word < W
+                && ((self.marking[word] | code.guards[word]) - entry.need[word]) & code.guards[word]
+                    == code.guards[word]
             {
+                word += 1;
+            }
+            if word == W && code.holds(&code.bounds, &plus(&self.marking, &entry.delta)) {
                 return Some(at);
             }
             at += 1;

@@ -98,21 +98,20 @@ impl<const W: usize> States<W> {
         true
     }
 
-    /// What is wrong after a step from a state, if anything is.
+    /// What is wrong after a step from a state, where something is.
     const fn wrong(
         &self,
         code: &Code<'_, W>,
         after: &Play<W>,
         (from, by): (u16, u16),
-    ) -> Option<Violation<W>> {
+    ) -> Violation<W> {
         let mut violation = match after.forgotten {
             Some((event, marking)) => {
                 let mut violation = Violation::new(Culprit::Unanswered(of(code, event)));
                 violation.marking = marking;
                 violation
             }
-            None if after.endless => Violation::new(Culprit::Forever),
-            None => return None,
+            None => Violation::new(Culprit::Forever),
         };
         let (mut state, mut by) = (from, by);
         while state != NONE {
@@ -126,7 +125,7 @@ impl<const W: usize> States<W> {
             violation.steps.swap(at, violation.count - 1 - at);
             at += 1;
         }
-        Some(violation)
+        violation
     }
 }
 
@@ -145,8 +144,8 @@ pub(super) const fn explore<const W: usize>(
         slots: [NONE; SLOTS],
     };
     let start = Play::start(code);
-    if let Some(violation) = states.wrong(code, &start, (NONE, NONE)) {
-        return Err(violation);
+    if start.is_wrong() {
+        return Err(states.wrong(code, &start, (NONE, NONE)));
     }
     states.reach(&start.marking, (NONE, NONE));
     let mut from = 0;
@@ -167,8 +166,8 @@ pub(super) const fn explore<const W: usize>(
                 event as u16
             };
             let way = (from as u16, by);
-            if let Some(violation) = states.wrong(code, &after, way) {
-                return Err(violation);
+            if after.is_wrong() {
+                return Err(states.wrong(code, &after, way));
             }
             if !states.reach(&after.marking, way) {
                 return Err(Violation::new(Culprit::TooLarge));
