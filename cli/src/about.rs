@@ -9,7 +9,10 @@ use crate::exit::{Exit, Failure};
 use crate::mission;
 use crate::output::Screen;
 use clap::CommandFactory;
+use schemars::Schema;
 use schemars::generate::SchemaSettings;
+use schemars::transform::RecursiveTransform;
+use serde_json::Value;
 
 /// `cotama table`: the tables of a mission as Rust source.
 pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
@@ -21,7 +24,8 @@ pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
 /// `cotama schema`: the JSON schema of an answer.
 pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
     // Of what is written, not of what could be read: a field that is always written is required.
-    let schemas = SchemaSettings::draft2020_12().for_serialize().into_generator();
+    let settings = SchemaSettings::draft2020_12().for_serialize();
+    let schemas = settings.with_transform(RecursiveTransform(in_one_line)).into_generator();
     let schema = match args.command {
         SchemaName::List => schemas.into_root_schema_for::<ListAnswer>(),
         SchemaName::Plan => schemas.into_root_schema_for::<PlanAnswer>(),
@@ -37,6 +41,13 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
     };
     Screen::json(&schema)?;
     Ok(Exit::Success)
+}
+
+/// A description does not show where the comment that it is made of goes on in another line.
+fn in_one_line(schema: &mut Schema) {
+    if let Some(Value::String(text)) = schema.get_mut("description") {
+        *text = text.replace('\n', " ");
+    }
 }
 
 /// `cotama completions`: a completion script.

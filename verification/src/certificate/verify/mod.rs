@@ -10,8 +10,8 @@ mod truth;
 
 use super::read::{self, Claim, Numbered, marking_bytes};
 use super::sum::Marking;
-use super::verified::{Checked, at, each, ensure, error};
-use super::{Evidence, Formula, Question, Verified, VerifyError};
+use super::verified::{Checked, Verified, VerifyError, at, each, ensure, error};
+use super::{Evidence, Formula, Question};
 use Evidence::{Each, Graph, Growth, Lasso, One, Refutation, State, Trace};
 use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};
 use truth::Space;
@@ -86,8 +86,8 @@ impl Numbered<'_> {
                 self.prove(&end, goal, &it.then).map_err(at(".trace.then"))
             }
             (Lasso(it), Exists(path) | All(path)) if !every => {
-                let run = self.run(from, it);
-                run.and_then(|it| self.shows(&it, (path, truth))).map_err(at(".lasso"))
+                let shown = self.run(from, it).and_then(|it| self.shows(&it, (path, truth)));
+                shown.map_err(at(".lasso"))
             }
             (Refutation(by), Exists(path) | All(path)) if every => {
                 let (_, goal) = until((path, !truth)).ok_or_else(misfit)?;

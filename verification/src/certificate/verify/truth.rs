@@ -1,9 +1,8 @@
 //! The firing rule, what questions mean, and where formulas hold.
 
-use super::{Checked, Claim, Marking, Numbered, at, each, ensure, error, marking_bytes};
+use super::{Checked, Claim, Marking, Numbered, Question, at, each, ensure, error, marking_bytes};
 use crate::certificate::Formula::{self, All, AllNext, And, AtMost, Exists, ExistsNext, Fireable};
 use crate::certificate::Formula::{Finally, Globally, Next, Not, Or, Until};
-use crate::certificate::{Lasso, Question};
 use std::{collections::BTreeMap, rc::Rc, slice::from_ref};
 
 enum Kind {
@@ -79,7 +78,7 @@ impl Numbered<'_> {
     }
 
     /// The run: the last marking leads back to the end of the stem, a deadlock to itself.
-    pub(super) fn run(&self, from: &Marking, lasso: &Lasso) -> Checked<Space> {
+    pub(super) fn run(&self, from: &Marking, lasso: &crate::certificate::Lasso) -> Checked<Space> {
         let (mut run, start) = self.way(from, &lasso.stem).map_err(at(".stem"))?;
         let (cycle, end) = self.way(&start, &lasso.cycle).map_err(at(".loop"))?;
         let dead = || self.graph(&start, 1).is_ok_and(|it| it.2[0].is_empty());
