@@ -30,7 +30,7 @@ pub(super) const fn moved<const W: usize>(
     // Complements that the system makes follow their places, by what a transition changes in the
     // end.
     let mut arc = 0;
-    while system.bindings.len() > 0 && arc < it.take.len() + it.give.len() {
+    while !system.bindings.is_empty() && arc < it.take.len() + it.give.len() {
         let taken = arc < it.take.len();
         let place = if taken { it.take[arc].place } else { it.give[arc - it.take.len()].place };
         let owner = match system.target(Of { component: component as u16, id: place }) {

@@ -214,7 +214,7 @@ const fn rows<const W: usize>(
                     if is_of(it, kind) && (!apart || needs_state(it, state)) {
                         let Moved { need, delta, take } = moved(system, lists, component, at);
                         let transition = lists.transitions[component] + at as u16;
-                        if lists.takes.len() > 0 {
+                        if !lists.takes.is_empty() {
                             lists.takes[transition as usize] = take;
                         }
                         lists.entries[entry] = Entry { need, delta, transition, clock: NONE };
@@ -353,7 +353,7 @@ const fn clocks<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
 /// Routes, by transition, and what is cleared.
 const fn say<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
     let (mut number, mut route, mut component) = (0, 0, 0);
-    while component < system.components.len() && lists.says.len() > 0 {
+    while component < system.components.len() && !lists.says.is_empty() {
         let net = system.components[component].net;
         let mut at = 0;
         while at < net.transitions.len() {
@@ -369,7 +369,7 @@ const fn say<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
         }
         component += 1;
     }
-    if lists.says.len() > 0 {
+    if !lists.says.is_empty() {
         lists.says[number] = route as u16;
     }
     let mut at = 0;

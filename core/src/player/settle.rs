@@ -50,7 +50,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         carries: M,
         observer: &mut impl Observer<P, M>,
     ) -> u32 {
-        if Self::is_alone(&self.program.code()) {
+        if Self::is_alone(self.program.code()) {
             let mut fired = 0_u32;
             while fired < Self::longest(self.program.code()) {
                 let code = self.program.code();
