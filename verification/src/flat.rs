@@ -14,7 +14,9 @@ mod branch;
 mod error;
 mod interleaving;
 mod lowered;
+mod moves;
 mod observer;
+mod path;
 mod places;
 mod rounds;
 mod step;
@@ -23,7 +25,8 @@ mod walk;
 
 pub use error::FlatError;
 pub use observer::{Looks, Observer};
-pub use rounds::{Part, Rounds, rounds};
+pub use path::Part;
+pub use rounds::{Rounds, rounds};
 pub use walk::{Happened, Size};
 
 use cotama_core::net::owned::OwnedNet;

@@ -1,7 +1,7 @@
 //! A system as one net does everything that its rounds do.
 #![allow(missing_docs)]
 
-use cotama_core::net::{EventId, PlaceId};
+use cotama_core::net::{EventId, PlaceId, Role};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
@@ -132,4 +132,82 @@ fn every_state_of_the_rounds_is_one_of_the_interleavings() {
         (pt.places.len(), pt.transitions.len(), reached.len(), known.len()),
         (17, 27, 55, 31)
     );
+}
+
+net! {
+    /// Has jobs, and has enough of them.
+    pub mod owner {
+        places { Open: 1, Closed }
+        counters { jobs: 0 of 2 }
+        events { add, open }
+        transitions {
+            add on add [jobs < 2]: Open => Open do jobs += 1;
+            close [jobs >= 2]: Open => Closed;
+            open on open: Closed => Open do jobs = 0;
+        }
+    }
+}
+
+net! {
+    /// Does the jobs of another one, whose room it does not know, or brings one.
+    pub mod guest {
+        places { Idle: 1, Tired }
+        shared { jobs: 0 of 2 }
+        events { work, bring, rest }
+        transitions {
+            work on work: Idle => Tired do jobs -= 1;
+            bring on bring: Idle => Idle do jobs += 1;
+            rest on rest: Tired => Idle;
+        }
+    }
+}
+
+system! {
+    /// A net changes a counter of another one.
+    pub mod helped {
+        nets { owner: owner, guest: guest }
+        shared { guest.jobs = owner.jobs; }
+    }
+}
+
+#[test]
+fn the_complement_of_the_owner_follows_what_a_guest_does() {
+    let net = flat(&helped::SYSTEM).unwrap();
+    let pt = Pt::from(&net.view().net());
+    let (mut reached, mut next) = (HashSet::from([pt.initial.clone()]), vec![pt.initial.clone()]);
+    while let Some(marking) = next.pop() {
+        for transition in (0..pt.transitions.len() as u32).filter(|&it| pt.enabled(&marking, it)) {
+            let after = pt.fire(&marking, transition).unwrap();
+            if reached.insert(after.clone()) {
+                next.push(after);
+            }
+        }
+    }
+    let mut complements = 0;
+    for (place, at) in net.places.iter().zip(0..) {
+        if let Role::Complement(of) = place.role {
+            complements += 1;
+            assert!(reached.iter().all(|it| it[at] + it[of.0 as usize] == place.bound));
+        }
+    }
+    let names = ["owner.Open", "owner.Closed", "owner.jobs", "guest.Idle", "guest.Tired"];
+    let of = |component, id| Of { component, id: PlaceId(id) };
+    let jobs = owner::NET.places.iter().position(|it| it.name == "jobs").unwrap() as u32;
+    let places = [of(0, 0), of(0, 1), of(0, jobs), of(1, 0), of(1, 1)];
+    let at = names.map(|name| pt.place(name).unwrap().0 as usize);
+    let reached: BTreeSet<_> = reached.iter().map(|it| at.map(|at| it[at])).collect();
+    let (mut known, mut states) = (BTreeSet::new(), vec![helped::Player::new()]);
+    while let Some(state) = states.pop() {
+        let tokens = places.map(|it| state.tokens(it));
+        assert!(reached.contains(&tokens), "{tokens:?}");
+        if known.insert(tokens) {
+            for (component, id) in [(0, 0), (0, 1), (1, 0), (1, 1), (1, 2)] {
+                let mut after = state;
+                let _ = after.offer_id(Millis(0), Of { component, id: EventId(id) }, (), &mut ());
+                states.push(after);
+            }
+        }
+    }
+    // With two jobs it closes at once: only the interleavings have two and are open.
+    assert_eq!((complements, reached.len(), known.len()), (1, 12, 10));
 }

@@ -134,8 +134,9 @@ impl<'s> Flat<'s> {
         component: u16,
         transition: &Transition<'_>,
     ) -> Result<Vec<Step>, FlatError> {
-        let (name, _) = self.component(component);
+        let (name, net) = self.component(component);
         let mut changes: BTreeMap<PlaceId, (i64, i64)> = BTreeMap::new();
+        let mut guests = BTreeSet::new();
         for (arc, change) in transition
             .take
             .iter()
@@ -149,6 +150,22 @@ impl<'s> Flat<'s> {
         for arc in transition.give {
             changes.entry(self.place(component, arc.place)?).or_default().1 +=
                 i64::from(arc.weight);
+        }
+        for arc in transition.take.iter().chain(transition.give) {
+            if net.places[arc.place.0 as usize].role == Role::Shared {
+                guests.insert(self.place(component, arc.place)?);
+            }
+        }
+        // The complement that the owner has follows its place, when the guest does not move it.
+        for place in guests {
+            let change = changes.get(&place).map_or(0, |it| it.1);
+            if let Some(&absent) = self.absent.get(&place)
+                && !self.made.contains(&(place, absent))
+                && changes.get(&absent).is_none_or(|it| it.1 == 0)
+            {
+                let it = changes.entry(absent).or_default();
+                *it = (it.0.max(change), -change);
+            }
         }
         for step in &mut steps {
             step.name.push(format!("{name}.{}", transition.name));

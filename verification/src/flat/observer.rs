@@ -2,7 +2,8 @@
 
 use super::FlatError;
 use super::branch::{Branch, Held, NO_BOUND, branches};
-use super::rounds::{Part, Path, Rounds};
+use super::path::{Part, Path};
+use super::rounds::Rounds;
 use crate::property::{self, Atom, Formula, Linear, PropertyError, Question};
 use crate::pt::Pt;
 

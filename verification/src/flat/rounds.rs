@@ -4,8 +4,15 @@
 //! One token passes through the places of a round. It begins in `round`, where a round ends too;
 //! then it goes from mailbox to mailbox in the order of turns, `turn.net.event`, over those that
 //! are empty; at last it lies in `turn.outside`, where one event that no link leads to fires a
-//! transition of its net, or nothing happens, `idle`. A net with transitions that fire at once by
-//! themselves has a place `turn.net` before its mailboxes, where it settles.
+//! transition of its net and then all nets settle, or nothing happens, `idle`. A net with
+//! transitions that fire at once by themselves has a place `turn.net` before its mailboxes, where
+//! it settles. All nets have settled at the start, and settle again after the turns: in
+//! `turn.rest`, which is there when a turn can leave such a transition enabled, by what it changes
+//! in a shared place or by the room that it makes in a mailbox.
+//!
+//! To settle is to let transitions without event fire until none is enabled: the first one first,
+//! and from the first one on again after each firing. One that needs room in a full mailbox is
+//! passed over.
 //!
 //! In each place one transition is enabled but in `turn.outside`. It is what a player does there,
 //! with all that follows from it, for the markings in which its tests find the same: which
@@ -14,59 +21,14 @@
 
 use super::branch::{Branch, Held, Known, branches};
 use super::interleaving::Flat;
-use super::turn::{Answer, Moves, Play};
+use super::moves::Moves;
+use super::path::{Part, Path};
+use super::turn::{Answer, Disturbed, Play};
 use super::{FlatError, MOST_TRANSITIONS};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace};
-use cotama_core::net::{EventId, OutputId, PlaceId, TransitionId};
+use cotama_core::net::{EventId, PlaceId, TransitionId};
 use cotama_core::system::{Delivery, Of, System};
 use std::collections::{BTreeMap, BTreeSet};
-
-/// What a transition of [`Rounds`] is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Part {
-    /// The token goes on to the next mailbox, or an observer looks: nothing happens in the system.
-    Between,
-    /// A net settles or reads a mailbox.
-    Turn,
-    /// An event from outside, or none.
-    Outside,
-}
-
-/// A way from one place of the round to another.
-#[derive(Clone, Debug)]
-pub(super) struct Path {
-    pub(super) part: Part,
-    pub(super) name: String,
-    pub(super) doc: String,
-    pub(super) on: Option<EventId>,
-    pub(super) emits: Vec<OutputId>,
-    pub(super) held: Held,
-    pub(super) change: BTreeMap<PlaceId, i64>,
-}
-
-impl Path {
-    pub(super) fn new(
-        part: Part,
-        name: String,
-        from: PlaceId,
-        to: PlaceId,
-        branch: &Branch<'_>,
-    ) -> Self {
-        let mut path = Self {
-            part,
-            name,
-            doc: String::new(),
-            on: None,
-            emits: Vec::new(),
-            held: branch.essential(),
-            change: branch.change.clone(),
-        };
-        path.held.insert(from, (1, 1));
-        *path.change.entry(from).or_default() -= 1;
-        *path.change.entry(to).or_default() += 1;
-        path
-    }
-}
 
 /// A system that acts in rounds, with observers.
 #[derive(Clone, Debug)]
@@ -84,17 +46,11 @@ pub struct Rounds {
 
 /// What takes its turn, in order.
 enum Item {
-    Settle {
-        at: PlaceId,
-        component: u16,
-    },
+    /// A net settles; without one, all nets.
+    Settle { at: PlaceId, component: Option<u16> },
     /// The mailbox, where the token lies while so many more are to be read, from one on, and where
     /// it lies afterwards.
-    Read {
-        event: Of<EventId>,
-        waiting: PlaceId,
-        at: Vec<PlaceId>,
-    },
+    Read { event: Of<EventId>, waiting: PlaceId, at: Vec<PlaceId> },
 }
 
 impl Item {
@@ -173,16 +129,18 @@ pub fn rounds(system: &System<'_>) -> Result<Rounds, FlatError> {
     // always the same. Ways that there are not otherwise are left out: those of nets that meet in
     // one step are many.
     let mut guesses = moves.guesses(&flat, &begun.draft.places);
+    let mut disturbed = Disturbed::new();
     loop {
         let mut rounds = begun.clone();
         let bounds = rounds.draft.places.iter().map(|it| it.bound);
         rounds.known = Known::new(bounds, moves.sums.iter().chain(&guesses).cloned().collect());
-        let items = rounds.items(&flat, &moves);
-        rounds.turns(&moves, &items)?;
+        let items = rounds.items(&flat, &moves, !disturbed.is_empty());
+        let more = rounds.turns(&moves, &items, &disturbed)?;
         rounds.offer_from_outside(&flat, &moves)?;
-        let before = guesses.len();
+        let before = (guesses.len(), disturbed.len());
+        disturbed.extend(more);
         guesses.retain(|sum| rounds.paths.iter().all(|path| sum.stays(&path.change)));
-        if guesses.len() == before {
+        if (guesses.len(), disturbed.len()) == before {
             return Ok(rounds);
         }
     }
@@ -202,9 +160,7 @@ impl Rounds {
         let tokens = |at: usize| i64::from(draft.places[at].initial);
         let held = (0..draft.places.len()).map(|at| (PlaceId(at as u32), (tokens(at), tokens(at))));
         let mut start = Branch::new(&known, held.collect());
-        for component in 0..flat.components() {
-            Play::new(moves, &mut start).settle(component)?;
-        }
+        Play::new(moves, &mut start).settle_all()?;
         let change = start.change;
         let mut rounds = Self {
             draft,
@@ -238,7 +194,7 @@ impl Rounds {
     }
 
     /// The order of turns; and the place of what is outside.
-    fn items(&mut self, flat: &Flat<'_>, moves: &Moves) -> Vec<Item> {
+    fn items(&mut self, flat: &Flat<'_>, moves: &Moves, rest: bool) -> Vec<Item> {
         let mut items = Vec::new();
         // No net may be called as the turns are.
         let mut turn = "turn".to_owned();
@@ -249,7 +205,7 @@ impl Rounds {
             let (name, net) = flat.component(component);
             if moves.settles(component) {
                 let at = self.place(&format!("{turn}.{name}"), &format!("{name} settles."), 0, 1);
-                items.push(Item::Settle { at, component });
+                items.push(Item::Settle { at, component: Some(component) });
             }
             for (event, number) in net.events.iter().zip(0..) {
                 let event_of = Of { component, id: EventId(number) };
@@ -265,14 +221,24 @@ impl Rounds {
                 items.push(Item::Read { event: event_of, waiting, at });
             }
         }
+        if rest {
+            let at = self.place(&format!("{turn}.rest"), "All nets settle.", 0, 1);
+            items.push(Item::Settle { at, component: None });
+        }
         self.outside =
             self.place(&format!("{turn}.outside"), "What is outside may do one thing.", 0, 1);
         items
     }
 
-    /// Every net takes its turn.
-    fn turns(&mut self, moves: &Moves, items: &[Item]) -> Result<(), FlatError> {
+    /// Every net takes its turn; which transitions this may disturb.
+    fn turns(
+        &mut self,
+        moves: &Moves,
+        items: &[Item],
+        disturbed: &Disturbed,
+    ) -> Result<Disturbed, FlatError> {
         let mut from = self.round;
+        let mut more = Disturbed::new();
         for (at, item) in items.iter().enumerate() {
             self.go_on(from, &items[at..]);
             let after = match item.last() {
@@ -293,7 +259,12 @@ impl Rounds {
                     let known = self.known.clone();
                     let ways = branches(&known, &Held::new(), |branch| {
                         let mut play = Play::new(moves, branch);
-                        play.settle(*component)?;
+                        if let Some(component) = component {
+                            play.settle(*component)?;
+                            more.append(&mut play.disturbs());
+                        } else {
+                            play.rest(disturbed)?;
+                        }
                         Ok((play.name, play.emits))
                     })?;
                     for (branch, (name, emits)) in ways {
@@ -305,7 +276,7 @@ impl Rounds {
                     }
                 }
                 Item::Read { event, waiting, at } => {
-                    self.read(moves, *event, *waiting, at, after)?
+                    more.append(&mut self.read(moves, *event, *waiting, at, after)?);
                 }
             }
             from = after;
@@ -313,11 +284,11 @@ impl Rounds {
         if items.is_empty() {
             self.go_on(from, &[]);
         }
-        Ok(())
+        Ok(more)
     }
 
     /// A net reads a mailbox: where the token lies while so many more are to be read, and where it
-    /// lies afterwards.
+    /// lies afterwards. Which transitions this may disturb.
     fn read(
         &mut self,
         moves: &Moves,
@@ -325,8 +296,9 @@ impl Rounds {
         waiting: PlaceId,
         at: &[PlaceId],
         after: PlaceId,
-    ) -> Result<(), FlatError> {
+    ) -> Result<Disturbed, FlatError> {
         let known = self.known.clone();
+        let mut disturbed = Disturbed::new();
         for (left, &here) in at.iter().enumerate() {
             let next = if left == 0 { after } else { at[left - 1] };
             let held = if at.len() == 1 { Held::from([(waiting, (1, 1))]) } else { Held::new() };
@@ -340,6 +312,7 @@ impl Rounds {
                         play.branch.add(waiting, 1);
                     }
                 }
+                disturbed.append(&mut play.disturbs());
                 Ok((answer, play.name, play.doc, play.emits))
             });
             for (branch, (answer, name, doc, emits)) in ways? {
@@ -353,7 +326,7 @@ impl Rounds {
                 self.push(Path { doc, emits, ..Path::new(part, name, here, to, &branch) })?;
             }
         }
-        Ok(())
+        Ok(disturbed)
     }
 
     fn label(&self, waiting: PlaceId) -> &str {
@@ -412,11 +385,14 @@ impl Rounds {
                 let ways = branches(&known, &Held::new(), |branch| {
                     let mut play = Play::new(moves, branch);
                     let answer = play.deliver(of)?;
-                    Ok((answer, play.name, play.doc, play.emits))
+                    let happened = play.name.len();
+                    play.rest(&Disturbed::new())?;
+                    let fires = play.name.len() > happened;
+                    Ok((answer, fires, play.name, play.doc, play.emits))
                 })?;
-                for (branch, (answer, name, doc, emits)) in ways {
+                for (branch, (answer, fires, name, doc, emits)) in ways {
                     // What is ignored and changes nothing is as if it had not come.
-                    let changes = branch.change.values().any(|&it| it != 0);
+                    let changes = fires || branch.change.values().any(|&it| it != 0);
                     if answer == Answer::Fired || (answer == Answer::Ignored && changes) {
                         let path = Path::new(
                             Part::Outside,

@@ -2,242 +2,13 @@
 //! known in part.
 
 use super::FlatError;
-use super::branch::{Branch, Sum};
-use super::interleaving::Flat;
-use cotama_core::net::owned::OwnedPlace;
-use cotama_core::net::{EventId, Law, Net, OutputId, PlaceId, Role, Transition};
+use super::branch::Branch;
+use super::moves::{Move, Moves, Said};
+use cotama_core::net::{EventId, OutputId, PlaceId};
 use cotama_core::player::SETTLE;
-use cotama_core::system::{Delivery, Link, Of};
-use std::cmp::Reverse;
-use std::collections::{BTreeMap, BTreeSet};
-
-/// A transition of one of the nets. Complements are said as what their places hold at most.
-#[derive(Clone, Debug)]
-struct Move {
-    name: String,
-    doc: String,
-    /// That a place holds so many tokens, or does not.
-    tests: Vec<(PlaceId, i64, bool)>,
-    changes: BTreeMap<PlaceId, i64>,
-    says: Vec<Said>,
-}
-
-/// What follows from what a transition emits.
-#[derive(Clone, Copy, Debug)]
-enum Said {
-    /// It leaves the system.
-    Aloud(OutputId),
-    /// It waits in a mailbox of this capacity.
-    Mail(PlaceId, i64),
-    /// It happens at once.
-    Now(Of<EventId>),
-}
-
-/// The transitions of all nets, in the order in which they are tried.
-#[derive(Debug)]
-pub(super) struct Moves {
-    /// By component and event.
-    on: Vec<Vec<Vec<Move>>>,
-    /// Those that fire at once by themselves, by component.
-    urgent: Vec<Vec<Move>>,
-    /// The events of each component, with its name.
-    names: Vec<Vec<String>>,
-    /// Which event empties which mailbox.
-    clears: Vec<(Of<EventId>, PlaceId)>,
-    components: Vec<String>,
-    /// Sums of tokens that stay the same.
-    pub(super) sums: Vec<Sum>,
-}
-
-impl Moves {
-    pub(super) fn new(flat: &Flat<'_>) -> Result<Self, FlatError> {
-        let clears = flat.system.clears.iter();
-        let clears = clears
-            .map(|it| (it.on, flat.mailboxes[&(it.on.component, it.mailbox.0)].0))
-            .collect::<Vec<_>>();
-        let (mut on, mut urgent, mut names, mut components) = (vec![], vec![], vec![], vec![]);
-        let mut outputs = 0;
-        for at in 0..flat.components() {
-            let (name, net) = flat.component(at);
-            let row = |event: Option<EventId>| {
-                let mut row: Vec<_> = net.transitions.iter().filter(|it| it.on == event).collect();
-                row.sort_by_key(|it| Reverse(it.priority));
-                row.into_iter()
-                    .map(|it| moved(flat, at, it, outputs))
-                    .collect::<Result<Vec<_>, _>>()
-            };
-            let events = 0..net.events.len() as u32;
-            on.push(events.map(|it| row(Some(EventId(it)))).collect::<Result<Vec<_>, _>>()?);
-            urgent.push(row(None)?);
-            names.push(net.events.iter().map(|it| format!("{name}.{}", it.name)).collect());
-            components.push(name.to_owned());
-            outputs += net.outputs.len() as u32;
-        }
-        let moves = Self { on, urgent, names, clears, components, sums: Vec::new() };
-        let sums = (0..flat.components()).flat_map(|at| sums(flat, at));
-        let sums = sums.filter(|sum| moves.keep(sum)).collect();
-        Ok(Self { sums, ..moves })
-    }
-
-    /// Whether no transition changes a sum.
-    fn keep(&self, sum: &Sum) -> bool {
-        self.on.iter().flatten().chain(&self.urgent).flatten().all(|it| sum.stays(&it.changes))
-    }
-
-    /// What may stay the same in each step: a place of a net whose every change makes something
-    /// happen at once in another one, and a place of that one that changes only then; one of them
-    /// is marked at the start.
-    pub(super) fn guesses(&self, flat: &Flat<'_>, initial: &[OwnedPlace]) -> Vec<Sum> {
-        let meets = |link: &&Link| link.delivery == Delivery::Now;
-        let links: Vec<_> = flat.system.links.iter().filter(meets).collect();
-        let meetings: BTreeSet<_> =
-            links.iter().map(|it| (it.from.component, it.to.component)).collect();
-        let tokens = |place: PlaceId| initial[place.0 as usize].initial;
-        let mut guesses = Vec::new();
-        for (from, to) in meetings {
-            let tells = |it: &Move| {
-                it.says.iter().any(|it| matches!(it, Said::Now(of) if of.component == to))
-            };
-            let told = |on: usize| {
-                links.iter().any(|it| {
-                    it.from.component == from
-                        && it.to == Of { component: to, id: EventId(on as u32) }
-                })
-            };
-            let rows = |of: u16| {
-                self.on[usize::from(of)]
-                    .iter()
-                    .enumerate()
-                    .map(|(on, row)| (Some(on), row))
-                    .chain([(None, &self.urgent[usize::from(of)])])
-            };
-            let teller = changed(rows(from), |_, it| tells(it));
-            let listener = changed(rows(to), |on, _| on.is_some_and(told));
-            for (&a, &b) in teller.iter().flat_map(|a| listener.iter().map(move |b| (a, b))) {
-                if tokens(a).min(tokens(b)) == 0 && tokens(a).max(tokens(b)) == 1 {
-                    guesses.push(Sum { weights: vec![(a, 1), (b, 1)], total: 1 });
-                }
-            }
-        }
-        guesses
-    }
-
-    /// Whether something in a net fires at once by itself.
-    pub(super) fn settles(&self, component: u16) -> bool {
-        !self.urgent[usize::from(component)].is_empty()
-    }
-}
-
-/// The places that only such transitions change, and some do.
-fn changed<'m>(
-    rows: impl Iterator<Item = (Option<usize>, &'m Vec<Move>)>,
-    only: impl Fn(Option<usize>, &Move) -> bool,
-) -> BTreeSet<PlaceId> {
-    let mut is_only = BTreeMap::new();
-    for (on, it) in rows.flat_map(|(on, row)| row.iter().map(move |it| (on, it))) {
-        for place in it.changes.iter().filter(|it| *it.1 != 0).map(|it| *it.0) {
-            *is_only.entry(place).or_insert(true) &= only(on, it);
-        }
-    }
-    is_only.into_iter().filter(|it| it.1).map(|it| it.0).collect()
-}
-
-/// Where a place of a component is, and whether it is the complement of what is there.
-fn place(flat: &Flat<'_>, component: u16, net: &Net<'_>, place: PlaceId) -> (PlaceId, bool) {
-    let places = &flat.places[usize::from(component)];
-    match net.places[place.0 as usize].role {
-        Role::Complement(of) => (places[of.0 as usize], true),
-        _ => (places[place.0 as usize], false),
-    }
-}
-
-fn moved(
-    flat: &Flat<'_>,
-    component: u16,
-    it: &Transition<'_>,
-    outputs: u32,
-) -> Result<Move, FlatError> {
-    let (name, net) = flat.component(component);
-    let name = format!("{name}.{}", it.name);
-    if it.within.is_some() {
-        return Err(FlatError::Interval { transition: name });
-    }
-    let bound = |place: PlaceId| i64::from(flat.net.places[place.0 as usize].bound);
-    let mut tests = Vec::new();
-    let mut changes: [BTreeMap<PlaceId, i64>; 2] = Default::default();
-    for (arc, sign) in it.take.iter().map(|arc| (arc, -1)).chain(it.read.iter().map(|arc| (arc, 0)))
-    {
-        let (place, is_complement) = place(flat, component, net, arc.place);
-        let weight = i64::from(arc.weight);
-        *changes[usize::from(is_complement)].entry(place).or_default() += sign * weight;
-        tests.push(if is_complement {
-            (place, bound(place) - weight + 1, false)
-        } else {
-            (place, weight, true)
-        });
-    }
-    for arc in it.give {
-        let (place, is_complement) = place(flat, component, net, arc.place);
-        *changes[usize::from(is_complement)].entry(place).or_default() += i64::from(arc.weight);
-    }
-    let [changes, mirrored] = changes;
-    for (at, declared) in net.places.iter().enumerate() {
-        let Role::Complement(of) = declared.role else { continue };
-        let (place, _) = place(flat, component, net, PlaceId(at as u32));
-        let (change, mirror) =
-            (changes.get(&place).unwrap_or(&0), mirrored.get(&place).unwrap_or(&0));
-        // What shares a place without its complement leaves that to the system.
-        let is_left = *mirror == 0 && net.places[of.0 as usize].role == Role::Shared;
-        if *mirror != -change && !is_left {
-            let place = flat.net.places[place.0 as usize].name.clone();
-            return Err(FlatError::Complement { place, transition: name });
-        }
-    }
-    for (&place, &gain) in changes.iter().filter(|it| *it.1 > 0) {
-        if flat.net.places[place.0 as usize].bound != cotama_core::net::Place::UNBOUNDED {
-            tests.push((place, bound(place) - gain + 1, false));
-        }
-    }
-    let mut says = Vec::new();
-    for &output in it.emits {
-        let from = Of { component, id: output };
-        let links = flat.system.links.iter().filter(|link| link.from == from);
-        let before = says.len();
-        says.extend(links.map(
-            |link| match flat.mailboxes.get(&(link.to.component, link.to.id.0)) {
-                Some(&(waiting, _, capacity)) => Said::Mail(waiting, i64::from(capacity)),
-                None => Said::Now(link.to),
-            },
-        ));
-        if says.len() == before {
-            says.push(Said::Aloud(OutputId(outputs + output.0)));
-        }
-    }
-    Ok(Move { name, doc: it.doc.to_owned(), tests, changes, says })
-}
-
-/// The sums that a net declares to stay the same, and that have their values at the start.
-fn sums(flat: &Flat<'_>, component: u16) -> Vec<Sum> {
-    let (_, net) = flat.component(component);
-    let sum = |law: &Law<'_>| {
-        let Law::Invariant { sum, equals } = *law else { return None };
-        let (mut weights, mut at_start) = (Vec::new(), 0);
-        for arc in sum {
-            let (place, is_complement) = place(flat, component, net, arc.place);
-            let of = &flat.net.places[place.0 as usize];
-            if is_complement
-                || of.role == Role::Mailbox
-                || weights.iter().any(|it: &(_, _)| it.0 == place)
-            {
-                return None;
-            }
-            weights.push((place, i64::from(arc.weight)));
-            at_start += i64::from(arc.weight) * i64::from(of.initial);
-        }
-        (at_start == i64::from(equals)).then_some(Sum { weights, total: at_start })
-    };
-    net.laws.iter().filter_map(sum).collect()
-}
+use cotama_core::system::Of;
+use std::collections::BTreeSet;
+use std::ops::Range;
 
 /// A mailbox is full, or a net does not settle.
 #[derive(Debug)]
@@ -253,6 +24,14 @@ pub(super) enum Answer {
     Ignored,
     /// Nothing has happened: a mailbox on the way is full.
     Refused,
+}
+
+/// Names of transitions that may be able to fire at once by themselves, though nets have settled.
+pub(super) type Disturbed = BTreeSet<String>;
+
+/// Whether what has changed so far decides whether a transition can fire by itself.
+fn concerns(branch: &Branch<'_>, it: &Move) -> bool {
+    branch.change.iter().any(|(place, &change)| change != 0 && it.depends.contains(place))
 }
 
 /// A system that acts.
@@ -288,19 +67,62 @@ impl<'p, 'k> Play<'p, 'k> {
         })
     }
 
-    /// Lets a net settle; stops where a mailbox is full.
+    /// Lets a net settle.
     pub(super) fn settle(&mut self, component: u16) -> Result<(), FlatError> {
-        for _ in 0..SETTLE {
-            let moves = self.moves;
-            let Some(it) = self.enabled(&moves.urgent[usize::from(component)]) else {
-                return Ok(());
-            };
-            let fired = self.whole(|play| play.fire(component, it).map(|()| Answer::Fired))?;
-            if fired == Answer::Refused {
-                return Ok(());
+        self.settle_where(component..component + 1, |_, _| true)
+    }
+
+    /// Lets all nets settle.
+    pub(super) fn settle_all(&mut self) -> Result<(), FlatError> {
+        self.settle_where(0..self.moves.urgent.len() as u16, |_, _| true)
+    }
+
+    /// Lets all nets settle, where all had settled when the step began but for these disturbed
+    /// transitions. What no change of the step concerns is as it was.
+    pub(super) fn rest(&mut self, disturbed: &Disturbed) -> Result<(), FlatError> {
+        let components = 0..self.moves.urgent.len() as u16;
+        self.settle_where(components, |branch, it| {
+            disturbed.contains(&it.name) || concerns(branch, it)
+        })
+    }
+
+    /// Lets such transitions fire by themselves until none is enabled that is not waiting for room
+    /// in a mailbox.
+    fn settle_where(
+        &mut self,
+        components: Range<u16>,
+        may: impl Fn(&Branch<'_>, &Move) -> bool,
+    ) -> Result<(), FlatError> {
+        let moves = self.moves;
+        let urgent: Vec<_> = moves.all_urgent(components).collect();
+        let (mut at, mut fired) = (0, 0);
+        while let Some(&(component, it)) = urgent.get(at) {
+            at += 1;
+            if may(self.branch, it)
+                && self.enabled(std::slice::from_ref(it)).is_some()
+                && self.whole(|play| play.fire(component, it).map(|()| Answer::Fired))?
+                    == Answer::Fired
+            {
+                (at, fired) = (0, fired + 1);
+            }
+            if fired >= SETTLE {
+                return Err(self.endless(component));
             }
         }
-        Err(self.endless(component))
+        Ok(())
+    }
+
+    /// The transitions that fire at once by themselves, that this step concerns, and of which it
+    /// does not know that they are not enabled.
+    pub(super) fn disturbs(&self) -> Disturbed {
+        let is_known = |&(place, tokens, is): &(PlaceId, i64, bool)| {
+            let (low, high) = self.branch.range(place);
+            if is { high < tokens } else { low >= tokens }
+        };
+        let all = self.moves.urgent.iter().flatten();
+        all.filter(|it| concerns(self.branch, it) && !it.tests.iter().any(is_known))
+            .map(|it| it.name.clone())
+            .collect()
     }
 
     fn endless(&self, component: u16) -> FlatError {

@@ -1,6 +1,7 @@
 //! Walks through the graph of a system that acts in rounds.
 
-use super::rounds::{Part, Rounds};
+use super::path::Part;
+use super::rounds::Rounds;
 use crate::explicit::{Goal, Graph};
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::VecDeque;

@@ -19,6 +19,7 @@ mod reactions;
 mod reconstruction;
 mod recovering;
 mod responses;
+mod shared;
 mod steps;
 
 /// Compares a table with the one that is kept.
