@@ -36,7 +36,7 @@ fn the_stored_schemas_are_those_of_the_types() {
     for command in COMMANDS {
         let printed = folder.cotama(&["schema", command]);
         assert_eq!(printed.code, Some(0));
-        cotama_golden::compare(&stored(command), &printed.stdout);
+        cotama_golden::compare(stored(command), &printed.stdout);
     }
 }
 

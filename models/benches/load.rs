@@ -57,7 +57,7 @@ fn main() {
         let mission = Mission::parse("mission", &text).unwrap();
         let net = mission.supervisor().unwrap();
         let load = microseconds(rounds, times, || {
-            drop(black_box(Mission::parse("mission", &text).unwrap()))
+            drop(black_box(Mission::parse("mission", &text).unwrap()));
         });
         let checked = microseconds(rounds, times, || {
             black_box(check(&net.view().net(), &mission.objectives).unwrap());

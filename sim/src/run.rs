@@ -243,8 +243,8 @@ impl Reason {
                 let axis = axis.min(1);
                 format!("{} limit exceeded by {by} {}", AXES[axis], UNITS[axis])
             }
-            Self::TooManyReplans => format!("stopped after {} replans", MAX_REPLANS),
-            Self::TooManyChecks => format!("stopped after {} checks", MAX_CHECKS),
+            Self::TooManyReplans => format!("stopped after {MAX_REPLANS} replans"),
+            Self::TooManyChecks => format!("stopped after {MAX_CHECKS} checks"),
             Self::GivenUp { failure: Some(mode) } => {
                 let text = mode.description();
                 format!(

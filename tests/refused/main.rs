@@ -50,7 +50,7 @@ fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
         match (name.ends_with("_ok"), errors.is_empty()) {
             (true, true) if warnings.is_empty() => {}
             (true, _) => {
-                wrong.push(format!("{name} is refused or warned of: {errors:?} {warnings:?}"))
+                wrong.push(format!("{name} is refused or warned of: {errors:?} {warnings:?}"));
             }
             (false, true) => wrong.push(format!("{name} is not refused")),
             (false, false) => refused.push(format!("== {name}\n{}\n\n", errors.join("\n"))),

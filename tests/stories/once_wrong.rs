@@ -108,7 +108,8 @@ fn a_restored_marking_that_cannot_be_reached_loses_no_token() {
     let code = full.program().code();
     assert!(code.bounded);
     stored.marking[0] |= code.fields[0].tokens(1);
-    let mut player = Checked::restore(Default::default(), Millis(0), &stored).unwrap();
+    let mut player =
+        Checked::restore(cotama_core::player::Checked::default(), Millis(0), &stored).unwrap();
     assert_eq!([Place::Empty, Place::Parts].map(|it| player.tokens(it)), [1, 5]);
     let refused = player.offer(Millis(0), &Event::fill);
     assert_eq!(refused, Outcome::Ignored { why: Why::Full(Transition::fill) });

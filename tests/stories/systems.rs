@@ -265,7 +265,9 @@ fn a_line_that_is_stored_goes_on_where_it_was() {
     let stored = Snapshot::read(&flash[..written]).unwrap();
 
     let now = Millis(1_000);
-    let mut again = line::Checked::<u8>::restore(Default::default(), now, &stored).unwrap();
+    let mut again =
+        line::Checked::<u8>::restore(cotama_core::player::Checked::default(), now, &stored)
+            .unwrap();
     assert_eq!(line::state::worker(&again), worker::State::Busy);
     assert_eq!(again.waiting(&PART), 1);
     assert_eq!(again.advance(Millis(1_019)).fired, 0);

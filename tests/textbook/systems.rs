@@ -138,7 +138,7 @@ fn link(system: &mut OwnedSystem, from: Of<OutputId>, rising: bool, draw: &mut D
         None => Delivery::Mail { capacity: draw.between(1, 3) as u16 },
     };
     system.links.push(Link { from, to, delivery });
-    if system.with(|it| slots(it)) > SLOTS {
+    if system.with(slots) > SLOTS {
         system.links.pop();
     }
 }

@@ -193,7 +193,7 @@ fn check_svg(text: &str) -> Vec<Element> {
     assert_eq!(ids.len(), count, "an id occurs twice");
     let (width, height) = (elements[0].number("width"), elements[0].number("height"));
     let inside = |x: i64, y: i64| {
-        assert!((0..=width).contains(&x) && (0..=height).contains(&y), "{x} {y} is outside")
+        assert!((0..=width).contains(&x) && (0..=height).contains(&y), "{x} {y} is outside");
     };
     let mut boxes: Vec<[i64; 4]> = Vec::new();
     for it in &elements {

@@ -53,10 +53,10 @@ const BREAKINGS: [Breaking; 40] = [
         file.objectives[at].task = "WAI".into();
     }),
     ("a reserved name", "has a place `Safe` of its own", |file| {
-        file.objectives[0].id = "Safe".into()
+        file.objectives[0].id = "Safe".into();
     }),
     ("a name twice", "is defined twice", |file| {
-        file.objectives[0].id = file.objectives[1].id.clone()
+        file.objectives[0].id = file.objectives[1].id.clone();
     }),
     ("an unknown kind", "unknown kind of objective `drvie`; did you mean `drive`?", |file| {
         let at = file.first("drive");
@@ -64,10 +64,10 @@ const BREAKINGS: [Breaking; 40] = [
     }),
     ("no kind", "missing key `does`", |file| file.objectives[0].does = None),
     ("too many objectives", "at most 250 objectives", |file| {
-        file.lengthen(MAX_SUPERVISED_OBJECTIVES + 1)
+        file.lengthen(MAX_SUPERVISED_OBJECTIVES + 1);
     }),
     ("not supervised", "`does` is for missions that are supervised", |file| {
-        file.supervision.clear()
+        file.supervision.clear();
     }),
     ("a failure of a plain mission", "events of the kind `failure` are for missions", |file| {
         file.supervision.clear();
@@ -77,7 +77,7 @@ const BREAKINGS: [Breaking; 40] = [
         file.supervision = "[supervision]\ndecides = \"cotema\"\n".into();
     }),
     ("no supervision named", "missing key `decides`", |file| {
-        file.supervision = "[supervision]\n".into()
+        file.supervision = "[supervision]\n".into();
     }),
     ("recovery of no kind", "`recovery` must be `true` or `false`, not", |file| {
         file.supervision = "[supervision]\ndecides = \"cotama\"\nrecovery = 1\n".into();
@@ -90,7 +90,7 @@ const BREAKINGS: [Breaking; 40] = [
         file.options[0].configuration = Some("TO.DEG".into());
     }),
     ("no configuration", "missing key `configuration`", |file| {
-        file.options[0].configuration = None
+        file.options[0].configuration = None;
     }),
     ("a standing configuration", "unknown key `configuration`", |file| {
         file.options.last_mut().unwrap().configuration = Some("PF.OPT".into());

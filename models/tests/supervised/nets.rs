@@ -31,7 +31,7 @@ fn mutants(net: &OwnedNet) -> Vec<(String, OwnedNet)> {
             }
             if transition.give[0].place != place {
                 add(format!("{name} gives to {place:?}"), &|it| {
-                    it.transitions[number].give[0].place = place
+                    it.transitions[number].give[0].place = place;
                 });
             }
         }

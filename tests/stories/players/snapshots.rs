@@ -181,7 +181,7 @@ fn what_is_stored_comes_back_and_what_is_damaged_breaks_no_law() {
         for (seed, net, mut draw) in nets(400_000..402_500, time) {
             let (draw, refused) = (&mut draw, &mut refused);
             net.with(|it| {
-                with_size_of!(it, draw, storing_changes_nothing(it, seed, draw, refused))
+                with_size_of!(it, draw, storing_changes_nothing(it, seed, draw, refused));
             });
         }
     }
@@ -217,7 +217,7 @@ fn refusal(of: &OwnedNet, by: &OwnedNet) -> Option<RestoreError> {
 fn the_snapshot_of_another_net_is_refused() {
     let mut last: Option<OwnedNet> = None;
     for (seed, net, mut draw) in nets(500_000..502_000, Time::With) {
-        if net.with(|it| words(it)).unwrap() > 4 || one_in(&mut draw, 8) {
+        if net.with(words).unwrap() > 4 || one_in(&mut draw, 8) {
             continue;
         }
         let net = net.nets[0].clone();

@@ -71,7 +71,7 @@ fn steps_go_by_the_book() {
         for (seed, net, mut draw) in nets(200_000..210_000, time) {
             let (draw, seen) = (&mut draw, &mut seen);
             net.with(|it| {
-                with_size_of!(it, draw, steps_are_those_of_the_book(it, seed, draw, seen))
+                with_size_of!(it, draw, steps_are_those_of_the_book(it, seed, draw, seen));
             });
         }
     }

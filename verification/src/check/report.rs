@@ -154,7 +154,7 @@ impl fmt::Display for Report {
         for (property, answer) in &self.rows {
             match &answer.verdict {
                 Verdict::Holds(true) => {
-                    writeln!(f, "{}: holds ({})", property.name, answer.engine())?
+                    writeln!(f, "{}: holds ({})", property.name, answer.engine())?;
                 }
                 Verdict::Holds(false) => match self.diagnosis(property, answer) {
                     Some(diagnosis) => writeln!(f, "{diagnosis}")?,
@@ -162,7 +162,7 @@ impl fmt::Display for Report {
                 },
                 Verdict::Bound(most) => writeln!(f, "{}: {most}", property.name)?,
                 Verdict::Response(Some((min, max))) => {
-                    writeln!(f, "{}: {min} to {max}", property.name)?
+                    writeln!(f, "{}: {min} to {max}", property.name)?;
                 }
                 Verdict::Response(None) => writeln!(f, "{}: never begins", property.name)?,
                 Verdict::Unknown(reason) => {

@@ -212,7 +212,7 @@ pub(super) fn sentence(pt: &Pt, literals: &[Formula], marking: &[u32], past: boo
                 });
             }
             Says::Dead => {
-                parts.push(if past { "nothing could fire" } else { "nothing can fire" }.to_owned())
+                parts.push(if past { "nothing could fire" } else { "nothing can fire" }.to_owned());
             }
             Says::Alive => {
                 parts.push(
@@ -220,7 +220,7 @@ pub(super) fn sentence(pt: &Pt, literals: &[Formula], marking: &[u32], past: boo
                 );
             }
             Says::Other => {
-                parts.push(format!("{} {holds}", ticked(&literal.display(pt).to_string())))
+                parts.push(format!("{} {holds}", ticked(&literal.display(pt).to_string())));
             }
         }
     }

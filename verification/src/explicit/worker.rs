@@ -321,7 +321,7 @@ impl<const S: usize> Worker<S> {
                 }
                 match fresh.last_mut() {
                     Some(block) if block.via.len() < Block::<S>::ROOM => {
-                        block.push(marking, via[at])
+                        block.push(marking, via[at]);
                     }
                     _ => fresh.extend(shared.block(marking, via[at])),
                 }

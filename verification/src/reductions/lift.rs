@@ -19,7 +19,7 @@ impl fmt::Display for LiftError {
         match self {
             Self::NotARun => f.write_str("this is no run of the reduced net"),
             Self::TooLong => {
-                write!(f, "the run of the original net has more than {} firings", MAX_LENGTH)
+                write!(f, "the run of the original net has more than {MAX_LENGTH} firings")
             }
         }
     }

@@ -243,7 +243,7 @@ fn long_rows_of_operators_are_simplified_in_proportion() {
             match formula {
                 Formula::And(all) | Formula::Or(all) => stack.extend(all),
                 Formula::Not(a) | Formula::Next(a) | Formula::Exists(a) | Formula::All(a) => {
-                    stack.push(a)
+                    stack.push(a);
                 }
                 _ => {}
             }

@@ -69,7 +69,7 @@ fn formula(asked: &Asked, pt: &Pt) -> Formula {
 fn split((id, formula): Law, pt: &Pt, always: &mut Vec<Law>, others: &mut Vec<Law>) {
     match &formula {
         Formula::And(parts) => {
-            parts.iter().for_each(|it| split((id, it.clone()), pt, always, others))
+            parts.iter().for_each(|it| split((id, it.clone()), pt, always, others));
         }
         Formula::All(path) => match &**path {
             Formula::Globally(law) => {

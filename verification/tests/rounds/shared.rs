@@ -102,7 +102,7 @@ pub(super) fn share(draw: &mut Draw, nets: &mut [OwnedNet; 3], links: &[Link]) -
                 _ => continue,
             };
         }
-        for number in 0..1 + draw.below(2) {
+        for number in 0..=draw.below(2) {
             let from = draw.below(3);
             let to = from + draw.below(3 - from);
             let mut it = OwnedTransition::new(&format!("u{number}"));

@@ -350,7 +350,7 @@ impl Relaxation {
                 }
             }
             Self::KeepHardware { hardware, units } => {
-                available = available.with(*hardware, *units)?
+                available = available.with(*hardware, *units)?;
             }
             Self::KeepHardwares { hardware } => {
                 for &(kind, units) in hardware {
@@ -358,7 +358,7 @@ impl Relaxation {
                 }
             }
             Self::DropObjective { objective } => {
-                changed = Some(mission.without_objective(*objective)?)
+                changed = Some(mission.without_objective(*objective)?);
             }
         }
         Some((changed.unwrap_or_else(|| mission.clone()), limits, available))

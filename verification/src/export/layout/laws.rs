@@ -46,7 +46,7 @@ fn check(graph: &Graph, layout: &Layout) {
             .chain(labels.iter().copied())
             .collect();
         let free = |area: Area| {
-            foreign.iter().for_each(|&it| assert!(apart(area, it), "a line crosses {it:?}"))
+            foreign.iter().for_each(|&it| assert!(apart(area, it), "a line crosses {it:?}"));
         };
         for line in &route.lines {
             for &Run { x, from, to } in line {
