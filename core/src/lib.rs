@@ -16,10 +16,14 @@
 //! | [`front`] | all plans that no other plan beats |
 //! | [`monitor`] | margins on line, and when to ask for a new plan |
 //! | [`mod@net`] | supervisors as typed Petri nets, checked while compiling |
-//! | [`mod@system`] | several nets that work together |
-//! | [`player`] | plays a net or a system: events and time in, what fired out |
+//! | [`mod@system`] | several nets that work together; a net alone is a system of one |
+//! | [`player`] | plays a net or a system: events and time in, what fired out; snapshots |
 //! | [`executive`] | periodic modules on one processor, their watchdogs, proofs of response times |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
+//!
+//! Laws of a net speak of what the player does, and are checked while compiling. One
+//! [`player::Player`] plays nets and systems. A player of a [`player::Checked`] program takes no
+//! law to be proven, and only such a player goes on from a stored marking.
 //!
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs
 //! are 32 bits and sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.

@@ -8,11 +8,12 @@
 //! and reports every error at once; what it returns is complete, so that nothing after it can fail
 //! on the mission's account.
 //!
-//! The other half of the crate are [`nets`]: ready supervisors, checked while compiling, and
-//! families of nets.
+//! The crate has two more rooms. [`nets`] are ready supervisors, checked while compiling, and
+//! families of nets. [`cotama`] is COTAMA's decisional level: its supervisors, the modules that they
+//! switch, what can fail and how it is seen, and the requirements.
 //!
-//! Without the feature `std` only [`cotama`], [`tables`], [`patrol_tables`], [`delivery_tables`]
-//! and the ready [`nets`] remain, without heap, for firmware.
+//! Without the feature `std` only [`cotama`], the tables of missions ([`missions::tables`]) and the
+//! ready [`nets`] remain, without heap, for firmware.
 //!
 //! ```
 //! # #[cfg(feature = "std")] {

@@ -159,7 +159,7 @@ pub struct Ignored {
     pub place: PlaceId,
 }
 
-/// What is claimed of a net: of everything that a [`Player`](super::Player) of it can do when it is
+/// A claim about everything that a [`Player`](crate::player::Player) of a net can do when it is
 /// offered any event at any instant, is told the time, and other nets change the places that they
 /// share at any instant.
 ///
@@ -175,7 +175,7 @@ pub enum Law<'n> {
         /// The sum.
         equals: u32,
     },
-    /// Never a token in both at once, not even in passing.
+    /// The two never hold a token at once, not even in passing.
     NeverBoth(PlaceId, PlaceId),
     /// Some run from the start marks it, be it in passing.
     Reachable(PlaceId),
@@ -184,13 +184,13 @@ pub enum Law<'n> {
     /// Wherever and whenever the net rests, every event makes a transition fire, or is
     /// [ignored](Net::ignored) there on purpose: also before intervals begin and after they end.
     HandlesAll,
-    /// What fires by itself without time passing comes to an end.
+    /// A run of transitions that fire by themselves without time passing comes to an end.
     Settles,
-    /// Never stuck, except where `end` is marked. A net is *stuck* where it rests and no event and
+    /// The net is never stuck, except where `end` is marked. It is *stuck* where it rests and no event and
     /// no passing of time makes a transition fire, now or ever, as long as the places it shares
     /// stay as they are.
     DeadlockFree {
-        /// Where to stop is meant.
+        /// The place in which the net may stop.
         end: Option<PlaceId>,
     },
     /// Priorities and the order of lines decide nothing: where the net rests, no two transitions on

@@ -1,4 +1,4 @@
-//! What the arcs of a transition are in a packed marking.
+//! The arcs of a transition as words of a packed marking.
 
 use super::code::Lists;
 use super::field::Field;
@@ -6,7 +6,7 @@ use super::layout::{complement, lacks_complement, made_complement};
 use crate::net::data::{Arc, PlaceId, Role, Transition};
 use crate::system::data::{Of, System, Target};
 
-/// What a transition asks for and does.
+/// The tokens that a transition needs, takes, and adds or removes in all.
 pub(super) struct Moved<const W: usize> {
     pub(super) need: [u64; W],
     pub(super) take: [u64; W],
@@ -68,8 +68,8 @@ pub(super) const fn moved<const W: usize>(
     Moved { need, take, delta }
 }
 
-/// Where the complement of a place lies that does not follow it by arcs of this net: one that the
-/// system makes, or that the owner of the place has and another net, which shares it, may not know.
+/// The field of a complement that the arcs of this net do not move: the system makes it, or the
+/// owner of the place has it and the net that shares the place may not know it.
 const fn absence<const W: usize>(
     system: &System<'_>,
     lists: &Lists<'_, W>,

@@ -11,19 +11,19 @@ use crate::system::data::DEPTH;
 /// A mailbox on the way is full: its position.
 struct Full(u16);
 
-/// What happens inside. Events and transitions are told by their numbers.
+/// One happening inside the player. It names events and transitions by their numbers.
 #[derive(Clone, Copy)]
 enum Happened<M> {
     /// A transition fired, on this event or by itself.
     Fired(u16, Option<u16>),
     Ignored(u16),
     Mailed(u16),
-    /// With what was in the mailbox.
+    /// A mailbox lost an entry, which carried this.
     Cleared(u16, M),
 }
 
-/// The most happenings that are remembered until it is clear that no mailbox is full. After more of
-/// them everything is done once more.
+/// The journal keeps so many happenings until it is clear that no mailbox is full. When there are
+/// more, the player does everything once more to tell them.
 const REMEMBERED: usize = 16;
 
 /// What has happened so far, for the observer.
@@ -41,19 +41,18 @@ impl<M: Copy> Journal<M> {
     }
 }
 
-/// What is under way in the player `L`.
+/// The firings that have begun in the player `L` and have not delivered all their outputs.
 struct UnderWay<'w, L, M> {
     carries: M,
-    /// Is told what happens.
+    /// Hears what happens.
     tell: &'w mut dyn FnMut(&L, Happened<M>),
-    /// Of each net under way: which one, where the outputs of its transition have come to in the
-    /// routes, and where they end.
+    /// For each net under way: its component, its next route, and the end of its routes.
     said: [(u16, u16, u16); DEPTH + 1],
     depth: usize,
     fired: u32,
 }
 
-/// What begins.
+/// The first thing that happens.
 #[derive(Clone, Copy)]
 enum Begins {
     /// This event is delivered.
@@ -67,8 +66,8 @@ impl<'w, L, M> UnderWay<'w, L, M> {
         Self { carries, tell, said: [(0, 0, 0); DEPTH + 1], depth: 0, fired: 0 }
     }
 
-    /// The net under way that was the last to begin, and the next route of what it says; without
-    /// one it has said all, and is under way no more.
+    /// The net that began last, and its next route. When it has no route left, it is not under way
+    /// any more.
     fn next(&mut self) -> Option<(u16, Option<u16>)> {
         let top = self.depth.checked_sub(1)?;
         let (component, next, end) = self.said.get_mut(top)?;

@@ -42,14 +42,14 @@ pub struct Clock<const W: usize> {
     pub entry: u16,
     /// Whether it waits for an event.
     pub event: bool,
-    /// Not before, in milliseconds since it became enabled.
+    /// It fires at this age or later, in milliseconds since it became enabled.
     pub earliest: u32,
-    /// Not after; `u32::MAX`: no limit.
+    /// It fires at this age or earlier; `u32::MAX` means no limit.
     pub latest: u32,
 }
 
 impl<const W: usize> Clock<W> {
-    /// The time beyond which it makes no difference how long it has been enabled.
+    /// The age at which its clock stops: a longer one makes no difference.
     pub const fn cap(&self) -> u32 {
         if self.latest == u32::MAX { self.earliest } else { self.latest + 1 }
     }
@@ -72,16 +72,16 @@ pub struct Route {
     pub mailbox: u16,
 }
 
-/// Where what is under way waits.
+/// The place where events of one kind wait for the turn of their net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mailbox {
     /// The number of the event.
     pub event: u16,
-    /// How many wait.
+    /// The field that counts how many wait.
     pub waiting: Field,
-    /// For how many more there is room, where a transition asks for it.
+    /// The field that counts how many more have room, if a transition asks for that.
     pub room: Option<Field>,
-    /// Where what they carry begins.
+    /// The first of its slots, which hold what the events carry.
     pub slot: u16,
     /// How many can wait.
     pub capacity: u16,
@@ -91,7 +91,7 @@ lists! {
     /// Transitions by row: those of an event, by the state that they need where rows have states,
     /// then by priority and number.
     entries: Entry<W> [T] = Entry { need: [0; W], delta: [0; W], transition: 0, clock: NONE },
-    /// What each transition removes, by its number; nothing is listed without clocks.
+    /// The tokens that each transition removes, by its number; empty if there are no clocks.
     takes: [u64; W] [K] = [0; W],
     /// Where each row begins and ends in `entries`: two numbers, at `2 * (kind * states + state)`;
     /// a row without any begins at [`NONE`]. The kinds: events, then for each component what fires
@@ -99,8 +99,8 @@ lists! {
     rows: u16 [R] = 0,
     /// Where the outputs of all transitions go.
     routes: Route [O] = Route { event: 0, mailbox: NONE },
-    /// Where those of each transition begin in `routes`, by its number, and at the end how many
-    /// there are; nothing is listed without routes.
+    /// The position in `routes` at which those of each transition begin, by its number, and at the
+    /// end how many there are; empty if there are no routes.
     says: u16 [D] = 0,
     /// Mailboxes, by component and then by event.
     mailboxes: Mailbox [B] = Mailbox {
@@ -136,8 +136,8 @@ pub struct Words<const W: usize> {
     pub bounds: [u64; W],
     /// The marking at the start.
     pub initial: [u64; W],
-    /// Where nothing of this is marked, no transition fires at once by itself: a place of each of
-    /// them, or the guard bit of one that needs no place.
+    /// Where none of these bits is set, no transition fires at once by itself: a place of each such
+    /// transition, or the guard bit if it needs no place.
     pub restless: [u64; W],
     /// The bits of the places of which exactly one is marked at any time; zero unless it is a net
     /// alone that is such a state machine.
@@ -245,8 +245,7 @@ impl<'c, const W: usize> Code<'c, W> {
         Some((*self.rows.get(row)?, *self.rows.get(row.checked_add(1)?)?))
     }
 
-    /// Where the transitions of some kinds that follow each other begin in `entries`, and where they
-    /// end.
+    /// The first and the end in `entries` of the transitions of some kinds that follow each other.
     pub(super) fn span(&self, kinds: core::ops::Range<usize>) -> (u16, u16) {
         // Where the last row of a kind ends the first one of the next begins.
         let end = |kinds: usize| {

@@ -15,13 +15,12 @@ pub struct Field {
 }
 
 impl Field {
-    /// Of no place yet.
+    /// A field that stands for no place yet.
     pub(super) const NOWHERE: Self = Self { word: 0, shift: 0, width: 1 };
 
     /// This many tokens in the word of the field.
     pub const fn tokens(self, tokens: u32) -> u64 {
-        // Wraps, though a shift is below 64: of a field that is looked up the compiler does not
-        // know it.
+        // A shift is below 64, but the compiler does not know that of a field that is looked up.
         (tokens as u64).wrapping_shl(self.shift as u32)
     }
 

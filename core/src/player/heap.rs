@@ -59,7 +59,7 @@ impl<const W: usize, const C: usize, const S: usize> Packed<W, C, S> {
         })
     }
 
-    /// What a player plays; `system` is the one that was packed.
+    /// The program for a player; `system` is the one that was packed.
     pub fn load<'c>(&'c self, system: &System<'c>) -> Loaded<'c, W, C, S> {
         Loaded { system: *system, code: self.code(), order: &self.order }
     }

@@ -32,8 +32,8 @@ impl Used {
     }
 }
 
-/// Whether a place has a field of its own: one that is shared, and the complement of such a one, lie
-/// where their owner's do. A net alone owns all of its places.
+/// Whether a place has a field of its own. A shared place and its complement lie where those of the
+/// owner do. A net alone owns all of its places.
 pub(super) const fn owns(system: &System<'_>, component: usize, at: usize) -> bool {
     let places = system.components[component].net.places;
     let shared = match places[at].role {

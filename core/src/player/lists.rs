@@ -123,7 +123,7 @@ macro_rules! lists {
         pub struct Packed<const W: usize, const C: usize = 0, const S: usize = 0> {
             $( $list: alloc::vec::Vec<$item>, )*
             words: Words<W>,
-            /// Of a net alone: positions of entries by priority, then by number.
+            /// Positions of entries by priority, then by number; empty unless it is a net alone.
             pub(super) order: alloc::vec::Vec<u16>,
         }
 

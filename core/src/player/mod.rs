@@ -14,16 +14,16 @@
 //!    and all nets settle; or the event is ignored, and the player says why.
 //! 3. In a *round* each net takes its turn, in the order of the system: it settles, then reads its
 //!    mailboxes in the order in which its events are listed, each as far as it is filled when the
-//!    net comes to it. What it reads makes a transition fire, or is ignored for good, or, when a
-//!    mailbox is full, goes on waiting. Then all nets settle. [`Player::round_is_due`] says whether
-//!    something waits; a net alone has no mailboxes.
+//!    net comes to it. An event that it reads makes a transition fire, or the net ignores it for
+//!    good, or it goes on waiting because another mailbox is full. Then all nets settle.
+//!    [`Player::round_is_due`] says whether something waits; a net alone has no mailboxes.
 //!
-//! **What a firing does.** What a transition emits *now* makes the receivers fire in the same step,
-//! one after the other and depth first; what it *mails* waits. Then its net settles. All of it
+//! **A firing.** An output that a transition emits *now* makes the receivers fire in the same step,
+//! one after the other and depth first; one that it *mails* waits. Then its net settles. All of it
 //! happens or nothing: when a mailbox on the way is full, an offered event is
 //! [refused](Outcome::Refused), a transition that would fire by itself waits until there is room,
-//! and the system is as it was. What an event carries along, of type `M`, travels with everything
-//! that is done because of it.
+//! and the system is as it was. An event carries a value of type `M` along; everything that happens
+//! because of it has that value too.
 //!
 //! **Time.** The clock of a transition starts when the marking enables it, and starts anew whenever
 //! a firing disturbs it: when it fires itself, or when what the firing takes leaves it disabled,

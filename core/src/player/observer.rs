@@ -1,4 +1,4 @@
-//! Who is told what a player does.
+//! Observers hear what a player does.
 
 use super::program::Names;
 use crate::net::data::{EventId, TransitionId};
@@ -15,8 +15,8 @@ pub struct Firing<'f, P: Names, M = ()> {
     /// That event as it was offered from outside, with what it carries along; `None` when another
     /// net caused it.
     pub event: Option<&'f P::Event>,
-    /// What travels with everything that is done because of an event: the default value for what
-    /// fires by itself.
+    /// The value that an event carries to everything that happens because of it. A transition that
+    /// fires by itself carries the default value.
     pub carries: M,
     /// When it fired. A transition that was due earlier than the player was told so fired when it
     /// was due.
@@ -45,8 +45,8 @@ impl<'f, P: Names, M> Firing<'f, P, M> {
     }
 }
 
-/// Is told what a player does, in the order in which it happens: where actions, logs and recorders
-/// hang on. `()` observes nothing and costs nothing; any closure that takes a [`Firing`] is one.
+/// Hears what a player does, in the order in which it happens. Actions, logs and recorders are
+/// observers. `()` observes nothing and costs nothing; any closure that takes a [`Firing`] is one.
 pub trait Observer<P: Names, M = ()> {
     /// A transition has fired.
     fn on_fire(&mut self, firing: &Firing<'_, P, M>);

@@ -96,7 +96,7 @@ pub struct Round {
     pub fired: u32,
     /// How much was read and ignored.
     pub ignored: u32,
-    /// In how many mailboxes something goes on waiting because another one is full.
+    /// The number of mailboxes in which something goes on waiting because another one is full.
     pub waiting: u32,
     /// Whether there was no round: there is more to catch up with first, so call again.
     pub behind: bool,

@@ -12,8 +12,8 @@ use crate::units::Millis;
 /// A marking of all nets and mailboxes of a system, its clocks, and the time.
 ///
 /// `W` is the number of words of the marking, `C` that of transitions with an interval, `S` that of
-/// all that can wait in mailboxes, and `M` is what events carry along. `net!` and `system!` name the
-/// type with these as `Player` in the module that they make.
+/// all that can wait in mailboxes, and `M` is what events carry along. `net!` and `system!` name
+/// the type with these as `Player` in the module that they make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Player<P, const W: usize, const C: usize = 0, const S: usize = 0, M = ()> {
     pub(super) program: P,
@@ -28,7 +28,7 @@ pub struct Player<P, const W: usize, const C: usize = 0, const S: usize = 0, M =
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
     Player<P, W, C, S, M>
 {
-    /// Whether it is known that it plays a net alone.
+    /// Whether its type says that it plays a net alone.
     pub(super) const ALONE: bool = matches!(P::ALONE, Some(true));
 
     /// The system as it starts, at this time, and settled. Clocks begin now.
@@ -95,7 +95,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         outcome.map(|it| self.program.code().transition(it))
     }
 
-    /// What becomes of an offered event; transitions are told by their numbers.
+    /// Answers an offered event, and names transitions by their numbers.
     #[inline]
     fn answer(
         &mut self,
@@ -282,7 +282,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     }
 
     /// The marked place of a component that is a state machine, to be matched on; `N` is its
-    /// program. Of a net that is none this does not compile.
+    /// program. It does not compile for a net that is no state machine.
     pub fn state_of<N: StateMachine>(&self, component: u16) -> N::State {
         const {
             assert!(
@@ -422,8 +422,8 @@ impl<P, const W: usize, const C: usize, const S: usize, M: Copy + Default> Playe
 where
     P: Program<W, C, S> + StateMachine,
 {
-    /// The marked place of a state machine, to be matched on. Of a net that is none this does not
-    /// compile.
+    /// The marked place of a state machine, to be matched on. It does not compile for a net that is
+    /// no state machine.
     #[inline]
     pub fn state(&self) -> P::State {
         const {

@@ -7,11 +7,11 @@ use core::fmt::Debug;
 
 /// An event, with what it carries along.
 pub trait Kind {
-    /// Which event it is. What it carries along cannot decide anything.
+    /// The event. Nothing that it carries along decides anything.
     fn id(&self) -> Of<EventId>;
 }
 
-/// Of a net alone.
+/// An event of a net alone.
 impl Kind for EventId {
     #[inline]
     fn id(&self) -> Of<EventId> {
@@ -78,8 +78,8 @@ pub trait Program<const W: usize, const C: usize = 0, const S: usize = 0>: Names
     /// [steps](super::Player::step).
     fn takes(&self, transition: u16) -> [u64; W];
 
-    /// Of a net alone the `at`-th transition by priority, then by number: its position in
-    /// [`Code::entries`]. A system of several nets has none.
+    /// The position in [`Code::entries`] of the `at`-th transition by priority, then by number.
+    /// Only a net alone has one.
     fn ordered(&self, at: usize) -> Option<u16>;
 }
 
@@ -209,7 +209,7 @@ impl<const W: usize, const C: usize, const S: usize> Program<W, C, S> for Loaded
     }
 }
 
-/// A program of which nothing is taken to be proven: every firing is checked against the bounds.
+/// A program without trust in proofs: its player checks every firing against the bounds.
 /// Laws speak of what a player does from its start on by [offers](super::Player::offer) and time;
 /// where a marking may be another one, after a [restore](super::Player::restore) or a synchronous
 /// [step](super::Player::step), only a checked program can be played. `net!` and `system!` name

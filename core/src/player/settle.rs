@@ -1,4 +1,4 @@
-//! What fires at once by itself.
+//! Settling: transitions that fire at once by themselves.
 
 use super::code::{Code, Entry};
 use super::observer::Observer;

@@ -9,9 +9,9 @@ use crate::net::data::{Law, Net, PlaceId, Role, TransitionId};
 use crate::system::data::Of;
 use crate::units::Millis;
 
-/// What events carry along, as bytes: how it is stored.
+/// A value that events carry along and that can be stored as bytes.
 pub trait Stored: Copy {
-    /// How many bytes.
+    /// The number of bytes.
     const BYTES: usize;
 
     /// Writes it; the room is as large as [`BYTES`](Self::BYTES) says.
@@ -56,13 +56,13 @@ stored! { u8 u16 u32 u64 }
 /// A player makes one, or [`Snapshot::read`] from bytes whose checksum is right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Snapshot<const W: usize, const C: usize = 0, const S: usize = 0, M = ()> {
-    /// Which system, in which version: [`Code::fingerprint`].
+    /// Tells the system and its version: [`Code::fingerprint`].
     pub fingerprint: u64,
     /// The packed marking.
     pub marking: [u64; W],
     /// For each transition with an interval, how long it has been enabled, in milliseconds.
     pub clocks: [u32; C],
-    /// What waits in mailboxes carries along; where nothing waits, anything.
+    /// What the waiting events carry along. Slots of which nothing waits may hold anything.
     pub slots: [M; S],
 }
 
@@ -180,7 +180,7 @@ fn crc32(bytes: &[u8]) -> u32 {
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
     Player<P, W, C, S, M>
 {
-    /// What is to be stored.
+    /// The marking, its clocks and what waits, to be stored.
     pub fn snapshot(&self) -> Snapshot<W, C, S, M> {
         let fingerprint = self.program.code().fingerprint;
         Snapshot { fingerprint, marking: self.marking, clocks: self.clocks, slots: self.slots }

@@ -18,7 +18,7 @@ pub struct System<'s> {
     pub components: &'s [Component<'s>],
     /// Which output causes which event.
     pub links: &'s [Link],
-    /// Whose place a shared place is.
+    /// The owner of each shared place.
     pub bindings: &'s [Binding],
     /// Which event empties which mailbox.
     pub clears: &'s [Clear],
@@ -45,11 +45,11 @@ impl<'s> Component<'s> {
 pub struct Of<T> {
     /// The component.
     pub component: u16,
-    /// What of its net.
+    /// The id in its net.
     pub id: T,
 }
 
-/// Of a net alone.
+/// Something of a net alone.
 impl<T> From<T> for Of<T> {
     fn from(id: T) -> Self {
         Self { component: 0, id }
@@ -63,17 +63,17 @@ pub struct Link {
     pub from: Of<OutputId>,
     /// The event.
     pub to: Of<EventId>,
-    /// When it does.
+    /// When it causes it.
     pub delivery: Delivery,
 }
 
 /// When an output causes an event.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delivery {
-    /// In the very step that emits it: a rendezvous. The receiver fires or ignores it.
+    /// At once, in the step that emits it: a rendezvous. The receiver fires or ignores it.
     Now,
-    /// When the receiver takes its turn: it waits in a mailbox with room for so many. While the
-    /// mailbox of an event is full, a transition that emits it cannot fire; nothing is lost.
+    /// When the receiver takes its turn. Until then it waits in a mailbox of this capacity. While
+    /// the mailbox of an event is full, a transition that emits it cannot fire; nothing is lost.
     Mail {
         /// At least one. Links to the same event share its mailbox, so they say the same.
         capacity: u16,
@@ -85,11 +85,11 @@ pub enum Delivery {
 pub struct Binding {
     /// The shared place.
     pub shared: Of<PlaceId>,
-    /// Whose it is.
+    /// The place or mailbox that it is.
     pub target: Target,
 }
 
-/// What a shared place is.
+/// What a shared place stands for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Target {
     /// A place, flag or counter of another component.

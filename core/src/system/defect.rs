@@ -1,4 +1,4 @@
-//! Whether the lists of a system fit together, in time that grows with their length.
+//! Whether the lists of a system fit together, in n log n time.
 
 use super::data::{Binding, Clear, DEPTH, Delivery, Link, Of, System, Target};
 use crate::net::data::{EventId, PlaceId, Role, TransitionId};
@@ -96,8 +96,8 @@ const fn key(component: u16, id: u32) -> u64 {
     (component as u64) << 32 | id as u64
 }
 
-/// Where the links to an event, and the bindings of a place, are found: memory as long as the lists
-/// of the system.
+/// Finds the links to an event and the bindings of a place. Its memory is as long as the lists of
+/// the system.
 pub(super) struct Index<'i> {
     /// As many as links.
     pub(super) links: &'i mut [Entry],

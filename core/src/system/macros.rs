@@ -54,13 +54,13 @@
 /// | section | item | meaning |
 /// | --- | --- | --- |
 /// | `nets` | `gs: global`, `pf: nets::path` | a net by its module, in the order of turns |
-/// | `links` | `gs.start => ls.start mail 1;` | the output `start` of `gs` waits in a mailbox for the turn of `ls` |
+/// | `links` | `gs.start => ls.start mail 1;` | an output waits in a mailbox for the turn of `ls` |
 /// | | `gs.abort => ls.abort & es.abort now;` | a rendezvous, here with two nets: a broadcast |
-/// | `shared` | `ls.camera & cs.camera = env.camera;` | whose place a shared place is |
-/// | `pending` | `ls.report_pending = cs.report;` | a shared place that is marked while something waits in that mailbox |
-/// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes, whether its net uses it or not |
+/// | `shared` | `ls.camera & cs.camera = env.camera;` | the owner of a shared place |
+/// | `pending` | `ls.report_pending = cs.report;` | a shared place, marked while something waits |
+/// | `clears` | `ls.abort empties ls.start & ls.local;` | an event that empties mailboxes |
 /// | `laws` | `handles(all);` | whatever is delivered to a net is used, or ignored on purpose |
-/// | | `left_to_checker;` | the laws are for the model checker: nothing is explored while compiling |
+/// | | `left_to_checker;` | the laws are for the model checker; nothing is explored |
 ///
 #[doc = include_str!("laws/law.md")]
 ///

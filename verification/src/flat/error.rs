@@ -37,7 +37,7 @@ pub enum FlatError {
         /// The transition, as `net.transition`.
         transition: String,
     },
-    /// So many transitions of a net as [`SETTLE`](cotama_core::system::SETTLE) fire at once by
+    /// So many transitions of a net as [`SETTLE`](cotama_core::player::SETTLE) fire at once by
     /// themselves, one after another.
     Endless {
         /// The net.

@@ -1,11 +1,11 @@
-//! What can happen in a net.
+//! The moves of a net.
 
 use super::graph::{AT_ONCE, FIRINGS, SHARED};
 use crate::net::data::{Net, PlaceId, Role, Transition};
 use crate::player::code::Code;
 
-/// What can happen, in the order in which it is tried: transitions that fire at once by themselves,
-/// transitions on events, changes of shared places.
+/// All moves of a net in the order in which they are tried: transitions that fire at once by
+/// themselves, transitions on events, changes of shared places.
 pub(super) struct Moves {
     pub(super) by: [u16; FIRINGS],
     pub(super) kind: [u16; FIRINGS],

@@ -7,7 +7,7 @@ use super::zone::{CAPPED, DUE, Zone};
 use crate::player::code::{self, Code, plus};
 
 impl<const W: usize> Graph<W> {
-    /// What is due fires: the first one by priority, then by line, as clocks are sorted.
+    /// Fires the transition that is due: the first by priority, then by line, as clocks are sorted.
     pub(super) const fn due(
         &mut self,
         code: &Code<'_, W>,

@@ -20,8 +20,9 @@
 //! What to learn from it: guards that exclude each other (`!emergency_asks` and so on) say the
 //! order of the check in the net itself, so `deterministic` holds without priorities; groups
 //! (`UpToVision`) say "at most this priority" in a word. Between events the check takes no time:
-//! `PriorityCheck` is passed, never stayed in. In synchronous [rounds](cotama_core::net::Round)
-//! each decision is a round of its own, and then the slots are needed.
+//! the net passes `PriorityCheck` and never stays in it. In synchronous
+//! [steps](cotama_core::player::Player::step) each decision is a step of its own, and then the
+//! slots are needed.
 //!
 //! ```
 //! use cotama_core::{player::Outcome, units::Millis};
