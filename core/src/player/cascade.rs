@@ -244,9 +244,10 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
     /// now.
     pub(super) fn enabled_from(&self, first: u16, end: u16) -> Option<u16> {
         let code = self.program.code();
-        let entries = code.entries.get(usize::from(first)..usize::from(end))?;
-        let mut entries = (first..).zip(entries);
-        entries.find(|(_, it)| self.can(code, it) && self.open(code, it)).map(|it| it.0)
+        (first..end).find(|&at| {
+            let entry = code.entries.get(usize::from(at));
+            entry.is_some_and(|it| self.can(code, it) && self.open(code, it))
+        })
     }
 
     /// Moves the tokens of the transition at this position; what it says is then under way. Its

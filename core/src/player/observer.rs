@@ -35,7 +35,7 @@ impl<'f, P: Names, M> Firing<'f, P, M> {
     #[inline]
     pub fn outputs(&self) -> impl Iterator<Item = P::Output> + use<'f, P, M> {
         let (program, id) = (self.program, self.id);
-        (0..).map_while(move |at| program.output(id, at))
+        (0..usize::MAX).map_while(move |at| program.output(id, at))
     }
 
     /// Whether it says this.

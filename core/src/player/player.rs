@@ -293,7 +293,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         let marked =
             |&(at, _): &(u32, &N::State)| self.tokens(Of { component, id: PlaceId(at) }) > 0;
         // A state machine has one token, so one of them is marked.
-        let state = (0..).zip(N::STATES).find(marked);
+        let state = (0..u32::MAX).zip(N::STATES).find(marked);
         state.map_or(N::STATES[0], |it| *it.1)
     }
 

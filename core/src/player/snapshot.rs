@@ -236,7 +236,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         if stray_clock || !is_sound(code, &marking) || !player.complements(code) {
             return Err(RestoreError::Marking);
         }
-        for (component, it) in (0..).zip(player.program.system().components) {
+        for (component, it) in (0..u16::MAX).zip(player.program.system().components) {
             if let Some(law) = player.broken(code, component, it.net) {
                 return Err(RestoreError::Law(component, law));
             }
@@ -262,7 +262,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             place.is_none_or(|it| sums_to(held(*it), held(field), it.of(&code.bounds)))
         };
         let of_net = |(component, net): (u16, &Net<'_>)| {
-            (0..).zip(net.places).all(|(at, place)| match place.role {
+            (0..u32::MAX).zip(net.places).all(|(at, place)| match place.role {
                 Role::Complement(of) => {
                     let tokens = |id| code.tokens(&self.marking, Of { component, id });
                     sums_to(tokens(PlaceId(at)), tokens(of), place.bound)
@@ -276,7 +276,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             .filter_map(|it| Some((it, it.room?)))
             .all(|(it, room)| sums_to(held(it.waiting), held(room), u32::from(it.capacity)))
             && code.complements.iter().all(made)
-            && (0..).zip(components).map(|(at, it)| (at, it.net)).all(of_net)
+            && (0..u16::MAX).zip(components).map(|(at, it)| (at, it.net)).all(of_net)
     }
 
     /// The first law of a component that the marking breaks.

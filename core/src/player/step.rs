@@ -65,7 +65,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         // no trace.
         let (mut left, mut given) = (self.marking, [0; W]);
         let mut step = Stepped { ignored: ones(events.len()), ..Stepped::default() };
-        for at in (0..).map_while(|at| self.program.ordered(at)) {
+        for at in (0..usize::MAX).map_while(|at| self.program.ordered(at)) {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
             if self.takes_part(code, entry, &left, events) {
                 (left, given) = self.applied(entry, &left, &given);
@@ -81,7 +81,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             return Stepped { full: true, ..step };
         }
         let mut again = (self.marking, [0; W]);
-        for at in (0..).map_while(|at| self.program.ordered(at)) {
+        for at in (0..usize::MAX).map_while(|at| self.program.ordered(at)) {
             let Some(entry) = code.entries.get(usize::from(at)) else { continue };
             if !self.takes_part(code, entry, &again.0, events) {
                 continue;

@@ -17,7 +17,7 @@ pub struct Heard {
 
 impl<P: Names> Observer<P> for Heard {
     fn on_fire(&mut self, firing: &Firing<'_, P>) {
-        self.outputs = self.outputs.wrapping_add(firing.outputs().count());
+        firing.outputs().for_each(|_| self.outputs = self.outputs.wrapping_add(1));
         self.at = firing.at;
     }
 }

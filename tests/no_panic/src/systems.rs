@@ -21,7 +21,7 @@ pub struct Seen {
 
 impl<P: Names> Observer<P, Message> for Seen {
     fn on_fire(&mut self, firing: &Firing<'_, P, Message>) {
-        self.outputs = self.outputs.wrapping_add(firing.outputs().count());
+        firing.outputs().for_each(|_| self.outputs = self.outputs.wrapping_add(1));
         self.last = firing.on.map(|it| (it, firing.carries));
         self.at = firing.at;
     }
