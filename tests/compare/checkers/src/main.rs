@@ -50,7 +50,8 @@ fn run(arguments: &[&str]) -> Result<String, String> {
         ["classes", by, net] => classes(by, &nets::timed(net)?)?,
         _ => {
             return Err("give `nothing`, `markings PROGRAM NET` or `classes PROGRAM \
-                NET`".to_owned());
+                NET`"
+                .to_owned());
         }
     };
     let Measured { counts: Counts { nodes, edges }, processor, clock } = measured;

@@ -98,9 +98,10 @@ impl Dialect {
             "transition" => {
                 self.events.extend(get("event"));
                 if get("target").is_none() {
-                    self.changes
-                        .insert("<transition> without a target: one to its own state, so timers \
-                            start again");
+                    self.changes.insert(
+                        "<transition> without a target: one to its own state, so timers \
+                            start again",
+                    );
                     attributes.push(("target".to_owned(), self.state.clone()));
                 }
             }
