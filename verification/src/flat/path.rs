@@ -4,7 +4,7 @@ use super::branch::{Branch, Held};
 use cotama_core::net::{EventId, OutputId, PlaceId};
 use std::collections::BTreeMap;
 
-/// What a transition of [`Rounds`] is.
+/// What a transition of [`Rounds`](super::rounds::Rounds) is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// The token goes on to the next mailbox, or an observer looks: nothing happens in the system.
