@@ -14,7 +14,6 @@ use super::verified::{Checked, Verified, VerifyError, at, each, ensure, error};
 use super::{Evidence, Formula, Question};
 use Evidence::{Each, Graph, Growth, Lasso, One, Refutation, State, Trace};
 use Formula::{All, AllNext, And, Exists, ExistsNext, Finally, Globally, Not, Or, Until};
-use truth::Space;
 
 pub use super::read::{MAX_BYTES, MAX_MEMORY, MAX_WORK};
 pub(super) use refutation::Known;
@@ -57,7 +56,7 @@ impl Numbered<'_> {
         match (by, formula) {
             (Evidence::None, _) => Err(error("there is no evidence")),
             (_, Not(inner)) => self.prove(from, (inner, !truth), by),
-            (State, _) => self.shows(&Space::of(from), claim),
+            (State, _) => self.holds(from, claim),
             (Graph(count), _) => {
                 self.graph(from, *count).and_then(|it| self.shows(&it, claim)).map_err(at(".graph"))
             }
@@ -65,9 +64,8 @@ impl Numbered<'_> {
                 let (all, claims) = (by.len(), parts.len());
                 let other = format!("there are {all} parts of evidence for {claims} claims");
                 ensure(all == claims, other)?;
-                let shown =
-                    each(by.iter().zip(parts), |(by, it)| self.prove(from, (it, truth), by));
-                shown.map(drop).map_err(at(".each"))
+                let all = each(by.iter().zip(parts), |(by, it)| self.prove(from, (it, truth), by));
+                all.map(drop).map_err(at(".each"))
             }
             (One(one), And(parts) | Or(parts)) if !every => {
                 let none = || error(format_args!("there are {} parts", parts.len()));
@@ -81,13 +79,12 @@ impl Numbered<'_> {
             (Trace(it), Exists(path) | All(path)) if !every => {
                 let (first, goal) = until((path, truth)).ok_or_else(misfit)?;
                 let (way, end) = self.way(from, &it.fire).map_err(at(".trace.fire"))?;
-                let kept = |at| first.map_or(Ok(()), |it| self.shows(&Space::of(at), (it, true)));
+                let kept = |at| first.map_or(Ok(()), |it| self.holds(at, (it, true)));
                 each(&way, kept).map_err(at(".trace.fire"))?;
                 self.prove(&end, goal, &it.then).map_err(at(".trace.then"))
             }
-            (Lasso(it), Exists(path) | All(path)) if !every => {
-                let shown = self.run(from, it).and_then(|it| self.shows(&it, (path, truth)));
-                shown.map_err(at(".lasso"))
+            (Lasso(by), Exists(it) | All(it)) if !every => {
+                self.run(from, by).and_then(|on| self.shows(&on, (it, truth))).map_err(at(".lasso"))
             }
             (Refutation(by), Exists(path) | All(path)) if every => {
                 let (_, goal) = until((path, !truth)).ok_or_else(misfit)?;

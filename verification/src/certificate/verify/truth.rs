@@ -14,12 +14,6 @@ enum Kind {
 /// Markings, and for each of them those that follow.
 pub(super) struct Space(Kind, Vec<Rc<Marking>>, Vec<Vec<usize>>);
 
-impl Space {
-    pub(super) fn of(marking: &Marking) -> Self {
-        Self(Kind::Marking, vec![Rc::new(marking.clone())], Vec::new())
-    }
-}
-
 impl Numbered<'_> {
     /// What is asked, in inequalities; no formula says that there is no bound.
     pub(super) fn meaning(&self, question: &Question) -> Checked<Formula> {
@@ -56,7 +50,9 @@ impl Numbered<'_> {
     fn fire(&self, from: &Marking, transition: usize) -> Checked<Marking> {
         let ([take, give], mut after) = (&self.arcs[transition], from.clone());
         self.spend(4 * from.len() + give.len())?;
-        take.iter().for_each(|(place, weight)| after[*place] -= weight);
+        for (place, weight) in take {
+            after[*place] -= weight;
+        }
         for (place, weight) in give {
             let sum = after[*place].checked_add(*weight);
             after[*place] = sum.ok_or_else(|| error("numbers get too large"))?;
@@ -114,6 +110,11 @@ impl Numbered<'_> {
         Ok(Space(Kind::Graph, markings, next))
     }
 
+    /// That the claim, which is about one marking, is so at this one.
+    pub(super) fn holds(&self, at: &Marking, claim: Claim<'_>) -> Checked<()> {
+        self.shows(&Space(Kind::Marking, vec![Rc::new(at.clone())], Vec::new()), claim)
+    }
+
     /// That the claim is so at the first marking, or of the run from there.
     pub(super) fn shows(&self, space: &Space, (formula, truth): Claim<'_>) -> Checked<()> {
         ensure(self.label(space, formula)?[0] == truth, "the opposite of what is claimed is so")
@@ -168,7 +169,9 @@ impl Numbered<'_> {
         let [first, mut until] = both;
         let mut before = vec![Vec::new(); until.len()];
         for (from, next) in space.2.iter().enumerate() {
-            next.iter().for_each(|to| before[*to].push(from));
+            for to in next {
+                before[*to].push(from);
+            }
         }
         let mut open: Vec<usize> = (0..until.len()).filter(|it| until[*it]).collect();
         while let Some(to) = open.pop() {

@@ -46,7 +46,9 @@ fn check(graph: &Graph, layout: &Layout) {
             .chain(labels.iter().copied())
             .collect();
         let free = |area: Area| {
-            foreign.iter().for_each(|&it| assert!(apart(area, it), "a line crosses {it:?}"));
+            for &it in &foreign {
+                assert!(apart(area, it), "a line crosses {it:?}");
+            }
         };
         for line in &route.lines {
             for &Run { x, from, to } in line {
