@@ -71,6 +71,7 @@ macro_rules! __net_extended {
         );
         $crate::__replaced! {
             ($) net
+            {}
             { $( $( $old {
                 $(#[doc = $line_doc])*
                 $old $(on $on)? $([ $($guard)* ])? :
@@ -114,6 +115,9 @@ macro_rules! __system_extended {
         { $($nets:tt)* } { $($links:tt)* } { $($shared:tt)* } { $($pending:tt)* } { $($clears:tt)* }
         { $($laws:tt)* } { $($head:tt)* } $base:ident $(:: $base_in:ident)* {
             $(instead { $( $old:ident : $new:ident $(:: $new_in:ident)* ),* $(,)? })?
+            $(nets before $place:ident {
+                $( $inserted:ident : $inserted_net:ident $(:: $inserted_in:ident)* ),* $(,)?
+            })*
             $(nets { $($more_nets:tt)* })?
             $(links { $($more_links:tt)* })?
             $(shared { $($more_shared:tt)* })?
@@ -124,10 +128,13 @@ macro_rules! __system_extended {
     ) => {
         const _: () = $crate::__private::system::replaced::<$base $(:: $base_in)* ::Program>(
             $base $(:: $base_in)* ::SYSTEM.name,
-            &[$( $( stringify!($old), )* )?],
+            &[$( $( stringify!($old), )* )? $( stringify!($place), )*],
         );
         $crate::__replaced! {
             ($) system
+            { $( $place {
+                $( $inserted: $inserted_net $(:: $inserted_in)*, )*
+            } )* }
             { $( $( $old { $old: $new $(:: $new_in)*, } )* )? }
             { $($nets)* }
             { $($head)* }
@@ -144,28 +151,33 @@ macro_rules! __system_extended {
     };
 }
 
-/// A definition in which some named parts of one section are replaced: what it is made with, what
-/// replaces which part, the parts, the beginning of the definition, the sections before, what is
-/// added, the sections after.
+/// A definition in which some named parts of one section are replaced, or others stand before them:
+/// what it is made with, what stands before which part, what replaces which part, the parts, the
+/// beginning of the definition, the sections before, what is added, the sections after.
 #[doc(hidden)]
 #[macro_export]
 macro_rules! __replaced {
     (
-        $d:tt $made:ident {} { $( $part:ident { $($body:tt)* } )* }
+        $d:tt $made:ident {} {} { $( $part:ident { $($body:tt)* } )* }
         { $($head:tt)* } { $($before:tt)* } { $($more:tt)* } { $($after:tt)* }
     ) => {
         $crate::$made! { $($head)* { $($before)* { $( $($body)* )* $($more)* } $($after)* } }
     };
     (
-        ($d:tt) $made:ident { $( $old:ident { $($new:tt)* } )+ } { $($parts:tt)* }
-        { $($head:tt)* } { $($before:tt)* } { $($more:tt)* } { $($after:tt)* }
+        ($d:tt) $made:ident
+        { $( $place:ident { $($inserted:tt)* } )* } { $( $old:ident { $($new:tt)* } )* }
+        { $($parts:tt)* } { $($head:tt)* } { $($before:tt)* } { $($more:tt)* } { $($after:tt)* }
     ) => {
         // One part after the other: the names of those that are replaced are looked for as tokens.
+        // A part that has others before it comes again, marked, after them.
         macro_rules! __parts {
-            $( ([$d($d done:tt)*] $old { $d($d body:tt)* } $d($d rest:tt)*) => {
+            $( ([$d($d done:tt)*] $place { $d($d body:tt)* } $d($d rest:tt)*) => {
+                __parts! { [$d($d done)* $($inserted)*] + $place { $d($d body)* } $d($d rest)* }
+            }; )*
+            $( ([$d($d done:tt)*] $d(+)? $old { $d($d body:tt)* } $d($d rest:tt)*) => {
                 __parts! { [$d($d done)* $($new)*] $d($d rest)* }
-            }; )+
-            ([$d($d done:tt)*] $d part:ident { $d($d body:tt)* } $d($d rest:tt)*) => {
+            }; )*
+            ([$d($d done:tt)*] $d(+)? $d part:ident { $d($d body:tt)* } $d($d rest:tt)*) => {
                 __parts! { [$d($d done)* $d($d body)*] $d($d rest)* }
             };
             ([$d($d done:tt)*]) => {

@@ -186,9 +186,9 @@ pub enum Law<'n> {
     HandlesAll,
     /// A run of transitions that fire by themselves without time passing comes to an end.
     Settles,
-    /// The net is never stuck, except where `end` is marked. It is *stuck* where it rests and no event and
-    /// no passing of time makes a transition fire, now or ever, as long as the places it shares
-    /// stay as they are.
+    /// The net is never stuck, except where `end` is marked. It is *stuck* where it rests and no
+    /// event and no passing of time makes a transition fire, now or ever, as long as the places it
+    /// shares stay as they are.
     DeadlockFree {
         /// The place in which the net may stop.
         end: Option<PlaceId>,

@@ -2,7 +2,7 @@
 
 use super::LARGEST;
 use super::code::{Packed, size};
-use super::program::Loaded;
+use super::program::{Loaded, order};
 use crate::net::data::Net;
 use crate::net::defect::Defect;
 use crate::system::data::{Component, System};
@@ -45,7 +45,13 @@ impl<const W: usize, const C: usize, const S: usize> Packed<W, C, S> {
         }
         let fits = |it: &super::code::Size| it.words <= W && it.clocks <= C && it.slots <= S;
         let size = size(system).filter(fits).ok_or(SystemDefect::TooLong)?;
-        Ok(Self::sound(system, &size))
+        let mut it = Self::sound(system, &size);
+        if let [alone] = system.components {
+            let mut by_priority = alloc::vec![0; size.entries];
+            order(alone.net, &it.code(), &mut by_priority);
+            it.order = by_priority;
+        }
+        Ok(it)
     }
 
     /// Packs a net alone; see [`of`](Self::of).

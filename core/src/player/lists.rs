@@ -88,7 +88,8 @@ macro_rules! lists {
                     self.words;
                 Code {
                     $( $list: &self.$list, )*
-                    guards, bounds, initial, restless, control, states, fingerprint, settle, bounded,
+                    guards, bounds, initial, restless, control, states, fingerprint,
+                    settle, bounded,
                 }
             }
         }
@@ -138,11 +139,6 @@ macro_rules! lists {
                     order: alloc::vec::Vec::new(),
                 };
                 it.words = pack(system, &mut Lists { $( $list: &mut it.$list, )* });
-                if let [alone] = system.components {
-                    let mut order = alloc::vec![0; size.entries];
-                    super::program::order(alone.net, &it.code(), &mut order);
-                    it.order = order;
-                }
                 it
             }
 
@@ -153,7 +149,8 @@ macro_rules! lists {
                 let (settle, bounded) = (super::SETTLE, false);
                 Code {
                     $( $list: &self.$list, )*
-                    guards, bounds, initial, restless, control, states, fingerprint, settle, bounded,
+                    guards, bounds, initial, restless, control, states, fingerprint,
+                    settle, bounded,
                 }
             }
         }

@@ -67,7 +67,8 @@
 /// # A system with more
 ///
 /// `extends` makes a system that is another one with more nets, links and shared places. `instead`
-/// comes before `nets` and puts another net where one stands. The rest is as for
+/// comes first and puts another net where one stands; `nets before lamp { … }` adds nets that take
+/// their turns before `lamp`, and `nets` adds more behind all. The rest is as for
 /// [`net!`](crate::net!#a-net-with-more).
 ///
 /// ```
@@ -105,13 +106,13 @@
 /// system! {
 ///     pub mod hall extends room {
 ///         instead { lamp: dimmer }
-///         nets { other: button }
+///         nets before lamp { other: button }
 ///         links { other.pressed => lamp.toggle mail PRESSES; }
 ///     }
 /// }
 ///
 /// fn main() {
-///     assert_eq!(hall::SYSTEM.components[1].net.name, "dimmer");
+///     assert_eq!(hall::SYSTEM.components[2].net.name, "dimmer");
 ///     assert_eq!(hall::SYSTEM.links.len(), 2);
 /// }
 /// ```
@@ -120,7 +121,8 @@
 ///
 /// A module with `SYSTEM` (the plain data), `SIZE`, `EXPLORED`, the enums `Event`, `Place`,
 /// `Output` and `Transition` with a variant for each net, the functions `state::NET`, the types
-/// `Program`, `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M` along.
+/// `Program`, `Player` and `Checked`, and the type `Carrying<M>`: a player whose events carry `M`
+/// along.
 #[macro_export]
 macro_rules! system {
     (
@@ -429,7 +431,8 @@ macro_rules! system {
                 )*
             }
         }
-    };    // The same with a definition that other crates may extend.
+    };
+    // The same with a definition that other crates may extend.
     ($(#[doc = $doc:expr])* #[macro_export] $vis:vis mod $name:ident $($rest:tt)+) => {
         $crate::system! { @macro_export $(#[doc = $doc])* $vis mod $name $($rest)+ }
     };

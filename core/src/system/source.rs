@@ -147,7 +147,7 @@ pub const fn at<S: Written>(name: &str) -> u16 {
     at as u16
 }
 
-/// Ends the compilation when an extension replaces a net that the system does not have.
+/// Ends the compilation when an extension names a net that the system does not have.
 pub const fn replaced<S: Written>(system: &str, names: &[&str]) {
     let mut known = 0;
     while known < names.len() {
@@ -157,7 +157,7 @@ pub const fn replaced<S: Written>(system: &str, names: &[&str]) {
                 .name(system)
                 .with(" has no net ")
                 .name(names[known])
-                .with(" that an extension could replace")
+                .with(", so an extension can put none in its place or before it")
                 .stop()
         }
         known += 1;

@@ -64,7 +64,7 @@ fn found(system: &System<'_>, size: (u64, u64), violated: &[(&str, &str)]) {
     assert_eq!(found, violated);
 }
 
-const GOALS: [&str; 4] = ["ls.l3", "ls.l11", "env.goal", "env.operator_goal"];
+const GOALS: [&str; 4] = ["ls.l3", "ls.l11", "gom.goal", "gom.operator_goal"];
 
 #[test]
 fn as_written_nothing_is_violated() {
@@ -125,8 +125,8 @@ fn teleoperation_without_a_camera_is_found() {
         components: mutant
             .components
             .iter()
-            .zip(unguarded(&["env.teleoperate"], &["camera"]).components)
-            .map(|(one, other)| if one.name == "env" { *other } else { *one })
+            .zip(unguarded(&["gom.teleoperate"], &["camera"]).components)
+            .map(|(one, other)| if one.name == "gom" { *other } else { *one })
             .collect::<Vec<_>>()
             .leak(),
         ..mutant

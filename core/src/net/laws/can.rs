@@ -6,8 +6,9 @@
 //! even perhaps, it does not; else classes are cut, where their future parts, and explored again.
 
 use super::cuts::Cuts;
-use super::graph::{FIRINGS, Graph, Limit, MARKINGS, NONE};
+use super::graph::{Graph, Limit, MARKINGS, NONE};
 use super::judge::{Culprit, Violation};
+use super::moves::FIRINGS;
 use crate::net::data::{Law, Net, PlaceId};
 use crate::player::code::Code;
 
@@ -117,7 +118,7 @@ impl<const W: usize> Graph<W> {
             let it = &self.firings[firing];
             if it.from != last && !surely[it.from as usize] && surely[it.to as usize] {
                 last = it.from;
-                any = cuts.refine(&self.zone(it.from as usize)) || any;
+                any = self.zone(it.from as usize).cut(cuts) || any;
             }
             firing += 1;
         }

@@ -9,16 +9,13 @@
 //! is due. Breadth first, so the way to a class is a shortest one.
 
 use super::cuts::Cuts;
-use super::moves::{Moves, changed};
-use super::timed::open;
+use super::moves::{AT_ONCE, FIRINGS, IN_TIME, Moves, SHARED, TIME, changed};
 use super::zone::Zone;
 use crate::net::data::Net;
 use crate::player::code::{self, Code};
 
 /// The most classes that are explored while compiling; in a net without intervals, markings.
 pub const MARKINGS: usize = 1_024;
-/// The most moves between them.
-pub(super) const FIRINGS: usize = 16 * MARKINGS;
 const SLOTS: usize = 4 * MARKINGS;
 /// The most numbers in all zones.
 const NUMBERS: usize = 32 * MARKINGS;
@@ -37,15 +34,6 @@ pub(super) struct Firing {
     /// The first way of the same move from there: to which of them it leads depends on the clocks.
     pub(super) group: u16,
 }
-
-/// The kind of transitions without event and interval.
-pub(super) const AT_ONCE: u16 = u16::MAX;
-/// The kind of transitions without event, in an interval.
-pub(super) const IN_TIME: u16 = AT_ONCE - 1;
-/// The kind of changes of shared places.
-pub(super) const SHARED: u16 = AT_ONCE - 2;
-/// Time passes.
-pub(super) const TIME: u16 = AT_ONCE - 3;
 
 /// What there is too much of to explore a net while compiling.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -175,7 +163,7 @@ impl<const W: usize> Graph<W> {
                     {
                         word += 1;
                     }
-                    if word < W || entry.clock != code::NONE && !open(code, &zone, entry.clock) {
+                    if word < W || entry.clock != code::NONE && !zone.opens(code, entry.clock) {
                         continue;
                     }
                     // The first one fires, and no other.

@@ -1,7 +1,7 @@
 //! Whether a law holds in all classes, and where it does not.
 
-use super::graph::{AT_ONCE, Graph, IN_TIME, Limit, NONE, SHARED};
-use super::timed::open;
+use super::graph::{Graph, Limit, NONE};
+use super::moves::{AT_ONCE, IN_TIME, SHARED, id};
 use super::way::Way;
 use crate::net::data::{EventId, Law, Net, PlaceId, TransitionId};
 use crate::player::code::Code;
@@ -204,7 +204,7 @@ impl<const W: usize> Graph<W> {
             let clock = &code.clocks[zone.clocks[at] as usize];
             if clock.event
                 && (event == NONE || is_on(code, clock.entry, event))
-                && !open(code, &zone, zone.clocks[at])
+                && !zone.opens(code, zone.clocks[at])
             {
                 return Some(id(code, clock.entry));
             }
@@ -291,11 +291,6 @@ impl<const W: usize> Graph<W> {
             None => None,
         }
     }
-}
-
-/// The transition of an entry.
-pub(super) const fn id<const W: usize>(code: &Code<'_, W>, entry: u16) -> TransitionId {
-    TransitionId(code.entries[entry as usize].transition as u32)
 }
 
 /// Whether an entry is on an event.

@@ -1,8 +1,19 @@
 //! The moves of a net.
 
-use super::graph::{AT_ONCE, FIRINGS, SHARED};
-use crate::net::data::{Net, PlaceId, Role, Transition};
+use crate::net::data::{Net, PlaceId, Role, Transition, TransitionId};
 use crate::player::code::Code;
+
+/// The most moves of a net, and the most ways between its classes.
+pub(super) const FIRINGS: usize = 16 * 1_024;
+
+/// The kind of transitions without event and interval.
+pub(super) const AT_ONCE: u16 = u16::MAX;
+/// The kind of transitions without event, in an interval.
+pub(super) const IN_TIME: u16 = AT_ONCE - 1;
+/// The kind of changes of shared places.
+pub(super) const SHARED: u16 = AT_ONCE - 2;
+/// Time passes.
+pub(super) const TIME: u16 = AT_ONCE - 3;
 
 /// All moves of a net in the order in which they are tried: transitions that fire at once by
 /// themselves, transitions on events, changes of shared places.
@@ -81,6 +92,11 @@ impl Moves {
         }
         true
     }
+}
+
+/// The transition of an entry.
+pub(super) const fn id<const W: usize>(code: &Code<'_, W>, entry: u16) -> TransitionId {
+    TransitionId(code.entries[entry as usize].transition as u32)
 }
 
 const fn transition<'n, const W: usize>(

@@ -1,7 +1,8 @@
 //! Whether bounds hold, and whether what fires by itself without time passing comes to an end.
 
-use super::graph::{AT_ONCE, Graph, IN_TIME, MARKINGS, NONE};
-use super::judge::{Culprit, Violation, id};
+use super::graph::{Graph, MARKINGS, NONE};
+use super::judge::{Culprit, Violation};
+use super::moves::{AT_ONCE, IN_TIME, id};
 use super::way::{held, step};
 use crate::net::data::{Net, PlaceId};
 use crate::player::code::{Code, plus};

@@ -1,9 +1,9 @@
 //! Moves of nets with intervals, in which time passes.
 
 use super::cuts::Cuts;
-use super::graph::{Graph, IN_TIME, Limit, Move, NONE, SHARED, TIME};
-use super::moves::Moves;
-use super::zone::{CAPPED, DUE, Zone};
+use super::graph::{Graph, Limit, Move, NONE};
+use super::moves::{IN_TIME, Moves, SHARED, TIME};
+use super::zone::{DUE, Zone};
 use crate::player::code::{self, Code, plus};
 
 impl<const W: usize> Graph<W> {
@@ -104,7 +104,7 @@ impl<const W: usize> Graph<W> {
         cut: usize,
         marking: &[u64; W],
     ) -> bool {
-        if let Some((low, high, cut)) = cuts.divide(zone, cut) {
+        if let Some((low, high, cut)) = zone.divided(cuts, cut) {
             return self.enter(cuts, way, &low, cut + 1, marking)
                 && self.enter(cuts, way, &high, cut + 1, marking);
         }
@@ -141,17 +141,6 @@ impl<const W: usize> Graph<W> {
             at += 1;
         }
         (markings, firings)
-    }
-}
-
-/// Whether the interval of a transition on an event is open in a zone.
-pub(super) const fn open<const W: usize>(code: &Code<'_, W>, zone: &Zone, clock: u16) -> bool {
-    let it = &code.clocks[clock as usize];
-    match zone.position(clock) {
-        Some(at) if zone.until[at] == CAPPED => it.latest == u32::MAX,
-        // A phase lies on one side of each instant where the interval begins or ends.
-        Some(at) => it.earliest as i64 <= zone.until[at] && zone.until[at] <= it.latest as i64,
-        None => false,
     }
 }
 

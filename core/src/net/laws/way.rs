@@ -1,8 +1,7 @@
 //! The way to a class: what happened, and how long it was waited for.
 
-use super::graph::{Graph, MARKINGS, NONE, TIME};
-use super::judge::id;
-use super::moves::shared;
+use super::graph::{Graph, MARKINGS, NONE};
+use super::moves::{TIME, id, shared};
 use super::timed::left;
 use super::zone::{CLOCKS, Zone};
 use crate::net::data::{Net, PlaceId, TransitionId};

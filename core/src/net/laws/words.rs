@@ -1,7 +1,8 @@
 //! What a violation is called: the text of a compile error.
 
-use super::graph::{FIRINGS, Limit, MARKINGS};
+use super::graph::{Limit, MARKINGS};
 use super::judge::{Culprit, Violation};
+use super::moves::FIRINGS;
 use super::zone::CLOCKS;
 use crate::net::data::{Law, Net, PlaceId, Role, TransitionId};
 use crate::net::text::Text;

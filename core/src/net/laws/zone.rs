@@ -192,6 +192,80 @@ impl Zone {
         (self.with(a + 1, b + 1, most), self.with(b + 1, a + 1, -most - 1))
     }
 
+    /// Whether the interval of a transition on an event is open.
+    pub(super) const fn opens<const W: usize>(&self, code: &Code<'_, W>, clock: u16) -> bool {
+        let it = &code.clocks[clock as usize];
+        match self.position(clock) {
+            Some(at) if self.until[at] == CAPPED => it.latest == u32::MAX,
+            // A phase lies on one side of each instant where the interval begins or ends.
+            Some(at) => it.earliest as i64 <= self.until[at] && self.until[at] <= it.latest as i64,
+            None => false,
+        }
+    }
+
+    /// The two parts on either side of the first cut from this one on that divides it, and the cut.
+    pub(super) const fn divided(&self, cuts: &Cuts, from: usize) -> Option<(Self, Self, usize)> {
+        let mut at = from;
+        while at < cuts.pairs().len() {
+            let (a, b, most) = cuts.pairs()[at];
+            if let (Some(a), Some(b)) = (self.position(a), self.position(b))
+                && self.straddles(a, b, most)
+            {
+                let (low, high) = self.parts(a, b, most);
+                return Some((low, high, at));
+            }
+            at += 1;
+        }
+        None
+    }
+
+    /// Cuts where it depends on the point of this zone what happens next; whether there is
+    /// anything new to cut.
+    pub(super) const fn cut(&self, cuts: &mut Cuts) -> bool {
+        let before = cuts.count();
+        let mut a = 0;
+        while a < self.count {
+            let mut b = a + 1;
+            while b < self.count {
+                if self.until[a] >= 0 && self.until[b] >= 0 {
+                    // Which of them ends its phase first, or both do at once.
+                    let both = self.until[a] - self.until[b];
+                    let mut most = both - 1;
+                    while most <= both {
+                        if self.straddles(a, b, most) {
+                            cuts.between(self.clocks[a], self.clocks[b], most);
+                        }
+                        most += 1;
+                    }
+                }
+                b += 1;
+            }
+            a += 1;
+        }
+        // Where the other clock starts anew, a cut between them is one of the clock that runs on.
+        let mut pair = 0;
+        while pair < cuts.pairs().len() {
+            let (a, b, most) = cuts.pairs()[pair];
+            let mut at = 0;
+            while at < self.count {
+                let value = if self.clocks[at] == a {
+                    most + 1
+                } else if self.clocks[at] == b {
+                    -most
+                } else {
+                    0
+                };
+                let (least, until) = (-self.bounds[0][at + 1], self.until[at]);
+                if least < value && value <= until {
+                    cuts.at(self.clocks[at], value);
+                }
+                at += 1;
+            }
+            pair += 1;
+        }
+        cuts.count() > before
+    }
+
     /// The part where a clock ends its phase with this millisecond, or where it does not.
     pub(super) const fn ending(&self, at: usize, ends: bool) -> Option<Self> {
         let until = self.until[at];

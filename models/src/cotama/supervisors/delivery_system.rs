@@ -11,32 +11,27 @@ use super::surroundings::{faults, operator, recovering_faults};
 use cotama_core::system;
 
 system! {
-    /// COTAMA's decisional level as it drives the robot, with everything that may fail and the
-    /// operator. Events that no net here causes come from the robot and from whoever gives missions
-    /// and objects.
-    pub mod delivery {
+    /// The supervisors with what observes the robot for them, and what connects them; faults, the
+    /// operator and the robot come with [`delivery`].
+    #[macro_export]
+    pub mod supervision {
         nets {
             gs: global,
             ls: local,
             pf: path_following,
             to: teleoperation,
-            permit: permit,
             gom: observation,
             cs: contextual,
-            faults: faults,
-            operator: operator,
         }
         links {
             gs.start_drive => ls.start_drive mail 1;
             gs.gs_abort => ls.gs_abort now;
-            gs.halt => permit.halt now;
             ls.ended => ls.tick mail 1;
             ls.drive_done => gs.drive_done mail 1;
-            ls.run_pp => gom.settle now;
-            ls.pf_start => pf.pf_start & permit.grant & gom.settle now;
-            ls.pf_stop => pf.pf_stop & permit.revoke now;
-            ls.to_start => to.to_start & permit.grant now;
-            ls.to_stop => to.to_stop & permit.revoke now;
+            ls.pf_start => pf.pf_start now;
+            ls.pf_stop => pf.pf_stop now;
+            ls.to_start => to.to_start now;
+            ls.to_stop => to.to_stop now;
             cs.global_event => gs.global_event mail 1;
             cs.local_event => ls.local_event mail 1;
             cs.adapt_rt => pf.adapt_rt mail 1;
@@ -55,6 +50,53 @@ system! {
             gom.camera => cs.camera mail 1;
             gom.wifi_lost => cs.wifi_lost mail 1;
             gom.vital => cs.vital mail 1;
+        }
+        shared {
+            ls.camera = gom.camera;
+            ls.wifi & cs.wifi = gom.wifi;
+            pf.sonar = gom.sonar;
+            to.sonar = gom.avoidance;
+            pf.mcl & cs.mcl = gom.mcl;
+            cs.planning = ls.Planning;
+            cs.following = ls.Following;
+            cs.hand_over = ls.HandOver;
+            cs.teleprogrammed = ls.Teleprogrammed;
+            cs.teleoperated = ls.Teleoperated;
+            cs.optimal = pf.Optimal;
+            cs.reduced = pf.Reduced;
+            cs.odometric = pf.Odometric;
+            cs.degraded = pf.Degraded;
+            cs.avoiding = to.Full;
+            cs.level = pf.level;
+        }
+        pending {
+            ls.local_pending = ls.local_event;
+            ls.global_pending = gs.global_event;
+        }
+        clears {
+            ls.gs_abort empties ls.local_event & ls.start_drive;
+        }
+        laws { left_to_checker; }
+    }
+}
+
+system! {
+    /// COTAMA's decisional level as it drives the robot, with everything that may fail and the
+    /// operator. Events that no net here causes come from the robot and from whoever gives missions
+    /// and objects.
+    pub mod delivery extends supervision {
+        nets before gom { permit: permit }
+        nets {
+            faults: faults,
+            operator: operator,
+        }
+        links {
+            gs.halt => permit.halt now;
+            ls.run_pp => gom.settle now;
+            ls.pf_start => permit.grant & gom.settle now;
+            ls.pf_stop => permit.revoke now;
+            ls.to_start => permit.grant now;
+            ls.to_stop => permit.revoke now;
             faults.vital_flag => gom.vital_flag mail 1;
             faults.wifi_flag => gom.wifi_flag mail 1;
             faults.camera_flag => gom.camera_flag mail 1;
@@ -74,31 +116,11 @@ system! {
             operator.refusal => cs.refusal mail 1;
         }
         shared {
-            ls.camera = gom.camera;
-            ls.wifi & cs.wifi = gom.wifi;
-            pf.sonar = gom.sonar;
-            to.sonar = gom.avoidance;
-            pf.mcl & cs.mcl = gom.mcl;
             operator.camera = faults.camera;
             operator.wifi = faults.wifi;
-            cs.planning = ls.Planning;
-            cs.following = ls.Following;
-            cs.hand_over & operator.hand_over = ls.HandOver;
-            cs.teleprogrammed & operator.teleprogrammed = ls.Teleprogrammed;
-            cs.teleoperated & operator.teleoperated = ls.Teleoperated;
-            cs.optimal = pf.Optimal;
-            cs.reduced = pf.Reduced;
-            cs.odometric = pf.Odometric;
-            cs.degraded = pf.Degraded;
-            cs.avoiding = to.Full;
-            cs.level = pf.level;
-        }
-        pending {
-            ls.local_pending = ls.local_event;
-            ls.global_pending = gs.global_event;
-        }
-        clears {
-            ls.gs_abort empties ls.local_event & ls.start_drive;
+            operator.hand_over = ls.HandOver;
+            operator.teleprogrammed = ls.Teleprogrammed;
+            operator.teleoperated = ls.Teleoperated;
         }
     }
 }

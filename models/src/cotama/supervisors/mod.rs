@@ -9,7 +9,7 @@ mod status_vector;
 mod surroundings;
 
 pub use decision_table::{contextual, recovering_contextual};
-pub use delivery_system::{delivery, recovering};
+pub use delivery_system::{delivery, recovering, supervision};
 pub use hierarchy::{
     global, local, path_following, recovering_path_following, recovering_teleoperation,
     teleoperation,
