@@ -9,8 +9,8 @@
 //! on the mission's account.
 //!
 //! The crate has two more rooms. [`nets`] are ready supervisors, checked while compiling, and
-//! families of nets. [`cotama`] is COTAMA's decisional level: its supervisors, the modules that they
-//! switch, what can fail and how it is seen, and the requirements.
+//! families of nets. [`cotama`] is COTAMA's decisional level: its supervisors, the modules that
+//! they switch, what can fail and how it is seen, and the requirements.
 //!
 //! Without the feature `std` only [`cotama`], the tables of missions ([`missions::tables`]) and the
 //! ready [`nets`] remain, without heap, for firmware.

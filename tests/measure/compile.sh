@@ -23,8 +23,8 @@ cotama-core = { path = "$PWD/core" }
 TOML
 export CARGO_TARGET_DIR=$package/target
 
-# A net: its tokens in `On`, its flags and counters, its transitions, its laws, and events beyond the
-# usual ones. Every transition reads `On`.
+# A net: its tokens in `On`, its flags and counters, its transitions, its laws, and events beyond
+# the usual ones. Every transition reads `On`.
 net() {
     echo "cotama_core::net! { pub mod measured { places { On: $1, A: 1, B, C, D, E } $2"
     echo "events { Go, Back, Up, Down, Set, Clear ${5:-} } transitions { $3 } laws { $4 } } }"
@@ -55,7 +55,8 @@ timers() {
         flags+="f$flag, "
         events+=", Set$flag"
         lines+="set$flag on Set$flag [!f$flag]: _ => _ read On do f$flag = true;"
-        lines+="clear$flag [f$flag]: _ => _ read On do f$flag = false within ${flag}_000..=${flag}_000 ms;"
+        lines+="clear$flag [f$flag]: _ => _ read On do f$flag = false"
+        lines+=" within ${flag}_000..=${flag}_000 ms;"
     done
     net "$1" "flags { $flags }" "$lines" "always_can(A); deadlock_free_except(A);" "$events"
 }

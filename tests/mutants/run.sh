@@ -4,7 +4,7 @@
 #
 #   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list
 #                                        next to this script
-#   tests/mutants/run.sh --table         writes README.md anew from the lists
+#   tests/mutants/run.sh --table         writes the lists of README.md anew
 #
 # A list has paragraphs:
 #
@@ -139,24 +139,35 @@ run() {
     try
 }
 
+# The introduction, then for each engine a list of its defects, in lines of 100 columns.
 table() {
-    sed -n '1,/^| engine/p' "$lists/README.md" | sed '$d'
-    echo '| engine | defect | killed by |'
-    echo '| --- | --- | --- |'
+    sed '/^## /,$d' "$lists/README.md"
     for name in "${all[@]}"; do
-        awk -v engine="$name" -v usual="${target_of[$name]:-$name}" '
-            function row() {
+        printf '## %s\n\n' "$name"
+        awk -v usual="${target_of[$name]:-$name}" '
+            function row(    killer, words, count, line, at) {
+                if (mutant == "") return
                 if (equivalent != "") killer = "equivalent: " equivalent
-                else if (by == "time") killer = "time: the tests of `" target "` hang"
+                else if (by == "time") killer = "the tests of `" target "` hang"
                 else killer = "`" target " " by "`"
-                if (mutant != "") print "| " engine " | " mutant " | " killer " |"
+                count = split("- " mutant ": " killer, words, " ")
+                line = words[1]
+                for (at = 2; at <= count; at++) {
+                    if (length(line " " words[at]) > 100) {
+                        print line
+                        line = "  " words[at]
+                    } else {
+                        line = line " " words[at]
+                    }
+                }
+                print line
             }
             /^mutant: / { row(); mutant = substr($0, 9); target = usual; by = equivalent = "" }
             /^test: / { target = substr($0, 7) }
             /^by: / { by = substr($0, 5) }
             /^equivalent: / { equivalent = substr($0, 13) }
-            END { row() }' "$lists/$name.txt"
-    done
+            END { row(); print "" }' "$lists/$name.txt"
+    done | sed '$d'
 }
 
 all=(structural reductions explicit stubborn temporal coverability tpn certificate)

@@ -67,7 +67,8 @@ done <"$work/names"
 # or a macro over them makes of it, has a player's roots here.
 find ../../models/src src -name '*.rs' -exec awk '
     /^ *(cotama_core::|crate::)?(net|system)! *\{/ { open = 1 }
-    open && /^ *(pub )?mod [a-z0-9_]+ *(extends .*)?\{/ { sub(/pub /, ""); print $2; open = 0 }' {} + | sort -u >"$work/shipped"
+    open && /^ *(pub )?mod [a-z0-9_]+ *(extends .*)?\{/ { sub(/pub /, ""); print $2; open = 0 }
+' {} + | sort -u >"$work/shipped"
 sed -n 's/^\(root\|open\)_\(.*\)_start$/\2/p' "$work/names" | sort >"$work/rooted"
 if ! diff "$work/shipped" "$work/rooted"; then
     echo "the nets and systems of models/src (<) and those that have roots (>) differ" >&2

@@ -9,9 +9,11 @@
 //! 1. Transitions without event fire as soon as their interval allows, the one due first going
 //!    first; of several due at the same instant the one of the highest priority, then the earlier
 //!    one. After each of them all nets *settle*: transitions without event and interval fire until
-//!    none is enabled, those of the first component first.
+//!    none is enabled, those of the first component first. Where it is not proven that they come
+//!    to an end, [`SETTLE`] of them are enough, and the player is behind.
 //! 2. An event is *offered*: the first enabled transition on it fires (by priority, then by line),
-//!    and all nets settle; or the event is ignored, and the player says why.
+//!    and all nets settle; or the event is ignored, and the player says why. An ignored event, too,
+//!    empties the mailboxes that it clears.
 //! 3. In a *round* each net takes its turn, in the order of the system: it settles, then reads its
 //!    mailboxes in the order in which its events are listed, each as far as it is filled when the
 //!    net comes to it. An event that it reads makes a transition fire, or the net ignores it for
@@ -19,10 +21,12 @@
 //!    [`Player::round_is_due`] says whether something waits; a net alone has no mailboxes.
 //!
 //! **A firing.** An output that a transition emits *now* makes the receivers fire in the same step,
-//! one after the other and depth first; one that it *mails* waits. Then its net settles. All of it
-//! happens or nothing: when a mailbox on the way is full, an offered event is
-//! [refused](Outcome::Refused), a transition that would fire by itself waits until there is room,
-//! and the system is as it was. An event carries a value of type `M` along; everything that happens
+//! one after the other and depth first; one that it *mails* waits. When all that it says has
+//! arrived, its net settles. All of it happens or nothing: when a mailbox on the way is full, an
+//! offered event is [refused](Outcome::Refused), a transition that would fire by itself waits until
+//! there is room, and the system is as it was. A full place is another matter: the transition that
+//! would fill it further does not fire, and what it would have answered is
+//! [ignored](Why::Full). An event carries a value of type `M` along; everything that happens
 //! because of it has that value too.
 //!
 //! **Time.** The clock of a transition starts when the marking enables it, and starts anew whenever

@@ -1,7 +1,9 @@
-//! Whether the lists of a system fit together, in n log n time.
+//! Whether the lists of a system fit together: in n log n time, and in the square of what one
+//! transition says.
 
 use super::data::{Binding, Clear, DEPTH, Delivery, Link, Of, System, Target};
-use crate::net::data::{EventId, PlaceId, Role, TransitionId};
+use super::index::{Index, key, position};
+use crate::net::data::{PlaceId, Role, TransitionId};
 use crate::net::defect::Defect;
 use core::fmt;
 
@@ -45,6 +47,8 @@ pub enum SystemDefect {
     },
     /// A transition changes a shared place that is a mailbox.
     ChangesMailbox(Of<TransitionId>),
+    /// A transition mails more to one event at once than its mailbox holds: it could never fire.
+    Overfills(Of<TransitionId>),
 }
 
 impl fmt::Display for SystemDefect {
@@ -83,109 +87,17 @@ impl fmt::Display for SystemDefect {
                  can only be read",
                 id.0
             ),
+            Self::Overfills(Of { component, id }) => write!(
+                f,
+                "transition {} of net {component} mails more at once than a mailbox holds, so it \
+                 could never fire; give the mailbox more room",
+                id.0
+            ),
         }
     }
 }
 
 impl core::error::Error for SystemDefect {}
-
-/// Numbers of a component and of something of its net as one, and a position in a list.
-type Entry = (u64, u32);
-
-const fn key(component: u16, id: u32) -> u64 {
-    (component as u64) << 32 | id as u64
-}
-
-/// Finds the links to an event and the bindings of a place. Its memory is as long as the lists of
-/// the system.
-pub(super) struct Index<'i> {
-    /// As many as links.
-    pub(super) links: &'i mut [Entry],
-    /// As many as bindings.
-    pub(super) bindings: &'i mut [Entry],
-    /// As many as components: how many rendezvous can follow from one another.
-    pub(super) chains: &'i mut [u8],
-}
-
-impl Index<'_> {
-    const fn fill(&mut self, system: &System<'_>) {
-        let mut at = 0;
-        while at < system.links.len() {
-            let to = system.links[at].to;
-            self.links[at] = (key(to.component, to.id.0), at as u32);
-            at += 1;
-        }
-        let mut at = 0;
-        while at < system.bindings.len() {
-            let shared = system.bindings[at].shared;
-            self.bindings[at] = (key(shared.component, shared.id.0), at as u32);
-            at += 1;
-        }
-        sort(self.links);
-        sort(self.bindings);
-    }
-
-    const fn delivery(&self, system: &System<'_>, to: Of<EventId>) -> Option<Delivery> {
-        match first(self.links, key(to.component, to.id.0)) {
-            Some(at) => Some(system.links[at].delivery),
-            None => None,
-        }
-    }
-
-    const fn mailbox(&self, system: &System<'_>, of: Of<EventId>) -> Option<u16> {
-        match self.delivery(system, of) {
-            Some(Delivery::Mail { capacity }) => Some(capacity),
-            _ => None,
-        }
-    }
-
-    const fn binding(&self, shared: Of<PlaceId>) -> Option<usize> {
-        first(self.bindings, key(shared.component, shared.id.0))
-    }
-}
-
-/// Sorts by heap: n log n steps, no memory.
-const fn sort(list: &mut [Entry]) {
-    let (mut root, mut end) = (list.len() / 2, list.len());
-    while end > 1 {
-        if root > 0 {
-            root -= 1;
-        } else {
-            end -= 1;
-            list.swap(0, end);
-        }
-        let mut at = root;
-        while 2 * at + 1 < end {
-            let mut child = 2 * at + 1;
-            if child + 1 < end && less(list[child], list[child + 1]) {
-                child += 1;
-            }
-            if !less(list[at], list[child]) {
-                break;
-            }
-            list.swap(at, child);
-            at = child;
-        }
-    }
-}
-
-const fn less(a: Entry, b: Entry) -> bool {
-    a.0 < b.0 || a.0 == b.0 && a.1 < b.1
-}
-
-/// The first position of this key.
-const fn first(sorted: &[Entry], key: u64) -> Option<usize> {
-    let (mut from, mut to) = (0, sorted.len());
-    while from < to {
-        let middle = usize::midpoint(from, to);
-        if sorted[middle].0 < key {
-            from = middle + 1;
-        } else {
-            to = middle;
-        }
-    }
-    if from < sorted.len() && sorted[from].0 == key { Some(sorted[from].1 as usize) } else { None }
-}
 
 impl System<'_> {
     /// What is wrong with it, if anything. Its nets are taken to be sound.
@@ -194,6 +106,7 @@ impl System<'_> {
         use alloc::vec;
         self.defect_by(&mut Index {
             links: &mut vec![(0, 0); self.links.len()],
+            says: &mut vec![(0, 0); self.links.len()],
             bindings: &mut vec![(0, 0); self.bindings.len()],
             chains: &mut vec![0; self.components.len()],
         })
@@ -215,6 +128,7 @@ impl System<'_> {
             self.binding_defect(index),
             self.unbound(index),
             self.changed_mailbox(index),
+            self.overfilled(index),
         ];
         let mut at = 0;
         while at < defects.len() {
@@ -341,6 +255,47 @@ impl System<'_> {
             component += 1;
         }
         None
+    }
+
+    /// A transition that mails more to one event at once than there is room for.
+    const fn overfilled(&self, index: &Index<'_>) -> Option<SystemDefect> {
+        let mut link = 0;
+        while link < index.says.len() {
+            let Link { from: Of { component, .. }, .. } = self.links[index.says[link].1 as usize];
+            let transitions = self.components[component as usize].net.transitions;
+            let mut at = 0;
+            while at < transitions.len() {
+                let from = Of { component, id: TransitionId(at as u32) };
+                if self.overfills(index, from) {
+                    return Some(SystemDefect::Overfills(from));
+                }
+                at += 1;
+            }
+            // On to the links of the next net.
+            link = position(index.says, key(component + 1, 0));
+        }
+        None
+    }
+
+    const fn overfills(&self, index: &Index<'_>, from: Of<TransitionId>) -> bool {
+        let emits =
+            self.components[from.component as usize].net.transitions[from.id.0 as usize].emits;
+        let mut emit = 0;
+        while emit < emits.len() {
+            let key = key(from.component, emits[emit].0);
+            let mut at = position(index.says, key);
+            while at < index.says.len() && index.says[at].0 == key {
+                let Link { to, delivery, .. } = self.links[index.says[at].1 as usize];
+                if let Delivery::Mail { capacity } = delivery
+                    && index.mailed(self, from, to) > capacity as usize
+                {
+                    return true;
+                }
+                at += 1;
+            }
+            emit += 1;
+        }
+        false
     }
 
     /// A rendezvous that comes back to where it began, or goes on too long. In each round every

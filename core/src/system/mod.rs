@@ -8,6 +8,7 @@
 mod clauses;
 pub(crate) mod data;
 pub(crate) mod defect;
+mod index;
 #[allow(
     clippy::large_types_passed_by_value,
     clippy::result_large_err,

@@ -1,9 +1,10 @@
 //! Names of a system, looked up while compiling: what `system!` writes.
 
 use super::data::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
-use super::defect::{Index, SystemDefect};
+use super::defect::SystemDefect;
+use super::index::Index;
 use crate::net::text::{Text, distance, same};
-use crate::net::{EventId, OutputId, PlaceId, Signal};
+use crate::net::{EventId, OutputId, PlaceId, Signal, TransitionId};
 
 /// A component and something of its net, as they were written.
 pub type Port<'n> = (&'n str, &'n str);
@@ -289,8 +290,12 @@ const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
 
 /// Ends the compilation when something is wrong with a system of so many links, bindings and nets.
 pub const fn check<const L: usize, const B: usize, const N: usize>(system: &System<'_>) {
-    let mut index =
-        Index { links: &mut [(0, 0); L], bindings: &mut [(0, 0); B], chains: &mut [0; N] };
+    let mut index = Index {
+        links: &mut [(0, 0); L],
+        says: &mut [(0, 0); L],
+        bindings: &mut [(0, 0); B],
+        chains: &mut [0; N],
+    };
     let Some(defect) = system.defect_by(&mut index) else { return };
     let text = Text::new().with("system ").name(system.name).with(": ");
     match defect {
@@ -330,14 +335,21 @@ pub const fn check<const L: usize, const B: usize, const N: usize>(system: &Syst
             .name(system.components[component as usize].name)
             .with(" back to it, or on over more than 8 nets; use mail for one of them")
             .stop(),
-        SystemDefect::ChangesMailbox(of) => {
-            let component = &system.components[of.component as usize];
-            text.with("transition ")
-                .with(component.name)
-                .with(".")
-                .with(component.net.transitions[of.id.0 as usize].name)
-                .with(" changes a shared place that is a mailbox; it can only be read")
-                .stop()
-        }
+        SystemDefect::ChangesMailbox(of) => line(text, system, of)
+            .with(" changes a shared place that is a mailbox; it can only be read")
+            .stop(),
+        SystemDefect::Overfills(of) => line(text, system, of)
+            .with(" mails more at once than a mailbox holds, so it could never fire; ")
+            .with("give the mailbox more room")
+            .stop(),
     }
+}
+
+/// Adds what a transition is called.
+const fn line(text: Text, system: &System<'_>, of: Of<TransitionId>) -> Text {
+    let component = &system.components[of.component as usize];
+    text.with("transition ")
+        .with(component.name)
+        .with(".")
+        .with(component.net.transitions[of.id.0 as usize].name)
 }

@@ -147,3 +147,23 @@ fn large_systems_are_looked_through_at_once() {
     let transition = of(0, TransitionId(64_994));
     assert_eq!(changed.defect(), Some(SystemDefect::ChangesMailbox(transition)));
 }
+
+/// Two at once fit into a mailbox of two, not into one of one.
+#[test]
+fn a_transition_that_mails_more_than_fits_is_a_defect() {
+    let mut net = OwnedNet::new("twice", "");
+    let (a, b) = (net.output("a", "").unwrap(), net.output("b", "").unwrap());
+    net.transition(OwnedTransition::new("one").emit(a)).unwrap();
+    net.transition(OwnedTransition::new("both").emit(a).emit(b)).unwrap();
+    let net = net.view();
+    let net = net.net();
+    let components =
+        [Component { name: "relay", net: &relay::NET }, Component { name: "twice", net: &net }];
+    let links = |capacity| {
+        let delivery = Delivery::Mail { capacity };
+        [a, b].map(|from| Link { from: of(1, from), to: of(0, EventId(0)), delivery })
+    };
+    assert_eq!(linked(&components, &links(2)).defect(), None);
+    let defect = linked(&components, &links(1)).defect();
+    assert_eq!(defect, Some(SystemDefect::Overfills(of(1, TransitionId(1)))));
+}

@@ -27,7 +27,8 @@ impl<P: Names> Observer<P> for Heard {
 macro_rules! roots {
     ($($kind:ident $name:ident: $module:path;)*) => {$(
         mod $name {
-            use super::{Advanced, Heard, Millis, Outcome, RestoreError, Snapshot, Stepped, TransitionId};
+            use super::{Advanced, Heard, Millis, Outcome, RestoreError};
+            use super::{Snapshot, Stepped, TransitionId};
             use $module as net;
             use net::{Checked, Event, Place, Player, Program, Transition};
 
@@ -37,7 +38,9 @@ macro_rules! roots {
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_offer"))]
-            fn offer(player: &mut Player, now: Millis, event: &Event, heard: &mut Heard) -> Outcome<Transition> {
+            fn offer(
+                player: &mut Player, now: Millis, event: &Event, heard: &mut Heard,
+            ) -> Outcome<Transition> {
                 player.offer_with(now, event, heard)
             }
 
@@ -52,12 +55,16 @@ macro_rules! roots {
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_step"))]
-            fn step(player: &mut Checked, now: Millis, events: &[Event], heard: &mut Heard) -> Stepped {
+            fn step(
+                player: &mut Checked, now: Millis, events: &[Event], heard: &mut Heard,
+            ) -> Stepped {
                 player.step_with(now, events, heard)
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_checked"))]
-            fn checked(player: &mut Checked, now: Millis, event: &Event, heard: &mut Heard) -> Outcome<Transition> {
+            fn checked(
+                player: &mut Checked, now: Millis, event: &Event, heard: &mut Heard,
+            ) -> Outcome<Transition> {
                 player.offer_with(now, event, heard)
             }
 

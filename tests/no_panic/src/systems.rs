@@ -44,7 +44,8 @@ macro_rules! roots {
     ($($name:ident: $module:path;)*) => {$(
         mod $name {
             use super::{
-                Advanced, EventId, Message, Millis, Of, Outcome, PlaceId, RestoreError, Round, Seen, Snapshot,
+                Advanced, EventId, Message, Millis, Of, Outcome, PlaceId, RestoreError, Round, Seen,
+                Snapshot,
             };
             use $module as system;
             use system::{Event, Program, Transition};
@@ -65,10 +66,12 @@ macro_rules! roots {
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_checked"))]
             fn checked(
-                player: &mut Checked, now: Millis, event: Of<EventId>, message: Message, seen: &mut Seen,
+                player: &mut Checked, now: Millis, event: Of<EventId>, message: Message,
+                seen: &mut Seen,
             ) -> bool {
                 let fired = player.offer_id(now, event, message, seen).fired();
-                fired & !player.round_with(now, seen).behind & !player.advance_with(now, seen).behind
+                let round = player.round_with(now, seen);
+                fired & !round.behind & !player.advance_with(now, seen).behind
             }
 
             #[unsafe(export_name = concat!("root_", stringify!($name), "_round"))]
@@ -112,5 +115,6 @@ macro_rules! roots {
 roots! {
     delivery: cotama_models::cotama::delivery;
     recovering: cotama_models::cotama::recovering;
+    supervision: cotama_models::cotama::supervision;
     watched: crate::on_time::watched;
 }

@@ -58,8 +58,11 @@
 //! | | `reachable`, `always-can` | `place` |
 //! | | `deadlock-free` | `end` (a place, optional) |
 //! | | `handles-all`, `settles`, `deterministic` | |
-//! | place | `place` | `name`, `doc`, `bound`, `role` (`state`, `data`, `complement`, `shared`, `mailbox`), `of` (the place of a complement) |
-//! | transition | `transition` | `name`, `doc`, `line`, `on` (an event), `emits` (outputs), `earliest`, `latest` (milliseconds), `priority` |
+//! | place | `place` | `name`, `doc`, `bound` |
+//! | | | `role`: `state`, `data`, `complement`, `shared`, `mailbox` |
+//! | | | `of`: the place of a complement |
+//! | transition | `transition` | `name`, `doc`, `line`, `on` (an event), `emits` (outputs) |
+//! | | | `earliest`, `latest` (milliseconds), `priority` |
 //! | arc | `arc` | `read`: how many of its tokens belong to a read arc |
 //!
 //! Places, events and outputs are named by their ids. What is not there has its default: no

@@ -32,7 +32,10 @@
 //! | CTL, then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
 //! | `bounds(p1 + p2)` | [`Question::Bound`] |
 //! | `bound(t -> p)` | [`Question::Response`] |
-//! | `live`, `quasi_live`, `stable`, `one_safe` | [`Question::Liveness`], [`Question::QuasiLiveness`], [`Question::StableMarking`], [`Question::OneSafe`] |
+//! | `live` | [`Question::Liveness`] |
+//! | `quasi_live` | [`Question::QuasiLiveness`] |
+//! | `stable` | [`Question::StableMarking`] |
+//! | `one_safe` | [`Question::OneSafe`] |
 //!
 //! Operators from the one that binds loosest to the one that binds tightest:
 //!
@@ -43,7 +46,7 @@
 //! | `\|`, `\|\|`, `or` | disjunction |
 //! | `&`, `&&`, `and` | conjunction |
 //! | `U` | until, from right to left; beside one of the above it stands in parentheses |
-//! | `!`, `not`, `A`, `E`, `X`, `F`, `G`, `AX`, `EX`, `AF`, `EF`, `AG`, `EG` | negation; quantifiers and temporal operators, alone or as a pair |
+//! | `!`, `not`, `A`, `E`, `X`, `F`, `G`, pairs such as `AG` | negation, quantifier, temporal |
 //! | `<=`, `<`, `>=`, `>`, `=`, `==`, `!=` | comparison of numbers of tokens |
 //! | `+`, `-` | sum, difference |
 //! | `*` | product, of which one factor is a number |

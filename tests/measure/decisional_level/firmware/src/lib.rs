@@ -14,7 +14,9 @@ use decisional_level::{Concluded, Robot};
 // `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
 // `robot_`, which nothing else does, and the linker starts at them.
 macro_rules! entries {
-    ($($(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $(-> $out:ty)? = $body:expr;)*) => {$(
+    ($(
+        $(#[$doc:meta])* $name:ident($($arg:ident: $type:ty),*) $(-> $out:ty)? = $body:expr;
+    )*) => {$(
         $(#[$doc])*
         #[unsafe(no_mangle)]
         #[inline(never)]
@@ -26,21 +28,26 @@ entries! {
     /// At rest.
     robot_new(load: Load) -> Option<Robot> = Robot::new(load);
     /// An event from outside.
-    robot_tell(level: &mut DecisionalLevel, told: Told) = decisional_level::reach::tell(level, told);
+    robot_tell(level: &mut DecisionalLevel, told: Told) =
+        decisional_level::reach::tell(level, told);
     /// A round.
     robot_round(level: &mut DecisionalLevel) = decisional_level::reach::round(level);
     /// An event from outside, with everything that fires shown to a witness.
     robot_tell_seen(robot: &mut Robot, now: Millis, told: Told, cause: Cause, fired: &mut u32) =
         robot.tell(now, told, cause, fired);
     /// A round, seen; whether the robot may move.
-    robot_round_seen(robot: &mut Robot, now: Millis, fired: &mut u32) -> bool = robot.round(now, fired);
+    robot_round_seen(robot: &mut Robot, now: Millis, fired: &mut u32) -> bool =
+        robot.round(now, fired);
     /// Flags.
-    robot_observe(robot: &mut Robot, raised: Flags, part: Modules) -> Concluded = robot.observe(raised, part);
+    robot_observe(robot: &mut Robot, raised: Flags, part: Modules) -> Concluded =
+        robot.observe(raised, part);
     /// Time, a job that is done, a fault that was answered.
-    robot_schedule(robot: &mut Robot, now: Micros, done: Option<usize>, answered: Option<usize>) -> Option<Happening> =
-        robot.schedule(now, done, answered);
+    robot_schedule(
+        robot: &mut Robot, now: Micros, done: Option<usize>, answered: Option<usize>
+    ) -> Option<Happening> = robot.schedule(now, done, answered);
     /// Consumption.
-    robot_watch(robot: &mut Robot, spent: &[u64; 2], rest: &[u64; 2]) -> Option<Request> = robot.watch(spent, rest);
+    robot_watch(robot: &mut Robot, spent: &[u64; 2], rest: &[u64; 2]) -> Option<Request> =
+        robot.watch(spent, rest);
     /// A plan by the rule of the paper.
     robot_plan_by_rule(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
         robot.plan_by_rule(first, rest, units);
