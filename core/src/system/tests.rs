@@ -153,8 +153,9 @@ fn large_systems_are_looked_through_at_once() {
 fn a_transition_that_mails_more_than_fits_is_a_defect() {
     let mut net = OwnedNet::new("twice", "");
     let (a, b) = (net.output("a", "").unwrap(), net.output("b", "").unwrap());
-    net.transition(OwnedTransition::new("one").emit(a)).unwrap();
-    net.transition(OwnedTransition::new("both").emit(a).emit(b)).unwrap();
+    for (name, emits) in [("one", std::vec![a]), ("both", std::vec![a, b])] {
+        net.transition(OwnedTransition { emits, ..OwnedTransition::new(name) }).unwrap();
+    }
     let net = net.view();
     let net = net.net();
     let components =
