@@ -5,6 +5,7 @@
 
 mod allocate;
 mod bad_input;
+mod book;
 mod broken_pnml;
 mod check;
 mod common;

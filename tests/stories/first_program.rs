@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-const PAGE: &str = include_str!("../../docs/first-program.md");
+const PAGE: &str = include_str!("../../docs/first-supervisor.md");
 
 /// The text of the block in this language.
 fn block(language: &str) -> &'static str {

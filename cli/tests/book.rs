@@ -1,0 +1,134 @@
+//! The README and the pages in `docs/`, followed word by word: every command that they show runs,
+//! and prints what they say.
+//!
+//! A block ```` ```console ```` shows commands (`$ cotama ...`) and what they print; `…` stands for
+//! any text in a line, and alone for any lines. `# exit code 1` behind a command says how it ends.
+//! A block with a name behind its language, ```` ```toml room.toml ````, is a file that the commands
+//! after it find in their folder. A page has one folder. `UPDATE_GOLDEN=1` writes the whole output
+//! of commands that print something else into the page.
+
+use crate::common::Folder;
+use std::fmt::Write as _;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// What is not run here, as it needs a clone or takes long; `.ci/run` does.
+const ELSEWHERE: [&str; 4] = [
+    "cargo run --release -- run patrol",
+    "cargo test --workspace",
+    "cargo install --path cli",
+    "cargo test",
+];
+
+fn pages() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let docs = fs::read_dir(root.join("docs")).unwrap().map(|it| it.unwrap().path());
+    let mut pages: Vec<_> = docs.filter(|it| it.extension().is_some_and(|it| it == "md")).collect();
+    pages.push(root.join("README.md"));
+    pages.sort();
+    pages
+}
+
+/// Whether a line is as shown, where `…` is any text.
+fn reads(line: &str, shown: &str) -> bool {
+    let mut parts = shown.split('…');
+    let Some(mut rest) = parts.next().and_then(|first| line.strip_prefix(first)) else {
+        return false;
+    };
+    let mut last = None;
+    for part in parts {
+        let Some(at) = rest.find(part) else { return false };
+        (rest, last) = (&rest[at + part.len()..], Some(part));
+    }
+    // What ends with `…` ends in any way.
+    rest.is_empty() || last == Some("") || last.is_some_and(|it| line.ends_with(it))
+}
+
+/// Whether lines are as shown, where a line `…` is any lines.
+fn is_shown(lines: &[&str], shown: &[&str]) -> bool {
+    match shown.split_first() {
+        None => lines.is_empty(),
+        Some((&"…", shown)) => (0..=lines.len()).any(|at| is_shown(&lines[at..], shown)),
+        Some((first, shown)) => lines
+            .split_first()
+            .is_some_and(|(line, lines)| reads(line.trim_end(), first) && is_shown(lines, shown)),
+    }
+}
+
+/// Runs the commands of a block; the block with what they print, where that is something else.
+fn follow(block: &[&str], folder: &Folder, page: &str) -> String {
+    let mut written = String::new();
+    let mut at = 0;
+    while at < block.len() {
+        let command = block[at].strip_prefix("$ ");
+        let command = command.unwrap_or_else(|| panic!("{page}: no command: {}", block[at]));
+        let end = (at + 1..block.len()).find(|&it| block[it].starts_with("$ "));
+        let shown = &block[at + 1..end.unwrap_or(block.len())];
+        let expected = i32::from(command.contains("# exit code 1"))
+            + 2 * i32::from(command.contains("# exit code 2"))
+            + 3 * i32::from(command.contains("# exit code 3"));
+        let ended = folder.shell(&format!("exec 2>&1\n{command}"));
+        assert_eq!(ended.code, Some(expected), "{page}: {command}: {ended:?}");
+        let lines: Vec<&str> = ended.stdout.lines().collect();
+        let shown_lines: Vec<&str> = shown.iter().map(|it| it.trim_end()).collect();
+        let _ = writeln!(written, "{}", block[at]);
+        let printed = if is_shown(&lines, &shown_lines) { shown } else { &lines[..] };
+        for line in printed {
+            let _ = writeln!(written, "{}", line.trim_end());
+        }
+        at = end.unwrap_or(block.len());
+    }
+    written
+}
+
+#[test]
+fn every_page_says_what_the_program_does() {
+    let mut commands = 0;
+    for path in pages() {
+        let page = path.file_name().unwrap().to_str().unwrap();
+        let text = fs::read_to_string(&path).unwrap();
+        let folder = Folder::new(&format!("book_{page}"));
+        let (mut written, mut lines) = (String::new(), text.lines());
+        while let Some(line) = lines.next() {
+            let _ = writeln!(written, "{line}");
+            let Some(info) = line.strip_prefix("```") else { continue };
+            let block: Vec<&str> = lines.by_ref().take_while(|it| *it != "```").collect();
+            let body = match info.split_once(' ') {
+                _ if info == "console" => {
+                    commands += block.iter().filter(|it| it.starts_with("$ ")).count();
+                    follow(&block, &folder, page)
+                }
+                _ if info == "sh" => {
+                    for line in &block {
+                        let command = line.split(" #").next().unwrap().trim();
+                        assert!(ELSEWHERE.contains(&command), "{page}: nothing runs {line:?}");
+                    }
+                    block.join("\n") + "\n"
+                }
+                Some((_, name)) => {
+                    let body = block.join("\n") + "\n";
+                    folder.write(name, &body);
+                    body
+                }
+                None => block.iter().map(|it| format!("{it}\n")).collect(),
+            };
+            let _ = writeln!(written, "{body}```");
+        }
+        cotama_golden::compare(&path, &written);
+    }
+    assert!(commands > 10, "{commands}");
+}
+
+#[test]
+fn every_link_of_a_page_leads_somewhere() {
+    for path in pages() {
+        let text = fs::read_to_string(&path).unwrap();
+        for (_, target) in text.match_indices("](").map(|(at, _)| (at, &text[at + 2..])) {
+            let target = target.split([')', '#']).next().unwrap();
+            if target.is_empty() || target.starts_with("http") {
+                continue;
+            }
+            assert!(path.parent().unwrap().join(target).exists(), "{}: {target}", path.display());
+        }
+    }
+}
