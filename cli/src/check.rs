@@ -3,7 +3,10 @@
 pub(crate) mod contest;
 mod explained;
 mod files;
+mod junit;
 mod questions;
+mod sarif;
+mod watch;
 
 use crate::answers::check::{
     Amount, CheckAnswer, EvidenceName, Infinite, OtherwiseRow, ResponseRow, ResultRow, VerdictName,
@@ -12,8 +15,9 @@ use crate::args::{CheckArgs, EngineName};
 use crate::budget::Budget;
 use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
-use crate::output::Screen;
+use crate::output::{self, Screen};
 use crate::progress::Progress;
+use crate::render::style::NAME;
 use crate::render::{self, visible};
 use crate::subject::Subject;
 use cotama_verification::certificate::Evidence;
@@ -25,8 +29,23 @@ use cotama_verification::tpn::Time;
 use files::Files;
 use std::time::Instant;
 
-/// Answers all questions to a model.
+/// Answers all questions to a model; with `--watch` again whenever a file changes.
 pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if !args.watch {
+        return once(args, screen);
+    }
+    let files = watch::files(args)?;
+    loop {
+        let before = watch::stamps(&files);
+        if let Err(failure) = once(args, screen) {
+            screen.explain(&failure);
+        }
+        screen.note("watching; Ctrl-C ends it");
+        watch::until_changed(&files, &before);
+    }
+}
+
+fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     let engine = engine(args.engine)?;
     let mut files = Files::new(args)?;
     let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
@@ -46,6 +65,12 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
     files.of = asked.properties.len();
     let (budget, progress) = (Budget::start(args.budget), Progress::new());
     let (mut results, mut texts) = (Vec::new(), Vec::new());
+    // A person sees each verdict when it is known.
+    let shows = !args.json.json && !args.mcc;
+    if shows {
+        let (name, timed, width) = (&subject.name, subject.is_timed(), screen.width());
+        screen.print(&render::check::head(name, timed, &subject.notes, width))?;
+    }
     let plain = Checker::new(&subject.model);
     for (position, property) in asked.properties.iter().enumerate() {
         let watched = asked.watched.get(position).and_then(Option::as_ref);
@@ -101,6 +126,9 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
             row.vacuous = explained::vacuity(checker, subject, property, &answer, &options);
             progress.clear();
         }
+        if shows {
+            screen.print(&render::check::result(&row, asked.is_usual, screen.width()))?;
+        }
         texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
         results.push(row);
     }
@@ -115,10 +143,16 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
         results,
         otherwise,
     };
+    for (file, text) in [(&args.junit, junit::text(&answer)), (&args.sarif, sarif::text(&answer))] {
+        if let Some(path) = file {
+            output::file(path, text.as_bytes())?;
+            screen.note(&format!("written: {NAME}{}{NAME:#}", path.display()));
+        }
+    }
     if args.json.json {
         Screen::json(&answer)?;
-    } else if !args.mcc {
-        screen.print(&render::check::screen(&answer, &texts, asked.is_usual, screen.width()))?;
+    } else if shows {
+        screen.print(&render::check::reasons(&answer, &texts, screen.width()))?;
     }
     Ok(ended(&answer.results))
 }

@@ -94,6 +94,7 @@ fn every_page_says_what_the_program_does() {
             let Some(info) = line.strip_prefix("```") else { continue };
             let block: Vec<&str> = lines.by_ref().take_while(|it| *it != "```").collect();
             let body = match info.split_once(' ') {
+                _ if block.is_empty() => String::new(),
                 _ if info == "console" => {
                     commands += block.iter().filter(|it| it.starts_with("$ ")).count();
                     follow(&block, &folder, page)
@@ -110,7 +111,7 @@ fn every_page_says_what_the_program_does() {
                     folder.write(name, &body);
                     body
                 }
-                None => block.iter().map(|it| format!("{it}\n")).collect(),
+                None => block.join("\n") + "\n",
             };
             let _ = writeln!(written, "{body}```");
         }

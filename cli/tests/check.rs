@@ -400,3 +400,49 @@ fn of_several_properties_each_has_a_file_of_its_own() {
     let run: serde_json::Value = serde_json::from_str(&folder.read("run.json")).unwrap();
     assert_eq!((&run["holds"], &run["deadlock"]), (&json!(false), &json!(true)));
 }
+
+/// A net that stops, as a test case that fails and a finding with the way there.
+#[test]
+fn build_servers_and_editors_read_the_verdicts() {
+    let folder = Folder::new("check_reports");
+    folder.write("alarm.net", ALARM);
+    let more = ["--untimed", "--junit", "a.xml", "--sarif", "a.sarif", "--max-states", "3"];
+    let ended = check(&folder, "alarm.net", &["AG !old", "AG EF idle", "EF noise"], &more);
+    assert_eq!(ended.code, Some(1), "{ended:?}");
+    let text = folder.read("a.xml");
+    let without_times = text.lines().map(|it| match it.rsplit_once(" time=") {
+        Some((before, after)) => {
+            before.to_owned() + after.trim_start_matches(|it: char| it != '>' && it != '/')
+        }
+        None => it.to_owned(),
+    });
+    golden("check_junit.xml", &(without_times.collect::<Vec<_>>().join("\n") + "\n"));
+    golden("check_sarif.json", &folder.read("a.sarif"));
+}
+
+#[test]
+fn a_file_is_checked_again_when_it_changes() {
+    use std::io::{BufRead, BufReader};
+    use std::process::{Command, Stdio};
+    let folder = Folder::new("check_watch");
+    folder.write("alarm.net", ALARM);
+    let ended = folder.cotama(&["check", "door", "--watch"]);
+    assert_eq!(ended.code, Some(2), "{ended:?}");
+    assert!(ended.stderr.contains("there is no file to watch"), "{ended:?}");
+
+    let mut program = Command::new(env!("CARGO_BIN_EXE_cotama"))
+        .args(["check", "alarm.net", "--untimed", "--property", "EF old", "--watch"])
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .unwrap();
+    let mut lines = BufReader::new(program.stdout.take().unwrap()).lines();
+    let mut verdict =
+        || lines.by_ref().map(Result::unwrap).find(|it| it.ends_with("  EF old")).unwrap();
+    assert!(verdict().starts_with("  true"));
+    folder.write("alarm.net", ALARM.replace("late [3,4] idle", "late [3,4] smoke"));
+    assert!(verdict().starts_with("  false"));
+    program.kill().unwrap();
+    program.wait().unwrap();
+}

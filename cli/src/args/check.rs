@@ -52,6 +52,7 @@ Examples:
   $ cotama check kanban:2 --properties two.txt --mcc   # it has no deadlock: exit code 1
   $ cotama check watchdog --property 'bound(w1 -> Fault)'
   $ cotama check door --untimed --property 'AG (Opening -> AF Open) assuming weak(opened)'
+  $ cotama check kanban:2 --junit kanban.xml --sarif kanban.sarif
   $ cotama check delivery
   $ cotama check delivery --property 'AG (round & gs.Safe -> ls.Idle)'";
 
@@ -132,6 +133,15 @@ pub(crate) struct CheckArgs {
     /// Writes the run that shows the verdict: as a page (.html), a drawing (.svg) or JSON (.json)
     #[arg(long, value_name = "FILE")]
     pub(crate) trace: Option<PathBuf>,
+    /// Checks again whenever the file of the model or of the properties changes
+    #[arg(long, conflicts_with_all = ["json", "mcc"])]
+    pub(crate) watch: bool,
+    /// Writes the verdicts as test cases (JUnit XML), which most build servers show
+    #[arg(long, value_name = "FILE")]
+    pub(crate) junit: Option<PathBuf>,
+    /// Writes the verdicts as findings (SARIF 2.1.0), which editors and forges show
+    #[arg(long, value_name = "FILE")]
+    pub(crate) sarif: Option<PathBuf>,
     /// Prints the lines of the Model Checking Contest
     #[arg(long, conflicts_with = "json")]
     pub(crate) mcc: bool,

@@ -9,22 +9,19 @@ use crate::answers::check::{
 use anstyle::Style;
 use std::fmt::Write;
 
-/// The verdicts, and how they came about, as far as there is a text for each. Laws and usual
-/// questions have names that say enough.
-pub(crate) fn screen(
-    answer: &CheckAnswer,
-    explained: &[Option<String>],
-    is_usual: bool,
-    width: usize,
-) -> String {
-    let how = if answer.timed { "  with its intervals of time" } else { "" };
-    let mut text = format!("{HEADING}{}{HEADING:#}{FAINT}{how}{FAINT:#}\n", visible(&answer.model));
-    for note in &answer.notes {
+/// What is checked.
+pub(crate) fn head(model: &str, timed: bool, notes: &[String], width: usize) -> String {
+    let how = if timed { "  with its intervals of time" } else { "" };
+    let mut text = format!("{HEADING}{}{HEADING:#}{FAINT}{how}{FAINT:#}\n", visible(model));
+    for note in notes {
         text += &wrapped(&format!("note: {note}"), width, "  ");
     }
-    for row in &answer.results {
-        text += &result(row, is_usual, width);
-    }
+    text
+}
+
+/// How verdicts came about, as far as there is a text for each, and what else is known.
+pub(crate) fn reasons(answer: &CheckAnswer, explained: &[Option<String>], width: usize) -> String {
+    let mut text = String::new();
     for (row, explained) in answer.results.iter().zip(explained) {
         if let Some(explained) = explained {
             let _ = write!(text, "\n{}", titled(row, answer.results.len()));
@@ -38,7 +35,7 @@ pub(crate) fn screen(
         }
     }
     if !answer.otherwise.is_empty() {
-        let _ = writeln!(text, "\n{HEADING}without a checker{HEADING:#}");
+        let _ = writeln!(text, "\n{HEADING}not asked here, known otherwise{HEADING:#}");
     }
     for row in &answer.otherwise {
         text += &wrapped(&format!("  {}: {} ({})", row.id, row.sentence, row.how), width, "      ");
@@ -64,8 +61,9 @@ fn visible_list(names: &[String]) -> String {
     names.iter().map(|it| visible(it)).collect::<Vec<_>>().join(", ")
 }
 
-/// One line of verdict, and what is to be said of it.
-fn result(row: &ResultRow, is_usual: bool, width: usize) -> String {
+/// One line of verdict, and what is to be said of it. Laws and usual questions have names that say
+/// enough.
+pub(crate) fn result(row: &ResultRow, is_usual: bool, width: usize) -> String {
     let (style, verdict): (Style, String) = match (row.verdict, row.bound, row.response) {
         (VerdictName::True, Some(bound), _) => (GOOD, shown(bound)),
         (VerdictName::True, _, Some(ResponseRow { min: Some(min), max: Some(max) })) => {
