@@ -200,6 +200,9 @@ impl Source<'_> {
                 .with("a transition cannot put a token into a group: ")
                 .with("name the place that it means instead of ")
                 .name(name)
+                .with(", or write `_ => _ read ")
+                .with(name)
+                .with("` to leave tokens where they are")
                 .stop(),
             (Found::Data(..), _) => self
                 .at_line(line)
