@@ -1,7 +1,7 @@
 //! Sentences made while compiling: what a compile error of `net!` says.
 
 /// The longest text; what goes beyond is cut off with "...".
-const LIMIT: usize = 1_500;
+const LIMIT: usize = 4_000;
 
 /// The most names that are listed when one is not found.
 const LISTED: usize = 12;

@@ -6,6 +6,7 @@ mod can;
 mod cuts;
 mod graph;
 mod judge;
+mod missing;
 mod moves;
 mod settling;
 mod timed;
