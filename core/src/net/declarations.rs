@@ -8,6 +8,7 @@ use super::variant::MOST;
 
 impl Source<'_> {
     /// Refuses what a declaration alone shows to be wrong.
+    #[track_caller]
     pub(super) const fn check(&self) {
         let text = Text::new().with("net ").name(self.name).with(": ");
         let mut at = 0;
@@ -139,6 +140,7 @@ impl Source<'_> {
     }
 }
 
+#[track_caller]
 const fn unique_signals(text: Text, what: &str, signals: &[Signal<'_>]) {
     let mut at = 0;
     while at < signals.len() {

@@ -103,6 +103,7 @@ impl Source<'_> {
     }
 
     /// Ends the compilation: this name is not there.
+    #[track_caller]
     pub(super) const fn nothing(&self, text: Text, name: &str, meant: Meant) -> ! {
         let (places, own) = (self.places.len(), self.own_places());
         let (what, mut from, to, groups) = match meant {
@@ -128,11 +129,13 @@ impl Source<'_> {
         text.unknown(what, name, known.split_at(count).0)
     }
 
+    #[track_caller]
     pub(super) const fn event(&self, text: Text, name: &str) -> EventId {
         EventId(signal(text, "event", self.events, name))
     }
 
     /// A place, flag or counter that a law or an ignored event names.
+    #[track_caller]
     pub(super) const fn place(&self, text: Text, name: &str, meant: Meant) -> PlaceId {
         match self.find(name) {
             Found::Place(place) | Found::Data(place, _) => PlaceId(place as u32),
@@ -142,6 +145,7 @@ impl Source<'_> {
     }
 }
 
+#[track_caller]
 pub(super) const fn signal(text: Text, what: &str, signals: &[Signal<'_>], name: &str) -> u32 {
     let mut at = 0;
     while at < signals.len() {

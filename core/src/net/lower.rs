@@ -66,6 +66,7 @@ impl<
 > Lowered<'n, PLACES, TRANSITIONS, ARCS, EMITS, TEXT, IGNORED, LAWS>
 {
     /// Looks every name up.
+    #[track_caller]
     pub const fn of(source: &Source<'n>) -> Self {
         let row = Row {
             name: EMPTY,
@@ -113,6 +114,7 @@ impl<
     }
 
     /// Adds the transitions of a line.
+    #[track_caller]
     const fn lines(&mut self, at: usize) {
         let source = self.source;
         let line = &source.lines[at];
@@ -165,6 +167,7 @@ impl<
         }
     }
 
+    #[track_caller]
     const fn outputs(&mut self, line: &Line<'_>) -> Span {
         let start = self.size.emits;
         let mut at = 0;
@@ -195,6 +198,7 @@ impl<
     }
 
     /// Adds what is ignored, and the laws.
+    #[track_caller]
     const fn claims(&mut self) {
         let source = self.source;
         let text = Text::new().with("net ").name(source.name).with(", ignore: ");
@@ -351,6 +355,7 @@ impl<
     }
 
     /// Its laws.
+    #[track_caller]
     pub const fn laws(&self) -> [Law<'_>; LAWS] {
         let text = Text::new().with("net ").name(self.source.name).with(", laws: ");
         let mut laws = [Law::Settles; LAWS];
@@ -403,6 +408,7 @@ pub const fn lines<const N: usize>(net: &super::Net<'_>) -> [u16; N] {
 }
 
 /// What belongs to each transition, given what belongs to each line.
+#[track_caller]
 pub const fn by_line<T: Copy, const N: usize>(of: &[T], lines: &[u16; N]) -> [T; N] {
     let mut all = match (of, of.first_chunk::<N>()) {
         ([first, ..], _) => [*first; N],

@@ -30,6 +30,7 @@ impl Size {
 
 impl Source<'_> {
     /// How long the lists will be.
+    #[track_caller]
     pub const fn size(&self) -> Size {
         self.check();
         let mut size = Size { places: self.own_places() + self.data(), ..Size::ZERO };

@@ -185,6 +185,7 @@ const fn at_part(of: Part<'_>) -> Text {
 }
 
 /// A number from 0 up.
+#[track_caller]
 pub const fn number(of: Part<'_>, number: i128) -> u64 {
     if number < 0 {
         at_part(of)
@@ -201,6 +202,7 @@ const fn saturated(number: u128) -> u64 {
 }
 
 /// A place with the first of each list of numbers: what was written, or what stands for nothing.
+#[track_caller]
 pub const fn declared<'n>(
     of: Part<'n>,
     text: &'n str,
@@ -221,6 +223,7 @@ pub const fn signal<'n>(name: &'n str, text: &'n str) -> Signal<'n> {
 }
 
 /// The interval that was written for a transition.
+#[track_caller]
 pub const fn interval(of: Part<'_>, written: &[(u64, Option<u64>)]) -> Option<(u64, Option<u64>)> {
     match written {
         [] => None,
@@ -248,6 +251,7 @@ pub const fn priority(numbers: &[i128]) -> i64 {
 }
 
 /// Ends the compilation when an extension replaces a line that the net does not have.
+#[track_caller]
 pub const fn replaced(source: &Source<'_>, names: &[&str]) {
     let mut at = 0;
     while at < names.len() {

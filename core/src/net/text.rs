@@ -1,7 +1,7 @@
 //! Sentences made while compiling: what a compile error of `net!` says.
 
 /// The longest text; what goes beyond is cut off with "...".
-const LIMIT: usize = 1_500;
+const LIMIT: usize = 4_000;
 
 /// The most names that are listed when one is not found.
 const LISTED: usize = 12;
@@ -68,6 +68,10 @@ impl Text {
     }
 
     /// Ends the compilation with this text.
+    ///
+    /// The compiler names each function between the definition and here in a note of several lines,
+    /// but not those with `#[track_caller]`: so what can stop has it.
+    #[track_caller]
     pub(crate) const fn stop(self) -> ! {
         let cut = if self.length == LIMIT { self.cut() } else { self };
         panic!("{}", cut.as_str())
@@ -79,6 +83,7 @@ impl Text {
     }
 
     /// Ends the compilation: this name is not among those that are known.
+    #[track_caller]
     pub(crate) const fn unknown(self, what: &str, name: &str, known: &[&str]) -> ! {
         let text = self.with("there is no ").with(what).with(" ").name(name);
         let (mut best, mut least) = ("", 3);

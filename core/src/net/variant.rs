@@ -36,6 +36,7 @@ pub(super) struct Variant {
 
 impl Source<'_> {
     /// The group that a line takes from or reads; only one can.
+    #[track_caller]
     const fn group(&self, line: &Line<'_>) -> Option<Group<'_>> {
         let mut group = None;
         let mut at = 0;
@@ -59,6 +60,7 @@ impl Source<'_> {
     }
 
     /// How many variants a line has, possible or not.
+    #[track_caller]
     pub(super) const fn variants(&self, line: &Line<'_>) -> usize {
         let mut variants = match self.group(line) {
             Some(group) => group.members.len(),
@@ -96,6 +98,7 @@ impl Source<'_> {
     }
 
     /// The arcs of one variant of a line.
+    #[track_caller]
     pub(super) const fn variant(&self, line: &Line<'_>, number: usize) -> Variant {
         let nothing = Touch { place: PlaceId(0), take: 0, give: 0, need: 0 };
         let mut variant = Variant { touched: [nothing; TOUCHED], length: 0, possible: true };
@@ -161,6 +164,7 @@ impl Source<'_> {
     }
 
     /// A place and weight of a line; `None` for `_`.
+    #[track_caller]
     const fn arc(
         &self,
         line: &Line<'_>,
@@ -196,6 +200,9 @@ impl Source<'_> {
                 .with("a transition cannot put a token into a group: ")
                 .with("name the place that it means instead of ")
                 .name(name)
+                .with(", or write `_ => _ read ")
+                .with(name)
+                .with("` to leave tokens where they are")
                 .stop(),
             (Found::Data(..), _) => self
                 .at_line(line)
@@ -231,6 +238,7 @@ impl Source<'_> {
 
 impl Variant {
     /// What it does to this place.
+    #[track_caller]
     const fn touch(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId) -> &mut Touch {
         let mut at = 0;
         while at < self.length && self.touched[at].place.0 != place.0 {
@@ -249,6 +257,7 @@ impl Variant {
         &mut self.touched[at]
     }
 
+    #[track_caller]
     const fn needs(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId, tokens: u64) {
         let touch = self.touch(source, line, place);
         if tokens > touch.need {
@@ -257,6 +266,7 @@ impl Variant {
     }
 
     /// Adds a condition of the guard.
+    #[track_caller]
     const fn test(&mut self, source: &Source<'_>, line: &Line<'_>, at: usize) {
         let test = line.guard[at];
         let (place, complement) = match source.find(test.name) {
@@ -313,6 +323,7 @@ impl Variant {
     }
 
     /// Adds a change; gives back the number of the variant less what this change used of it.
+    #[track_caller]
     const fn change(
         &mut self,
         source: &Source<'_>,

@@ -22,6 +22,7 @@ const fn says(system: &str, what: &str, port: Port<'_>) -> Text {
         .with(": ")
 }
 
+#[track_caller]
 const fn component(system: &str, components: &[Component<'_>], what: &str, port: Port<'_>) -> u16 {
     let mut at = 0;
     while at < components.len() {
@@ -33,6 +34,7 @@ const fn component(system: &str, components: &[Component<'_>], what: &str, port:
     says(system, what, port).with("there is no net ").name(port.0).stop()
 }
 
+#[track_caller]
 const fn signal(text: Text, net: &str, kind: &str, signals: &[Signal<'_>], name: &str) -> u32 {
     let mut at = 0;
     while at < signals.len() {
@@ -67,6 +69,7 @@ impl<'n> Near<'n> {
         if far < self.least { Self { best: other, least: far, ..self } } else { self }
     }
 
+    #[track_caller]
     const fn stop(self, text: Text, net: &str, kind: &str) -> ! {
         let text =
             text.with("net ").name(net).with(" has no ").with(kind).with(" ").name(self.name);
@@ -79,6 +82,7 @@ impl<'n> Near<'n> {
 }
 
 /// The event of a component.
+#[track_caller]
 pub const fn event(
     system: &str,
     components: &[Component<'_>],
@@ -93,6 +97,7 @@ pub const fn event(
     }
 }
 
+#[track_caller]
 const fn place(system: &str, components: &[Component<'_>], port: Port<'_>) -> Of<PlaceId> {
     let component = component(system, components, "shared", port);
     let net = components[component as usize].net;
@@ -149,6 +154,7 @@ pub const fn at<S: Written>(name: &str) -> u16 {
 }
 
 /// Ends the compilation when an extension names a net that the system does not have.
+#[track_caller]
 pub const fn replaced<S: Written>(system: &str, names: &[&str]) {
     let mut known = 0;
     while known < names.len() {
@@ -166,6 +172,7 @@ pub const fn replaced<S: Written>(system: &str, names: &[&str]) {
 }
 
 /// A delivery by mail into a mailbox with so much room.
+#[track_caller]
 pub const fn mail(system: &str, from: Port<'_>, capacity: i128) -> Delivery {
     if capacity < 1 || capacity > u16::MAX as i128 {
         says(system, "link", from).with("the room of a mailbox is from 1 to 65,535").stop()
@@ -204,6 +211,7 @@ pub const fn count_bindings(written: &[WrittenBinding<'_>]) -> usize {
 }
 
 /// The links.
+#[track_caller]
 pub const fn links<const N: usize>(
     system: &str,
     components: &[Component<'_>],
@@ -234,6 +242,7 @@ pub const fn links<const N: usize>(
 }
 
 /// The bindings.
+#[track_caller]
 pub const fn bindings<const N: usize>(
     system: &str,
     components: &[Component<'_>],
@@ -261,6 +270,7 @@ pub const fn bindings<const N: usize>(
 }
 
 /// The clears.
+#[track_caller]
 pub const fn clears<const N: usize>(
     system: &str,
     components: &[Component<'_>],
@@ -289,6 +299,7 @@ const fn named(text: Text, system: &System<'_>, at: Of<PlaceId>) -> Text {
 }
 
 /// Ends the compilation when something is wrong with a system of so many links, bindings and nets.
+#[track_caller]
 pub const fn check<const L: usize, const B: usize, const N: usize>(system: &System<'_>) {
     let mut index = Index {
         links: &mut [(0, 0); L],

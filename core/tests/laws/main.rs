@@ -7,6 +7,7 @@ mod by_the_player;
 #[path = "../common/draw.rs"]
 #[allow(unreachable_pub)] // the tests across the crates read it too
 mod draw;
+mod missing;
 mod programs;
 mod random;
 mod systems;

@@ -6,6 +6,7 @@ mod can;
 mod cuts;
 mod graph;
 mod judge;
+mod missing;
 mod moves;
 mod settling;
 mod timed;
@@ -55,6 +56,7 @@ impl Known {
 /// Checks bounds, settling and the laws of a net. Ends the compilation with an explanation when one
 /// does not hold, or when the net is too large and does not say that it is left to the checker.
 #[must_use]
+#[track_caller]
 pub const fn check<const W: usize>(
     net: &Net<'_>,
     code: &Code<'_, W>,

@@ -1,6 +1,6 @@
 //! What a violation is called: the text of a compile error.
 
-use super::graph::{Limit, MARKINGS};
+use super::graph::{Graph, Limit, MARKINGS};
 use super::judge::{Culprit, Violation};
 use super::moves::FIRINGS;
 use super::zone::CLOCKS;
@@ -195,11 +195,29 @@ impl<const W: usize> Violation<'_, W> {
                 .with(" is not open"),
             None => text,
         };
-        let text = self.place(net, code, text).with("\n  add a transition on it");
-        match self.first_marked(net, code) {
-            Some(place) => {
-                text.with(", or `ignore { ").with(event).with(" in ").with(place).with("; }`")
-            }
+        let text = self.place(net, code, text);
+        // Explored once more: this is only done to stop the compilation.
+        let missing = Graph::of(net, code).missing(net, code);
+        if missing.pairs > 1 {
+            let text = text
+                .with("\n  one of ")
+                .number(missing.pairs as u64)
+                .with(" missing pairs of event and place: add transitions, or paste ");
+            let lines = missing.lines.as_str();
+            return if net.ignored.is_empty() {
+                text.with("this:\n  ignore {").with(lines).with("\n  }")
+            } else {
+                text.with("into its `ignore`:").with(lines)
+            };
+        }
+        let text = text.with("\n  add a transition on it");
+        match missing.place {
+            Some(place) => text
+                .with(", or `ignore { ")
+                .with(event)
+                .with(" in ")
+                .with(net.places[place.0 as usize].name)
+                .with("; }`"),
             None => text,
         }
     }

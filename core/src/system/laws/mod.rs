@@ -26,6 +26,7 @@ pub enum Claim {
 /// Checks what a system claims: in how many states it rests, or `None` when nothing was explored.
 /// Ends the compilation with an explanation when it does not hold, or when the system is too large.
 #[must_use]
+#[track_caller]
 pub const fn check<const W: usize>(
     system: &System<'_>,
     code: &Code<'_, W>,

@@ -1,0 +1,76 @@
+//! What `handles(all)` says of 12,000 random nets that break it: the lines to paste make it hold.
+
+use crate::draw::Draw;
+use crate::random::{Random, net};
+use cotama_core::net::owned::{OwnedLaw, OwnedNet};
+use cotama_core::net::{Culprit, EventId, Ignored, PlaceId, judge};
+use cotama_core::player::Packed;
+
+const NETS: usize = 12_000;
+
+/// What the compiler would say when a net forgets an event.
+fn said(owned: &OwnedNet) -> Option<String> {
+    let view = owned.view();
+    let net = view.net();
+    let packed = Packed::<1, 9>::alone(&net).unwrap();
+    match judge(&net, &packed.code()) {
+        Err(violation) if matches!(violation.culprit, Culprit::Unanswered { .. }) => {
+            let mut text = String::new();
+            violation.write(&net, &packed.code(), &mut text).unwrap();
+            Some(text)
+        }
+        _ => None,
+    }
+}
+
+/// The pairs of lines as `Go in A & B;`, or of one in a sentence.
+fn pasted(owned: &OwnedNet, text: &str) -> Vec<Ignored> {
+    let view = owned.view();
+    let net = view.net();
+    let event = |name: &str| net.events.iter().position(|it| it.name == name).unwrap() as u32;
+    let place = |name: &str| net.places.iter().position(|it| it.name == name).unwrap() as u32;
+    let mut all = Vec::new();
+    for line in text.lines().filter(|line| line.contains(';') && line.contains(" in ")) {
+        let line = line.split("`ignore { ").last().unwrap();
+        let Some((name, places)) = line.trim().split(';').next().unwrap().split_once(" in ") else {
+            continue;
+        };
+        let event = EventId(event(name));
+        let ignored = |name| Ignored { event, place: PlaceId(place(name)) };
+        all.extend(places.split(" & ").map(ignored));
+    }
+    all
+}
+
+#[test]
+fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
+    let mut random = Random(Draw::new(25));
+    let (mut several, mut one, mut nowhere) = (0, 0, 0);
+    for number in 0..NETS {
+        let mut owned = net(&mut random);
+        owned.laws = vec![OwnedLaw::HandlesAll];
+        let Some(text) = said(&owned) else { continue };
+        let pairs = pasted(&owned, &text);
+        let told = text.lines().find_map(|line| line.trim().strip_prefix("one of "));
+        match told {
+            Some(told) => {
+                let count: usize = told.split(' ').next().unwrap().parse().unwrap();
+                let without = text.matches("// no place is marked").count();
+                assert_eq!(count, pairs.len() + without, "{number}: {text}");
+                several += 1;
+            }
+            None => {
+                assert!(pairs.len() <= 1, "{number}: {text}");
+                one += 1;
+            }
+        }
+        owned.ignored.extend(pairs);
+        if let Some(rest) = said(&owned) {
+            // What is left cannot be ignored.
+            assert!(text.contains("// no place is marked") || told.is_none(), "{number}: {text}");
+            assert!(pasted(&owned, &rest).is_empty(), "{number}: {rest}");
+            nowhere += 1;
+        }
+    }
+    assert!(several > 1_000 && one > 100 && nowhere > 100, "{several} {one} {nowhere}");
+}

@@ -1,0 +1,21 @@
+//! The twin of `handles_many` with what its message says to paste.
+cotama_core::net! {
+    pub mod drive {
+        places { Idle: 1, Turning, Driving, Dark: 1, Lit }
+        events { Go, Stop, On, Off }
+        transitions {
+            turn  on Go:   Idle => Turning;
+            drive on Go:   Turning => Driving;
+            halt  on Stop: Driving => Idle;
+            light on On:   Dark => Lit;
+            dim   on Off:  Lit => Dark;
+        }
+        ignore {
+            Go in Driving;
+            Stop in Idle & Turning;
+            On in Lit;
+            Off in Dark;
+        }
+        laws { handles(all); }
+    }
+}
