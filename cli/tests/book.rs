@@ -133,3 +133,12 @@ fn every_link_of_a_page_leads_somewhere() {
         }
     }
 }
+
+#[test]
+fn every_command_stands_on_the_page_of_commands() {
+    let page = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/commands.md");
+    let page = fs::read_to_string(page).unwrap();
+    for command in crate::help::COMMANDS {
+        assert!(page.contains(&format!("`cotama {command} ")), "{command}");
+    }
+}
