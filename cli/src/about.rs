@@ -3,6 +3,7 @@
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
 use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
+use crate::answers::new::NewAnswer;
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
 use crate::exit::{Exit, Failure};
@@ -38,6 +39,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
         SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
+        SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
     };
     Screen::json(&schema)?;
     Ok(Exit::Success)

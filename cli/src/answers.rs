@@ -3,6 +3,7 @@
 pub(crate) mod check;
 pub(crate) mod fmeca;
 pub(crate) mod model;
+pub(crate) mod new;
 pub(crate) mod supervised;
 
 use schemars::JsonSchema;

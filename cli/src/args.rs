@@ -3,10 +3,12 @@
 mod check;
 mod fmeca;
 mod model;
+mod new;
 
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
+pub(crate) use new::{NewArgs, NewKind};
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, Subcommand, ValueEnum};
@@ -159,6 +161,17 @@ Examples:
     /// and effects (Ishikawa), one a function.
     #[command(after_long_help = fmeca::FMECA_EXAMPLES)]
     Fmeca(FmecaArgs),
+    /// Begins a mission, a supervisor or a system of supervisors of your own
+    ///
+    /// What is written works as it is, and says what each part is for. Nothing is replaced.
+    #[command(after_long_help = new::NEW_EXAMPLES)]
+    New(NewArgs),
+    /// Prints the file of a mission that comes with the program
+    #[command(after_long_help = "\
+Examples:
+  $ cotama show patrol
+  $ cotama show patrol > mine.toml && cotama plan mine.toml")]
+    Show(MissionArg),
     /// Prints the tables of a mission as Rust source, for firmware
     #[command(after_long_help = "\
 Examples:
@@ -357,6 +370,7 @@ pub(crate) enum SchemaName {
     Statespace,
     Verify,
     Fmeca,
+    New,
 }
 
 /// Who plans.

@@ -21,12 +21,14 @@ mod list;
 mod mission;
 mod model;
 mod models;
+mod new;
 mod output;
 mod plan;
 mod progress;
 mod render;
 mod replay;
 mod run;
+mod show;
 mod simulate;
 mod solve;
 mod statespace;
@@ -54,6 +56,8 @@ fn main() -> ExitCode {
         Command::Verify(args) => verify::verify(&args, &screen),
         Command::Simulate(args) => simulate::simulate(&args, &screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, &screen),
+        Command::New(args) => new::new(&args, &screen),
+        Command::Show(args) => show::show(&args),
         Command::Table(args) => about::table(&args),
         Command::Schema(args) => about::schema(&args),
         Command::Completions(args) => about::completions(&args),

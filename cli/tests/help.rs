@@ -2,7 +2,7 @@
 
 use crate::common::Folder;
 
-pub(crate) const COMMANDS: [&str; 16] = [
+pub(crate) const COMMANDS: [&str; 18] = [
     "list",
     "plan",
     "run",
@@ -15,6 +15,8 @@ pub(crate) const COMMANDS: [&str; 16] = [
     "statespace",
     "verify",
     "fmeca",
+    "new",
+    "show",
     "table",
     "schema",
     "completions",

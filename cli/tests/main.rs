@@ -13,6 +13,7 @@ mod export;
 mod fmeca;
 mod help;
 mod models;
+mod new;
 mod plan;
 mod replay;
 mod run;

@@ -4,7 +4,7 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 11] = [
+const COMMANDS: [&str; 12] = [
     "list",
     "plan",
     "run",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 11] = [
     "statespace",
     "verify",
     "fmeca",
+    "new",
 ];
 
 fn stored(command: &str) -> PathBuf {

@@ -1,0 +1,43 @@
+//! The command line of what is begun.
+
+use super::Json;
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+pub(crate) const NEW_EXAMPLES: &str = "\
+What is written:
+  mission  NAME.toml, with every section explained; `plan` and `run` take it as it is
+  net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of
+           what it promises, and an example that writes it as JSON for `check` and `simulate`
+  system   the same with two supervisors that work together
+
+Examples:
+  $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
+  $ cotama new net gripper         # then: cd gripper && cargo test
+  $ cotama new system robot --json";
+
+/// What is begun.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum NewKind {
+    /// A mission file
+    Mission,
+    /// A crate with a supervisor
+    Net,
+    /// A crate with supervisors that work together
+    System,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct NewArgs {
+    /// What to begin
+    #[arg(value_enum)]
+    pub(crate) kind: NewKind,
+    /// Its name; or a path that ends with it, in a folder that exists
+    pub(crate) name: String,
+    /// The folder of this project's sources, on which a crate depends [default: `cotama` beside the
+    /// crate, or the sources in which the crate stands]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) sources: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}

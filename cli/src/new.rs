@@ -1,0 +1,228 @@
+//! `cotama new`: a mission file, or a crate with a net or a system, that works as it is.
+//!
+//! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
+
+use crate::answers::new::NewAnswer;
+use crate::args::{NewArgs, NewKind};
+use crate::exit::{Exit, Failure};
+use crate::input::plain;
+use crate::mission::quoted;
+use crate::output::{self, Screen};
+use crate::render::style::NAME;
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// The files of a template, and the name in them.
+struct Template {
+    name: &'static str,
+    files: &'static [(&'static str, &'static str)],
+    /// Names that the crate needs for something else.
+    taken: &'static [&'static str],
+}
+
+macro_rules! template {
+    ($name:literal in $folder:literal, taken: $taken:expr) => {
+        Template {
+            name: $name,
+            files: &[
+                ("Cargo.toml", include_str!(concat!("../templates/", $folder, "/manifest.toml"))),
+                ("src/lib.rs", include_str!(concat!("../templates/", $folder, "/lib.rs"))),
+                ("src/main.rs", include_str!(concat!("../templates/", $folder, "/main.rs"))),
+                (
+                    "tests/checked.rs",
+                    include_str!(concat!("../templates/", $folder, "/checked.rs")),
+                ),
+                ("examples/model.rs", include_str!(concat!("../templates/", $folder, "/model.rs"))),
+            ],
+            taken: $taken,
+        }
+    };
+}
+
+const MISSION: &str = include_str!("../templates/mission.toml");
+const MISSION_NAME: &str = "my-mission";
+static NET: Template = template!("my-net" in "net", taken: &["net"]);
+static SYSTEM: Template =
+    template!("my-system" in "system", taken: &["net", "system", "link", "drive", "state"]);
+
+/// Where the sources are in the templates, seen from the new crate.
+const SOURCES: &str = "../cotama";
+
+/// Words that no crate or module can be called: of the language, of its libraries, of Cargo.
+const RESERVED: &str = "abstract alloc as async await become box break build const continue core \
+    cotama_core cotama_verification crate deps do dyn else enum examples extern false final fn for \
+    gen if impl in incremental let loop macro match mod move mut override priv proc_macro pub ref \
+    return self static std struct super test trait true try type typeof unsafe unsized use virtual \
+    where while yield";
+
+/// Writes what is wanted, unless something is there already.
+pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let path = Path::new(&args.name);
+    let name = path.file_name().and_then(|it| it.to_str()).unwrap_or_default();
+    check_name(args.kind, name)?;
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    if !folder.is_dir() {
+        let message = format!("{}: there is no such folder", folder.display());
+        return Err(Failure::new(message).help(format!("make it first, or say `{name}` alone")));
+    }
+    let (files, next) = match args.kind {
+        NewKind::Mission => {
+            if args.sources.is_some() {
+                return Err(Failure::new("--sources is for crates: a mission is one file")
+                    .help("leave it out"));
+            }
+            let file = path.with_file_name(format!("{name}.toml"));
+            refuse_to_replace(&file)?;
+            output::file(&file, MISSION.replace(MISSION_NAME, name).as_bytes())?;
+            let shown = quoted(&file.display().to_string());
+            let next =
+                format!("{NAME}cotama plan {shown}{NAME:#}, {NAME}cotama run {shown}{NAME:#}");
+            (vec![file], next)
+        }
+        NewKind::Net | NewKind::System => {
+            let template = if args.kind == NewKind::Net { &NET } else { &SYSTEM };
+            refuse_to_replace(path)?;
+            let sources = sources(folder, args.sources.as_deref(), screen)?;
+            let next = quoted(&path.display().to_string());
+            (
+                template.write(path, name, &sources)?,
+                format!("{NAME}cd {next} && cargo test{NAME:#}"),
+            )
+        }
+    };
+    let files: Vec<_> = files.iter().map(|it| it.display().to_string()).collect();
+    if args.json.json {
+        Screen::json(&NewAnswer { schema: "cotama/new/1", files })?;
+        return Ok(Exit::Success);
+    }
+    let mut text = String::new();
+    for file in files {
+        let _ = writeln!(text, "written: {file}");
+    }
+    let _ = writeln!(text, "\nnext: {next}");
+    screen.print(&text)?;
+    Ok(Exit::Success)
+}
+
+impl Template {
+    /// Writes a crate to a folder, all files or none.
+    fn write(&self, path: &Path, name: &str, sources: &str) -> Result<Vec<PathBuf>, Failure> {
+        let part = path.with_file_name(format!(".{name}.{}.part", std::process::id()));
+        let module = name.replace('-', "_");
+        let written = self
+            .files
+            .iter()
+            .try_for_each(|(file, text)| {
+                let text = text
+                    .replace(&self.name.replace('-', "_"), &module)
+                    .replace(self.name, name)
+                    .replace(&format!("\"{SOURCES}/core\""), &quoted_path(sources, "core"))
+                    .replace(
+                        &format!("\"{SOURCES}/verification\""),
+                        &quoted_path(sources, "verification"),
+                    );
+                let file = part.join(file);
+                file.parent().map_or(Ok(()), fs::create_dir_all)?;
+                fs::write(file, text)
+            })
+            .and_then(|()| fs::rename(&part, path));
+        written.map_err(|error| {
+            let _ = fs::remove_dir_all(&part);
+            Failure::new(format!("{}: it cannot be written: {}", path.display(), plain(&error)))
+        })?;
+        Ok(self.files.iter().map(|(file, _)| path.join(file)).collect())
+    }
+}
+
+/// A folder of the sources as a text of TOML, which reads the escapes of JSON.
+fn quoted_path(sources: &str, room: &str) -> String {
+    serde_json::Value::from(format!("{sources}/{room}")).to_string()
+}
+
+fn refuse_to_replace(path: &Path) -> Result<(), Failure> {
+    if path.symlink_metadata().is_err() {
+        return Ok(());
+    }
+    let message = format!("{}: this is there already, and is not replaced", path.display());
+    Err(Failure::new(message).help("choose another name, or move it away"))
+}
+
+/// Where the sources are, seen from a new crate in this folder.
+fn sources(folder: &Path, wanted: Option<&Path>, screen: &Screen) -> Result<String, Failure> {
+    let are_in = |path: &Path| {
+        let manifest = fs::read_to_string(path.join("core/Cargo.toml")).unwrap_or_default();
+        manifest.contains("name = \"cotama-core\"")
+    };
+    if let Some(wanted) = wanted {
+        if !are_in(wanted) {
+            let message = format!("--sources {}: there is no cotama", wanted.display());
+            return Err(Failure::new(message)
+                .help("give the folder of this project's sources, with `core` in it"));
+        }
+        let whole = wanted.canonicalize().ok().and_then(|it| it.to_str().map(str::to_owned));
+        return whole.ok_or_else(|| {
+            Failure::new(format!("--sources {}: this is no text in UTF-8", wanted.display()))
+        });
+    }
+    let places = [(SOURCES, "cotama"), ("..", "."), ("../..", "..")];
+    if let Some((seen, _)) = places.into_iter().find(|(_, from)| are_in(&folder.join(from))) {
+        return Ok(seen.to_owned());
+    }
+    screen.note(&format!(
+        "note: the sources of cotama are expected beside the crate, at {}; --sources says where \
+         else, or the two paths in its Cargo.toml",
+        folder.join("cotama").display()
+    ));
+    Ok(SOURCES.to_owned())
+}
+
+/// A mission is called as its file; a crate as a module of Rust, where `-` becomes `_`.
+fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
+    let is_crate = kind != NewKind::Mission;
+    let fits = |c: char| c.is_ascii_alphanumeric() && !(is_crate && c.is_ascii_uppercase());
+    let begins = |c: char| c.is_ascii_alphabetic() && fits(c);
+    let all = name.chars().all(|c| fits(c) || c == '-' || c == '_');
+    if name.len() > 64 || !name.starts_with(begins) || !all {
+        let what = if is_crate { "a crate" } else { "a mission" };
+        let letters = if is_crate { "lower-case letters" } else { "letters" };
+        let message = format!(
+            "`{}` is no name for {what}: it is made of {letters} from a to z, digits, `-` and `_`, \
+             begins with a letter, and has at most 64 of them",
+            name.escape_debug()
+        );
+        return Err(advised(Failure::new(message), kind, name));
+    }
+    let module = name.replace('-', "_");
+    let taken = match kind {
+        NewKind::Mission => return Ok(()),
+        NewKind::Net => NET.taken,
+        NewKind::System => SYSTEM.taken,
+    };
+    if RESERVED.split(' ').chain(taken.iter().copied()).any(|it| it == module) {
+        return Err(Failure::new(format!(
+            "`{name}` is a name that Rust or the crate itself needs"
+        ))
+        .help(format!("choose another one, as `my-{name}`")));
+    }
+    Ok(())
+}
+
+/// The same with the nearest name that fits.
+fn advised(failure: Failure, kind: NewKind, name: &str) -> Failure {
+    let near = name.strip_suffix(".toml").unwrap_or(name);
+    let near: String = near
+        .chars()
+        .map(|c| if kind == NewKind::Mission { c } else { c.to_ascii_lowercase() })
+        .map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' })
+        .collect();
+    let near = near.trim_matches(|c: char| !c.is_ascii_alphanumeric());
+    if near.len() <= 64 && near.starts_with(|c: char| c.is_ascii_alphabetic()) {
+        failure.help(format!("`{near}` would fit"))
+    } else {
+        failure
+    }
+}
