@@ -13,11 +13,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What is not run here, as it needs a clone or takes long; `.ci/run` does.
-const ELSEWHERE: [&str; 4] = [
+const ELSEWHERE: [&str; 6] = [
     "cargo run --release -- run patrol",
     "cargo test --workspace",
     "cargo install --path cli",
+    "cargo run",
     "cargo test",
+    "cargo run --example model > watch.json",
 ];
 
 fn pages() -> Vec<PathBuf> {
