@@ -411,7 +411,7 @@ fn a_limit_of_nothing_is_raised_too() {
     assert!(matches!(why.reason, Reason::Limits { .. }));
     let why = explain(&mission, [600_000, 0], all).unwrap();
     let raise = why.relaxations[0].wording(&mission);
-    assert_eq!(raise, "raise the energy limit from 0 mJ to 4675896 mJ (+4675896 mJ)");
+    assert_eq!(raise, "raise the energy limit from 0 J to 4675.896 J (+4675.896 J)");
 }
 
 proptest! {

@@ -2,11 +2,9 @@
 
 use cotama_core::units::Millis;
 use cotama_models::cotama::FailureMode;
+use cotama_models::missions::infeasible::amount;
 use cotama_models::missions::{AXES, Mission};
 use serde::{Deserialize, Serialize};
-
-/// The units of the performance axes.
-const UNITS: [&str; 2] = ["ms", "mJ"];
 
 /// The most replans of a run; the robot stops safely when one more is asked for.
 pub const MAX_REPLANS: u64 = 10_000;
@@ -221,7 +219,7 @@ impl NoPlan {
         match self {
             Self::Limit { axis, short } => {
                 let axis = axis.min(1);
-                format!("no plan within the {} limit: {short} {} short", AXES[axis], UNITS[axis])
+                format!("no plan within the {} limit: {} short", AXES[axis], amount(axis, short))
             }
             Self::Emptied { activity } => {
                 let id =
@@ -241,7 +239,7 @@ impl Reason {
             Self::NoPlan(none) => none.text(mission),
             Self::LimitExceeded { axis, by } => {
                 let axis = axis.min(1);
-                format!("{} limit exceeded by {by} {}", AXES[axis], UNITS[axis])
+                format!("{} limit exceeded by {}", AXES[axis], amount(axis, by))
             }
             Self::TooManyReplans => format!("stopped after {MAX_REPLANS} replans"),
             Self::TooManyChecks => format!("stopped after {MAX_CHECKS} checks"),

@@ -111,7 +111,7 @@ fn a_mission_without_a_plan_does_not_start() {
     let simulation = Simulation::new(&mission, &options).unwrap();
     let mut records: Vec<Record> = Vec::new();
     let none = simulation.run_recorded(0, &mut records).unwrap_err();
-    assert_eq!(none.text(&mission), "no plan within the energy limit: 1080000 mJ short");
+    assert_eq!(none.text(&mission), "no plan within the energy limit: 1080 J short");
     assert!(records.is_empty());
 }
 

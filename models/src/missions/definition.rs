@@ -255,6 +255,17 @@ pub struct Zone {
     pub require_tio: Option<Spanned<usize>>,
 }
 
+/// What plans are chosen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PlannedFor {
+    /// The rule of the paper: the highest plan that it finds within the limits.
+    Paper,
+    /// The most quality.
+    Quality,
+    /// The least energy.
+    MinEnergy,
+}
+
 /// Everything a mission file says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
@@ -266,6 +277,8 @@ pub struct Definition {
     pub limits: [u64; 2],
     /// The axes in their order of treatment.
     pub order: [usize; 2],
+    /// What its plans are chosen for; none if the file leaves that to who plans.
+    pub planned_for: Option<PlannedFor>,
     /// The robot's body.
     pub robot: Robot,
     /// The hardware; its index is its kind in [`Equipment`].

@@ -1,5 +1,8 @@
 //! A mission: what a `panorama-mission/1` file says, with units, checked as a whole.
 //!
+//! `plan.objective` says what plans are chosen for: `"paper"`, the rule of PANORAMA; `"quality"`; or
+//! `"min-energy"`. Where it is left out, who plans decides.
+//!
 //! # Supervised missions
 //!
 //! A plain mission is planned, and planned again when a margin or a piece of hardware is lost. In a

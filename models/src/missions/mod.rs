@@ -32,8 +32,8 @@ mod supervised;
 
 #[cfg(feature = "std")]
 pub use definition::{
-    AXES, Definition, Does, Hardware, HardwareRequirement, MotionPower, Objective, Robot, Standing,
-    Supervision, Task, Tio, Zone, harmless_speed,
+    AXES, Definition, Does, Hardware, HardwareRequirement, MotionPower, Objective, PlannedFor,
+    Robot, Standing, Supervision, Task, Tio, Zone, harmless_speed,
 };
 #[cfg(feature = "std")]
 pub use diagnostic::{Diagnostic, MAX_DIAGNOSTICS, MissionErrors, Position, Spanned};

@@ -4,8 +4,9 @@ use super::words::{counted, printable};
 use super::{Change, Diagnosis, Step, Tokens};
 use std::fmt::{self, Display, Formatter, Write as _};
 
-/// The longest line.
+/// The longest line, where no precision says another: `{:.58}` asks for lines of 58 characters.
 const WIDTH: usize = 100;
+const LEAST_WIDTH: usize = 30;
 
 /// Longer names are cut in the middle where they stand in columns.
 const NAME: usize = 28;
@@ -207,9 +208,10 @@ fn cut(name: &str) -> String {
 
 /// Text in lines that begin below each other.
 fn paragraph(f: &mut Formatter<'_>, first: &str, text: &str) -> fmt::Result {
+    let width = f.precision().unwrap_or(WIDTH).max(LEAST_WIDTH);
     let indent = match first.chars().count() {
         0 => 2,
-        more => more.min(WIDTH / 2),
+        more => more.min(width / 2),
     };
     let mut line = first.to_owned();
     let mut used = first.chars().count();
@@ -218,7 +220,8 @@ fn paragraph(f: &mut Formatter<'_>, first: &str, text: &str) -> fmt::Result {
         let mut word: Vec<char> = word.chars().collect();
         loop {
             let space = usize::from(!is_new);
-            if used + space + word.len() <= WIDTH {
+            // What stands before the text can be wider than a line; then the text is, too.
+            if used + space + word.len() <= width || used >= width && is_new {
                 line.extend(std::iter::repeat_n(' ', space).chain(word.iter().copied()));
                 used += space + word.len();
                 is_new = false;
@@ -226,7 +229,7 @@ fn paragraph(f: &mut Formatter<'_>, first: &str, text: &str) -> fmt::Result {
             }
             if is_new {
                 // Longer than a line.
-                let rest = word.split_off(WIDTH - used);
+                let rest = word.split_off(width - used);
                 line.extend(word);
                 word = rest;
             }

@@ -36,6 +36,8 @@ mod limits;
 mod trials;
 mod wording;
 
+pub use wording::amount;
+
 use crate::missions::mission::Mission;
 use crate::missions::scenario::Constraint;
 use cotama_core::hardware::Equipment;

@@ -6,11 +6,33 @@ use crate::missions::mission::Mission;
 use crate::missions::scenario::Constraint;
 use crate::missions::tables::{DURATION, ENERGY};
 use cotama_core::hardware::Equipment;
+use cotama_core::units::Millimetres;
 
-/// The name and the unit of an axis.
-fn axis(axis: usize) -> (&'static str, &'static str) {
-    let unit = if axis == ENERGY { "mJ" } else { "ms" };
-    (AXES.get(axis).copied().unwrap_or("unknown"), unit)
+/// The name of an axis.
+fn name(axis: usize) -> &'static str {
+    AXES.get(axis).copied().unwrap_or("unknown")
+}
+
+/// So much of an axis, ms or mJ, in seconds or joules: exact, in as few digits as that takes.
+///
+/// ```
+/// use cotama_models::missions::infeasible::amount;
+/// use cotama_models::missions::tables::{DURATION, ENERGY};
+/// assert_eq!(amount(DURATION, 8_500), "8.5 s");
+/// assert_eq!([4_675_896, 4_000_000].map(|it| amount(ENERGY, it)), ["4675.896 J", "4000 J"]);
+/// ```
+pub fn amount(axis: usize, value: u64) -> String {
+    format!("{} {}", thousandths(value), if axis == ENERGY { "J" } else { "s" })
+}
+
+/// A place on the path, in metres.
+fn at(Millimetres(x): Millimetres) -> String {
+    format!("{} m", thousandths(x))
+}
+
+fn thousandths(value: u64) -> String {
+    let digits = format!("{}.{:03}", value / 1000, value % 1000);
+    digits.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 impl Reason {
@@ -18,19 +40,21 @@ impl Reason {
     pub fn wording(&self, mission: &Mission) -> String {
         match self {
             Self::Limit { axis, limit, least } => {
-                let ((name, unit), more) = (self::axis(*axis), more(*axis, *limit, *least));
-                let (other, _) = self::axis(usize::from(*axis == DURATION));
+                let other = name(usize::from(*axis == DURATION));
                 format!(
-                    "the {name} limit of {limit} {unit} cannot be met: \
-                     within the {other} limit the least is {least} {unit} ({more})"
+                    "the {} limit of {} cannot be met: within the {other} limit the least is {} \
+                     ({})",
+                    name(*axis),
+                    amount(*axis, *limit),
+                    amount(*axis, *least),
+                    more(*axis, *limit, *least)
                 )
             }
             Self::Limits { limits, least } => {
                 let [duration, energy] = [DURATION, ENERGY].map(|axis| {
-                    let ((name, unit), limit, least) =
-                        (self::axis(axis), limits[axis], least[axis]);
-                    let more = more(axis, limit, least);
-                    format!("the least {name} is {least} {unit}, the limit {limit} {unit} ({more})")
+                    let more = more(axis, limits[axis], least[axis]);
+                    let [limit, least] = [limits, least].map(|it| amount(axis, it[axis]));
+                    format!("the least {} is {least}, the limit {limit} ({more})", name(axis))
                 });
                 format!("neither limit can be met, even without the other: {duration}; {energy}")
             }
@@ -73,11 +97,10 @@ impl Reason {
 impl Heavy {
     /// The activity, its place, its cost and its part of the total.
     pub fn wording(&self, mission: &Mission) -> String {
-        let (_, unit) = axis(self.axis);
         format!(
-            "{}: {} {unit}, {}",
+            "{}: {}, {}",
             place(mission, self.activity),
-            self.cost,
+            amount(self.axis, self.cost.into()),
             percent(self.permille.into())
         )
     }
@@ -114,7 +137,7 @@ impl Relaxation {
                 Some(it) if it.travels() => {
                     let follows = mission.objectives.len() > objective + 1;
                     let follows = if follows { " and all that follow" } else { "" };
-                    format!("drop objective {}{follows}, ending at {}", it.id, it.x_start)
+                    format!("drop objective {}{follows}, ending at {}", it.id, at(it.x_start))
                 }
                 it => format!("drop objective {}", it.map_or("", |it| it.id.as_str())),
             },
@@ -123,16 +146,17 @@ impl Relaxation {
 }
 
 fn raised(axis: usize, from: u64, to: u64) -> String {
-    let (name, unit) = self::axis(axis);
-    format!("the {name} limit from {from} {unit} to {to} {unit} ({})", more(axis, from, to))
+    let [low, high] = [from, to].map(|it| amount(axis, it));
+    format!("the {} limit from {low} to {high} ({})", name(axis), more(axis, from, to))
 }
 
 /// By how much more, absolute and relative.
 fn more(axis: usize, from: u64, to: u64) -> String {
-    let (by, (_, unit)) = (to.saturating_sub(from), self::axis(axis));
+    let by = to.saturating_sub(from);
+    let shown = amount(axis, by);
     match (u128::from(by) * 1000 + u128::from(from / 2)).checked_div(from.into()) {
-        Some(permille) => format!("+{by} {unit}, {}", percent(permille)),
-        None => format!("+{by} {unit}"),
+        Some(permille) => format!("+{shown}, {}", percent(permille)),
+        None => format!("+{shown}"),
     }
 }
 
@@ -172,9 +196,9 @@ fn place(mission: &Mission, activity: usize) -> String {
     let Some(it) = mission.scenario().activities.get(activity) else { return String::new() };
     let objective = mission.objectives.get(it.objective).map_or("", |objective| &objective.id);
     let place = if it.x_start < it.x_end {
-        format!("{} to {}", it.x_start, it.x_end)
+        format!("{} to {}", at(it.x_start), at(it.x_end))
     } else {
-        format!("at {}", it.x_start)
+        format!("at {}", at(it.x_start))
     };
     format!("activity {} (objective {objective}, {place})", it.id)
 }

@@ -44,7 +44,7 @@ impl Sink {
 pub(crate) fn document<T>(
     text: &str,
     sink: &Sink,
-    format: &str,
+    format: &'static str,
     read: impl FnOnce(Fields<'_>) -> Option<T>,
 ) -> Option<T> {
     if text.len() > MAX_BYTES {
@@ -63,6 +63,7 @@ pub(crate) fn document<T>(
         return None;
     }
     let mut fields = Fields::new(sink, root.get_ref(), 0..0, "the file");
+    fields.format = format;
     let found = fields.text("format");
     if let Some(found) = found.filter(|found| found.value != format) {
         let message = format!("unknown format {}", quoted(&found.value));
@@ -79,13 +80,16 @@ pub(crate) struct Fields<'t> {
     entries: &'t DeTable<'t>,
     span: Range<usize>,
     what: String,
+    /// What a file must say that its format is; nothing in tables below the root.
+    format: &'static str,
     asked: Vec<&'static str>,
     missing: Vec<&'static str>,
 }
 
 impl<'t> Fields<'t> {
     fn new(sink: &'t Sink, entries: &'t DeTable<'t>, span: Range<usize>, what: &str) -> Self {
-        Self { sink, entries, span, what: what.into(), asked: Vec::new(), missing: Vec::new() }
+        let (asked, missing) = (Vec::new(), Vec::new());
+        Self { sink, entries, span, what: what.into(), format: "", asked, missing }
     }
 
     pub(crate) fn report(&self, diagnostic: Diagnostic) {
@@ -385,9 +389,11 @@ impl<'t> Fields<'t> {
         for key in missing {
             let message = format!("missing key `{key}` in {}", self.what);
             let label = format!("`{key}` is not here");
-            self.report(
-                Diagnostic::new(self.span.clone(), message, label).help(format!("add `{key}`")),
-            );
+            let help = match *key {
+                "format" => format!("add the line `format = \"{}\"`", self.format),
+                _ => format!("add `{key}`"),
+            };
+            self.report(Diagnostic::new(self.span.clone(), message, label).help(help));
         }
     }
 

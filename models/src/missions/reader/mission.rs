@@ -7,7 +7,7 @@ use super::path::{objective, one_after_the_other, zone};
 use super::quantities::{AT_LEAST_ZERO, POSITIVE, SPEEDS, task};
 use super::supervision::{self, Supervised};
 use crate::missions::definition::{
-    AXES, Definition, Hardware, MotionPower, Robot, Standing, Task, Tio, harmless_speed,
+    AXES, Definition, Hardware, MotionPower, PlannedFor, Robot, Standing, Task, Tio, harmless_speed,
 };
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::names::quoted;
@@ -25,6 +25,13 @@ const ROUNDINGS: [(&str, &str); 2] = [
     ("energy", "mJ = round_half_up(power_mW * duration_ms / 1000)"),
 ];
 
+/// What plans can be chosen for, as mission files write it.
+const OBJECTIVES: [(&str, PlannedFor); 3] = [
+    ("paper", PlannedFor::Paper),
+    ("quality", PlannedFor::Quality),
+    ("min-energy", PlannedFor::MinEnergy),
+];
+
 /// Reads the whole file.
 pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition> {
     let name = name(&mut root);
@@ -34,6 +41,7 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
     if let Ok(Some(table)) = root.optional_table("rounding") {
         rounding(table);
     }
+    let planned_for = root.optional_table("plan").map(|plan| plan.and_then(planned_for));
     let robot = root.table("robot").and_then(robot);
     let motion_power = root.table("motion_power").and_then(motion_power);
     let hardware =
@@ -58,6 +66,7 @@ pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition
         path_length: path_length?,
         limits,
         order,
+        planned_for: planned_for.ok()?,
         robot: robot?,
         hardware: complete(hardware)?,
         motion_power: motion_power?,
@@ -149,6 +158,15 @@ fn rounding(mut rounding: Fields<'_>) {
         }
     }
     rounding.finish();
+}
+
+/// What plans are chosen for.
+fn planned_for(mut plan: Fields<'_>) -> Option<PlannedFor> {
+    let name = plan.text("objective");
+    let known = OBJECTIVES.map(|it| it.0);
+    let found = name.and_then(|name| plan.index_of(&name, "objective of plans", known.into_iter()));
+    plan.finish();
+    found.and_then(|at| OBJECTIVES.get(at)).map(|it| it.1)
 }
 
 fn robot(mut robot: Fields<'_>) -> Option<Robot> {
