@@ -1,11 +1,12 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
+use crate::answers::error::ErrorAnswer;
 use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
-use crate::args::{Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
+use crate::args::{self, Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
 use crate::exit::{Exit, Failure};
 use crate::mission;
 use crate::output::Screen;
@@ -38,6 +39,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Check => schemas.into_root_schema_for::<CheckAnswer>(),
         SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
         SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
+        SchemaName::Error => schemas.into_root_schema_for::<ErrorAnswer>(),
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
     };
@@ -60,9 +62,12 @@ pub(crate) fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     Ok(Exit::Success)
 }
 
+/// The width of a manual page, less its margins.
+const PAGE_WIDTH: usize = 72;
+
 /// `cotama man`: a manual page.
 pub(crate) fn man(args: &ManArgs) -> Result<Exit, Failure> {
-    let mut program = Cli::command();
+    let mut program = args::command(PAGE_WIDTH);
     program.build();
     let command = match &args.command {
         None => program,

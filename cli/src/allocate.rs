@@ -7,6 +7,7 @@ use crate::args::{AllocateArgs, AllocatorName, Objective as Wanted};
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::output::Screen;
 use crate::render;
 use crate::solve::{Method, Verdict, solve};
@@ -18,11 +19,12 @@ use instance::Instance;
 /// Solves one allocation problem.
 pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Failure> {
     let text = input::text(&args.instance, "an instance", input::INSTANCE_BYTES)?;
+    kind::expect(&args.instance, text.as_bytes(), "an instance", &[Kind::Instance])?;
     let instance = Instance::parse(&args.instance, &text)?;
     drop(text);
     let slices: Vec<_> = instance.activities.iter().map(Vec::as_slice).collect();
     let problem = Problem::new(&slices, instance.limits, [0, 1])
-        .map_err(|error| Failure::new(format!("{}: {error}", args.instance)))?;
+        .map_err(|error| Failure::of(input::name(&args.instance), error.to_string()))?;
     let objective = match args.objective {
         Wanted::MinEnergy => [Objective::Least(ENERGY)],
         _ => [Objective::MostQuality],

@@ -38,7 +38,7 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
     loop {
         let before = watch::stamps(&files);
         if let Err(failure) = once(args, screen) {
-            screen.explain(&failure);
+            screen.refuse(&failure, args.json.json);
         }
         screen.note("watching; Ctrl-C ends it");
         watch::until_changed(&files, &before);
@@ -91,7 +91,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         let seconds = begun.elapsed().as_secs_f64();
         progress.clear();
         if args.mcc {
-            screen.print(&(line(property, &answer, budget.jobs) + "\n"))?;
+            Screen::raw((line(property, &answer, budget.jobs) + "\n").as_bytes())?;
         }
         let mut row = row(subject, property, &answer, seconds);
         (row.id, row.sentence) = (requirement.map(|it| it.id), requirement.map(|it| it.sentence));
@@ -103,7 +103,10 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
                 row.explained_by(subject, &diagnosis, &answer);
                 text = Some(match &subject.rounds {
                     Some(rounds) => explained::in_rounds(rounds, &diagnosis, &answer),
-                    None => diagnosis.to_string(),
+                    // It is indented by two.
+                    None => {
+                        format!("{diagnosis:.width$}", width = screen.width().saturating_sub(2))
+                    }
                 });
             }
             Some(Err(error)) => {
@@ -127,7 +130,8 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
             progress.clear();
         }
         if shows {
-            screen.print(&render::check::result(&row, asked.is_usual, screen.width()))?;
+            let (unit, width) = (subject.time_unit(), screen.width());
+            screen.print(&render::check::result(&row, asked.is_usual, unit, width))?;
         }
         texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
         results.push(row);
@@ -137,6 +141,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         schema: "cotama/check/1",
         model: subject.name.clone(),
         timed: subject.is_timed(),
+        time_unit: subject.time_unit(),
         semantics: subject.semantics,
         notes: subject.notes,
         left_out: asked.left_out,

@@ -29,6 +29,8 @@ impl From<Exit> for ExitCode {
 pub(crate) enum Failure {
     /// One thing is wrong.
     Message {
+        /// In which file.
+        file: Option<String>,
         /// What.
         message: String,
         /// What to do about it.
@@ -41,16 +43,39 @@ pub(crate) enum Failure {
 impl Failure {
     /// One thing is wrong.
     pub(crate) fn new(message: impl Into<String>) -> Self {
-        Self::Message { message: message.into(), help: None }
+        Self::Message { file: None, message: message.into(), help: None }
+    }
+
+    /// One thing is wrong with a file.
+    pub(crate) fn of(file: impl Into<String>, message: impl Into<String>) -> Self {
+        Self::Message { file: Some(file.into()), message: message.into(), help: None }
     }
 
     /// The same with what to do about it.
     pub(crate) fn help(self, words: impl Into<String>) -> Self {
         match self {
-            Self::Message { message, .. } => Self::Message { message, help: Some(words.into()) },
+            Self::Message { file, message, .. } => {
+                Self::Message { file, message, help: Some(words.into()) }
+            }
             Self::Text(errors) => Self::Text(errors),
         }
     }
+}
+
+/// A command line that cannot be understood: what is wrong, and the hints and the usage below it.
+impl From<&clap::Error> for Failure {
+    fn from(error: &clap::Error) -> Self {
+        let text = error.render().to_string();
+        let (message, help) = text.split_once("\n\n").unwrap_or((&text, ""));
+        let failure = Self::new(one_line(message.trim_start_matches("error: ")));
+        let hints = help.split("\n\n").map(one_line).filter(|it| !it.is_empty());
+        let hints: Vec<_> = hints.map(|it| it.trim_start_matches("tip: ").to_owned()).collect();
+        if hints.is_empty() { failure } else { failure.help(hints.join("; ")) }
+    }
+}
+
+fn one_line(text: &str) -> String {
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 impl From<FileErrors> for Failure {

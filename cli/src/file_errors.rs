@@ -62,6 +62,14 @@ impl FileErrors {
         Self { source: source.to_owned(), text, errors, omitted: 0 }
     }
 
+    /// The same with what to do about the first.
+    pub(crate) fn help(mut self, words: impl Into<String>) -> Self {
+        if let Some(first) = self.errors.first_mut() {
+            first.help = Some(words.into());
+        }
+        self
+    }
+
     /// One error at a line and a column in characters, both from 1.
     pub(crate) fn at_character(
         source: &str,

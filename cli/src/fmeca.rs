@@ -21,6 +21,7 @@ use std::path::Path;
 
 /// Shows the analysis, or writes it in a format.
 pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> {
+    args.output.as_deref().map_or(Ok(()), output::place)?;
     let format = match (args.format, &args.output) {
         (Some(format), _) => Some(format),
         (None, Some(output)) => Some(by_name(output)?),

@@ -6,9 +6,6 @@ use cotama_core::hardware::Equipment;
 use cotama_models::missions::infeasible;
 use cotama_models::missions::{AXES, Constraint, Mission};
 
-/// The units of the axes.
-pub(crate) const UNITS: [&str; 2] = ["ms", "mJ"];
-
 /// Why a mission has no plan within these limits with this hardware; none if it has one, or if the
 /// search for the explanation was cut short.
 pub(crate) fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Reason> {
@@ -48,11 +45,11 @@ pub(crate) fn short(shortfall: Option<Shortfall>, steps: u64) -> Reason {
 fn over(axis: usize, limit: u64, least: u64) -> Reason {
     let axis = axis.min(1);
     let gap = least.saturating_sub(limit);
-    let (name, unit) = (AXES[axis], UNITS[axis]);
+    let [limited, needed, more] = [limit, least, gap].map(|it| infeasible::amount(axis, it));
+    let name = AXES[axis];
     Reason {
         text: format!(
-            "the {name} limit of {limit} {unit} cannot be met: at least {least} {unit} are needed \
-             (+{gap} {unit})"
+            "the {name} limit of {limited} cannot be met: at least {needed} are needed (+{more})"
         ),
         axis: Some(name.into()),
         limit: Some(limit),
@@ -127,13 +124,13 @@ fn relaxation(mission: &Mission, found: &infeasible::Relaxation) -> Relaxation {
 }
 
 impl Relaxation {
-    /// The flags that raise the limits, if that is the change.
-    pub(crate) fn raised(&self) -> Option<String> {
-        let Change::RaiseLimit { duration_limit_ms, energy_limit_mj } = &self.change else {
-            return None;
-        };
-        let duration = duration_limit_ms.map(|limit| format!(" --duration-limit {limit}"));
-        let energy = energy_limit_mj.map(|limit| format!(" --energy-limit {limit}"));
-        Some(format!("{}{}", duration.unwrap_or_default(), energy.unwrap_or_default()))
+    /// The limits of duration and energy that are raised, if that is the change.
+    pub(crate) fn raised(&self) -> Option<(Option<u64>, Option<u64>)> {
+        match self.change {
+            Change::RaiseLimit { duration_limit_ms, energy_limit_mj } => {
+                Some((duration_limit_ms, energy_limit_mj))
+            }
+            _ => None,
+        }
     }
 }

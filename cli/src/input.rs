@@ -41,8 +41,8 @@ pub(crate) fn bytes(path: &str, what: &str, limit: u64) -> Result<Vec<u8>, Failu
     let name = name(path);
     read.map_err(|error| unreadable(name, what, &error))?;
     if bytes.len() as u64 > limit {
-        let message = format!("{name}: too large: at most {} MiB are read of {what}", limit >> 20);
-        return Err(Failure::new(message).help(format!("is this really {what}?")));
+        let message = format!("too large: at most {} MiB are read of {what}", limit >> 20);
+        return Err(Failure::of(name, message).help(format!("is this really {what}?")));
     }
     Ok(bytes)
 }
@@ -58,20 +58,22 @@ pub(crate) fn utf8(path: &str, what: &str, bytes: Vec<u8>) -> Result<String, Fai
     String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
         let byte = error.as_bytes().get(offset).copied().unwrap_or(0);
-        Failure::new(format!(
-            "{name}: not a text: the byte at offset {offset} is 0x{byte:02x}, which is not UTF-8"
-        ))
+        Failure::of(
+            name,
+            format!("not a text: the byte at offset {offset} is 0x{byte:02x}, which is not UTF-8"),
+        )
         .help(format!("{what} is text in UTF-8"))
     })
 }
 
 fn unreadable(name: &str, what: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
-        ErrorKind::NotFound => Failure::new(format!("{name}: there is no such file"))
-            .help(format!("give the path of {what}")),
-        ErrorKind::IsADirectory => Failure::new(format!("{name}: this is a directory, not a file"))
+        ErrorKind::NotFound => {
+            Failure::of(name, "there is no such file").help(format!("give the path of {what}"))
+        }
+        ErrorKind::IsADirectory => Failure::of(name, "this is a directory, not a file")
             .help(format!("give the path of {what} in it")),
-        _ => Failure::new(format!("{name}: it cannot be read: {}", plain(error))),
+        _ => Failure::of(name, format!("it cannot be read: {}", plain(error))),
     }
 }
 

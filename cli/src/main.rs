@@ -17,6 +17,7 @@ mod file_errors;
 mod fmeca;
 mod infeasible;
 mod input;
+mod kind;
 mod list;
 mod mission;
 mod model;
@@ -34,39 +35,64 @@ mod solve;
 mod statespace;
 mod subject;
 mod verify;
+mod words;
 
+use answers::error::ErrorAnswer;
 use args::{Cli, Command};
-use clap::Parser;
+use clap::FromArgMatches;
+use exit::{Exit, Failure};
 use output::Screen;
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let words: Vec<_> = std::env::args_os().collect();
+    // A command line that cannot be understood may say, too, that a program reads the answer.
+    let is_json = words.iter().take_while(|it| *it != "--").any(|it| it == "--json");
+    let cli = match read(&words) {
+        Ok(cli) => cli,
+        Err(error) if is_json && error.exit_code() != 0 => {
+            let said = Screen::json(&ErrorAnswer::from(&Failure::from(&error)));
+            return said.map_or_else(|_| error.exit(), |()| Exit::BadInput.into());
+        }
+        Err(error) => error.exit(),
+    };
     let screen = Screen::new(cli.color);
-    let ended = match cli.command {
-        Command::List(args) => list::list(&args, &screen),
-        Command::Plan(args) => plan::plan(&args, &screen),
-        Command::Run(args) => run::run(&args, &screen),
-        Command::Allocate(args) => allocate::allocate(&args, &screen),
-        Command::Replay(args) => replay::replay(&args, &screen),
-        Command::Models(args) => models::models(&args, &screen),
-        Command::Export(args) => export::export(&args, &screen),
-        Command::Check(args) => check::check(&args, &screen),
-        Command::Statespace(args) => statespace::statespace(&args, &screen),
-        Command::Verify(args) => verify::verify(&args, &screen),
-        Command::Simulate(args) => simulate::simulate(&args, &screen),
-        Command::Fmeca(args) => fmeca::fmeca(&args, &screen),
-        Command::New(args) => new::new(&args, &screen),
+    ended(cli.command, &screen)
+        .unwrap_or_else(|failure| {
+            screen.refuse(&failure, is_json);
+            Exit::BadInput
+        })
+        .into()
+}
+
+fn read(words: &[OsString]) -> Result<Cli, clap::Error> {
+    let mut command = args::command(output::width());
+    command
+        .try_get_matches_from_mut(words)
+        .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches))
+        .map_err(|error| error.format(&mut command))
+}
+
+fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
+    match command {
+        Command::List(args) => list::list(&args, screen),
+        Command::Plan(args) => plan::plan(&args, screen),
+        Command::Run(args) => run::run(&args, screen),
+        Command::Allocate(args) => allocate::allocate(&args, screen),
+        Command::Replay(args) => replay::replay(&args, screen),
+        Command::Models(args) => models::models(&args, screen),
+        Command::Export(args) => export::export(&args, screen),
+        Command::Check(args) => check::check(&args, screen),
+        Command::Statespace(args) => statespace::statespace(&args, screen),
+        Command::Verify(args) => verify::verify(&args, screen),
+        Command::Simulate(args) => simulate::simulate(&args, screen),
+        Command::Fmeca(args) => fmeca::fmeca(&args, screen),
+        Command::New(args) => new::new(&args, screen),
         Command::Show(args) => show::show(&args),
         Command::Table(args) => about::table(&args),
         Command::Schema(args) => about::schema(&args),
         Command::Completions(args) => about::completions(&args),
         Command::Man(args) => about::man(&args),
-    };
-    ended
-        .unwrap_or_else(|failure| {
-            screen.explain(&failure);
-            exit::Exit::BadInput
-        })
-        .into()
+    }
 }

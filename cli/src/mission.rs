@@ -1,10 +1,13 @@
 //! Missions from the command line: by name or from a file, with limits and hardware changed.
 
-use crate::args::{Lost, Objective, Planning};
+use crate::args::{AllocatorName, Lost, Objective, Planning};
 use crate::exit::Failure;
 use crate::input;
+use crate::kind::{self, Kind};
+use crate::model::near;
 use cotama_core::hardware::Equipment;
-use cotama_models::missions::{Definition, Mission, embedded};
+use cotama_models::missions::{Definition, Mission, PlannedFor, embedded};
+use cotama_sim::options::{Aim, Planner};
 use serde::Deserialize;
 use std::path::Path;
 use toml::Spanned;
@@ -23,10 +26,14 @@ pub(crate) struct Loaded {
 pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
     let text = match embedded::mission(name) {
         Some(known) => known.text.to_owned(),
-        None if name != "-" && is_name(name) && !Path::new(name).exists() => {
-            return Err(unknown(name));
+        None if is_name(name) && !Path::new(name).exists() => {
+            return Err(kind::model_for_mission(name).unwrap_or_else(|| unknown(name)));
         }
-        None => input::text(name, "a mission file", input::MISSION_BYTES)?,
+        None => {
+            let text = input::text(name, "a mission file", input::MISSION_BYTES)?;
+            kind::expect(name, text.as_bytes(), "a mission file", &[Kind::Mission])?;
+            text
+        }
     };
     let source = if name == "-" { "standard input" } else { name };
     let mission = Mission::parse(source, &text)?;
@@ -47,28 +54,45 @@ pub(crate) fn load_for(name: &str, planning: &Planning) -> Result<Loaded, Failur
     Ok(Loaded { text, mission, ..loaded })
 }
 
-/// What a plan is chosen for: what is wanted, else the paper's rule. It fills the limits, which for
-/// the configurations of a supervised mission would choose the most degraded one where there is
-/// time for it; so these have the most quality.
-pub(crate) fn objective(wanted: Option<Objective>, mission: &Mission) -> Objective {
-    let usual = if mission.supervisor().is_some() { Objective::Quality } else { Objective::Paper };
-    wanted.unwrap_or(usual)
+/// What a plan is chosen for: what is wanted, else what the mission file says, else quality. The
+/// allocator of PANORAMA has a rule and no objective, so who wants it wants the paper's.
+pub(crate) fn objective(
+    wanted: Option<Objective>,
+    allocator: Option<AllocatorName>,
+    mission: &Mission,
+) -> Objective {
+    let own = || match mission.planned_for? {
+        PlannedFor::Paper => Some(Objective::Paper),
+        PlannedFor::Quality => Some(Objective::Quality),
+        PlannedFor::MinEnergy => Some(Objective::MinEnergy),
+    };
+    let rule = (allocator == Some(AllocatorName::Panorama)).then_some(Objective::Paper);
+    wanted.or(rule).or_else(own).unwrap_or(Objective::Quality)
+}
+
+/// Who plans in a run, for this objective.
+pub(crate) fn planner(
+    objective: Objective,
+    allocator: Option<AllocatorName>,
+    steps: u64,
+) -> Planner {
+    match (objective, allocator) {
+        (Objective::Paper, Some(AllocatorName::Exact)) => Planner::PanoramaThenExact { steps },
+        (Objective::Paper, _) | (_, Some(AllocatorName::Panorama)) => Planner::Panorama,
+        (Objective::MinEnergy, _) => Planner::Exact { aim: Aim::MinEnergy, steps },
+        (Objective::Quality | Objective::Front, _) => Planner::Exact { aim: Aim::Quality, steps },
+    }
 }
 
 /// Whether this looks like a name and not like a path.
 pub(crate) fn is_name(text: &str) -> bool {
-    !text.contains(['/', '\\', '.'])
+    text != "-" && !text.contains(['/', '\\', '.'])
 }
 
 fn unknown(name: &str) -> Failure {
     let names: Vec<_> = embedded::embedded().iter().map(|mission| mission.name).collect();
-    let near = names.iter().map(|known| (strsim::damerau_levenshtein(name, known), known)).min();
-    let guess = match near {
-        Some((distance, known)) if distance <= 3 && distance < known.len() => {
-            format!("; did you mean `{known}`?")
-        }
-        _ => String::new(),
-    };
+    let guess = near(name, names.iter().copied())
+        .map_or_else(String::new, |known| format!("; did you mean `{known}`?"));
     Failure::new(format!("there is no mission `{name}`, and no file of this name{guess}")).help(
         format!(
             "missions that come with the program: {}; or give the path of a mission file",
@@ -101,17 +125,6 @@ fn with_limits(text: &str, wanted: [Option<u64>; 2]) -> Option<String> {
         }
     }
     Some(text)
-}
-
-/// The mission and what was changed about it, as words of a command line. Limits are left out:
-/// advice sets them anew.
-pub(crate) fn words(name: &str, planning: &Planning) -> String {
-    let mut words = vec![name.to_owned()];
-    for Lost { kind, units } in &planning.lost {
-        words.push("--lost".into());
-        words.push(units.map_or_else(|| kind.clone(), |units| format!("{kind}:{units}")));
-    }
-    words.iter().map(|word| quoted(word)).collect::<Vec<_>>().join(" ")
 }
 
 /// A word as a shell takes it.

@@ -4,6 +4,7 @@ use crate::catalogue::{self, Entry, Kind};
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
+use crate::kind;
 use crate::mission::is_name;
 use cotama_core::net::Known;
 use cotama_core::net::owned::OwnedNet;
@@ -58,8 +59,8 @@ pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
             Err(Failure::new(format!("`{family}` is no family of nets and takes no number"))
                 .help(format!("say `{family}`")))
         }
-        None if name != "-" && is_name(name) && !Path::new(name).exists() => {
-            Err(unknown(name, family))
+        None if is_name(name) && !Path::new(name).exists() => {
+            Err(kind::mission_for_model(name).unwrap_or_else(|| unknown(name, family)))
         }
         None => file(name),
     }
@@ -76,18 +77,23 @@ fn unknown(name: &str, family: &str) -> Failure {
     )
 }
 
-/// The name that was probably meant.
+/// The name that was probably meant: one with at most one wrong letter of three, or else one that
+/// begins with the word.
 pub(crate) fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     // The distance takes time that grows with both lengths.
     let names = names.filter(|name| name.len() <= 64 && word.len() <= 64);
-    let (distance, name) =
-        names.map(|name| (strsim::damerau_levenshtein(word, name), name)).min()?;
-    (distance <= 3 && distance < name.chars().count()).then_some(name)
+    let like = |(distance, name): &(usize, &str)| {
+        let begins = word.len() >= 3 && name.starts_with(word);
+        *distance <= (name.chars().count() / 3).max(1) || begins
+    };
+    let names = names.map(|name| (strsim::damerau_levenshtein(word, name), name));
+    names.filter(like).min().map(|it| it.1)
 }
 
 fn file(path: &str) -> Result<Loaded, Failure> {
     const WHAT: &str = "a model";
     let bytes = input::bytes(path, WHAT, input::MODEL_BYTES)?;
+    kind::expect(path, &bytes, WHAT, &kind::MODELS)?;
     let end = Path::new(path).extension().map(|end| end.to_string_lossy().to_lowercase());
     let is_json = match end.as_deref() {
         Some("json") => true,
@@ -109,7 +115,7 @@ fn refused(source: &str, text: String, error: JsonNetError) -> Failure {
         JsonNetError::Json { line, column, what } if line > 0 => {
             FileErrors::at(source, text, line, column, what).into()
         }
-        other => Failure::new(format!("{source}: {other}"))
+        other => Failure::of(source, other.to_string())
             .help("`cotama export door --format json` shows how such a file looks"),
     }
 }

@@ -1,8 +1,11 @@
 //! Writing: to standard output and error, and whole files at once.
 
+use crate::answers::error::ErrorAnswer;
 use crate::args::Color;
 use crate::exit::Failure;
 use crate::input::plain;
+use crate::mission::quoted;
+use crate::render::fold::folded;
 use crate::render::snippet;
 use anstream::{AutoStream, ColorChoice};
 use serde::Serialize;
@@ -29,12 +32,7 @@ impl Screen {
             Color::Always => ColorChoice::Always,
             Color::Never => ColorChoice::Never,
         };
-        let named = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
-        let measured =
-            || terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
-        let width =
-            named.or_else(measured).filter(|&width| width > 0).unwrap_or(WIDTH).max(LEAST_WIDTH);
-        Self { choice, width }
+        Self { choice, width: width() }
     }
 
     /// How many characters fit on a line.
@@ -42,9 +40,10 @@ impl Screen {
         self.width
     }
 
-    /// Writes to standard output; styles are left out where they are not wanted. A reader who has
-    /// gone away is no error.
+    /// Writes to standard output, in lines that fit; styles are left out where they are not wanted.
+    /// A reader who has gone away is no error.
     pub(crate) fn print(&self, text: &str) -> Result<(), Failure> {
+        let text = folded(text, self.width);
         written(write_to(&mut AutoStream::new(io::stdout(), self.choice), text.as_bytes()))
     }
 
@@ -66,10 +65,26 @@ impl Screen {
         let _ = writeln!(AutoStream::new(io::stderr(), self.choice), "{text}");
     }
 
-    /// Says on standard error why a command cannot do its work.
+    /// Says why a command cannot do its work: to a program as an object on standard output, else
+    /// on standard error.
+    pub(crate) fn refuse(&self, failure: &Failure, is_json: bool) {
+        if !is_json || Self::json(&ErrorAnswer::from(failure)).is_err() {
+            self.explain(failure);
+        }
+    }
+
+    /// Says on standard error why something cannot be done.
     pub(crate) fn explain(&self, failure: &Failure) {
         self.note(&snippet::failure(failure, self.width));
     }
+}
+
+/// How many characters fit on a line: what `COLUMNS` says, or what the terminal has.
+pub(crate) fn width() -> usize {
+    let named = std::env::var("COLUMNS").ok().and_then(|columns| columns.parse().ok());
+    let measured =
+        || terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
+    named.or_else(measured).filter(|&width| width > 0).unwrap_or(WIDTH).max(LEAST_WIDTH)
 }
 
 fn write_to(stream: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
@@ -86,36 +101,62 @@ fn written(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// Writes a file as a whole: under another name in the same folder, which then takes the place of
-/// the old file. Missing folders are made. When it fails, whatever stood there before still does.
-pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    let shown = path.display();
-    let refused = |error: &io::Error| {
-        Failure::new(format!("{shown}: it cannot be written: {}", plain(error)))
-    };
+/// A place for a file that a command is to write: refused before the work begins where nothing can
+/// be written.
+pub(crate) fn place(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
-        return Err(Failure::new(format!(
-            "{shown}: this is a directory, a file was to be written there"
-        )));
+        return Err(wrong(path, "this is a directory, a file was to be written there"));
     }
-    let Some(name) = path.file_name() else {
-        return Err(Failure::new(format!("{shown}: this is not the name of a file")));
-    };
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
-    fs::create_dir_all(folder).map_err(|error| {
-        Failure::new(format!("{}: this folder cannot be made: {}", folder.display(), plain(&error)))
-    })?;
+    if path.file_name().is_none() {
+        return Err(wrong(path, "this is not the name of a file"));
+    }
+    there(folder_of(path))
+}
+
+/// A place for the folder of a report, which is made if it is not there.
+pub(crate) fn report(folder: &Path) -> Result<(), Failure> {
+    if folder.is_dir() {
+        return place(&folder.join("index.html"));
+    }
+    if folder.exists() {
+        return Err(wrong(folder, "this is a file, and the report is a folder"));
+    }
+    there(folder_of(folder))
+}
+
+fn there(folder: &Path) -> Result<(), Failure> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    if folder.exists() {
+        return Err(wrong(folder, "this is a file, and a folder is needed there"));
+    }
+    let make = quoted(&folder.display().to_string());
+    Err(wrong(folder, "there is no such folder").help(format!("make it: mkdir -p {make}")))
+}
+
+fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."))
+}
+
+fn wrong(path: &Path, message: impl Into<String>) -> Failure {
+    Failure::of(path.display().to_string(), message)
+}
+
+/// Writes a file as a whole: under another name in the same folder, which then takes the place of
+/// the old file. When it fails, whatever stood there before still does.
+pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    place(path)?;
+    let refused =
+        |error: &io::Error| wrong(path, format!("it cannot be written: {}", plain(error)));
     // A device or a pipe cannot be replaced; it is written to.
     if path.metadata().is_ok_and(|there| !there.is_file()) {
         return fs::write(path, bytes).map_err(|error| refused(&error));
     }
     let mut temporary = std::ffi::OsString::from(".");
-    temporary.push(name);
+    temporary.push(path.file_name().unwrap_or_default());
     temporary.push(format!(".{}.part", std::process::id()));
-    let temporary = folder.join(temporary);
+    let temporary = folder_of(path).join(temporary);
     let whole = fs::File::create(&temporary)
         .and_then(|mut file| write_to(&mut file, bytes))
         .and_then(|()| fs::rename(&temporary, path));
@@ -123,4 +164,10 @@ pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let _ = fs::remove_file(&temporary);
         refused(&error)
     })
+}
+
+/// Makes a folder, and those that it is in.
+pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path)
+        .map_err(|error| wrong(path, format!("this folder cannot be made: {}", plain(&error))))
 }

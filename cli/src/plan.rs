@@ -9,6 +9,7 @@ use crate::mission::{self, Loaded};
 use crate::output::Screen;
 use crate::render;
 use crate::solve::{Method, Solution, Verdict, solve};
+use crate::words::Words;
 use cotama_core::exact::Objective;
 use cotama_core::front::{Front, Node};
 use cotama_core::problem::{Candidate, Problem};
@@ -22,15 +23,16 @@ pub(crate) fn plan(args: &PlanArgs, screen: &Screen) -> Result<Exit, Failure> {
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let words = mission::words(&args.mission.mission, &args.planning);
-        screen.print(&render::plan::screen(&answer, &words, screen.width()))?;
+        let supervised = loaded.mission.supervisor().is_some();
+        let next = Words::of_plan(args).after_plan(&answer, args.planning.steps, supervised);
+        screen.print(&render::plan::screen(&answer, next, screen.width()))?;
     }
     Ok(exit(answer.status))
 }
 
 fn answer(args: &PlanArgs, loaded: &Loaded) -> Result<PlanAnswer, Failure> {
     let mission = &loaded.mission;
-    let objective = mission::objective(args.objective, mission);
+    let objective = mission::objective(args.objective, args.planning.allocator, mission);
     let lost = mission::lost(mission, &args.planning.lost)?;
     let available = mission::available(mission, &lost);
     let scenario = mission.scenario();

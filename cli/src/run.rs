@@ -1,18 +1,20 @@
 //! `cotama run`: a mission planned, run with its faults, planned again where needed, and reported.
 
 use crate::answers::{Outcome, RunAnswer, RunBody};
-use crate::args::{AllocatorName, Lost, Objective, RunArgs};
+use crate::args::{Lost, RunArgs};
 use crate::exit::{Exit, Failure};
 use crate::infeasible;
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::mission::{self, Loaded};
 use crate::output::{self, Screen};
 use crate::render;
+use crate::words::Words;
 use cotama_core::monitor::Upward;
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::{Event, EventKind, Faults};
-use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
+use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::report;
 use cotama_sim::run::{NoPlan, Reason, Run};
 use cotama_sim::trace::{RecordError, Trace};
@@ -25,6 +27,12 @@ pub(crate) use body::body;
 
 /// Plans a mission, runs it and reports.
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if let Some(path) = &args.trace {
+        output::place(path)?;
+    }
+    if let Some(folder) = &args.report {
+        output::report(folder)?;
+    }
     let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
     let options = options(args, &loaded.mission)?;
     match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {
@@ -61,10 +69,19 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let words = mission::words(&args.mission.mission, &args.planning);
-        screen.print(&render::run::screen(&answer.run, Some(&trace), &words, screen.width()))?;
+        let next = next(args, &loaded.mission, &answer.run);
+        screen.print(&render::run::screen(&answer.run, Some(&trace), next, screen.width()))?;
     }
     Ok(ended(&run))
+}
+
+/// The command that suggests itself.
+fn next(args: &RunArgs, mission: &Mission, body: &RunBody) -> Option<String> {
+    if let Some(trace) = &body.trace {
+        return Some(format!("cotama replay {}", mission::quoted(trace)));
+    }
+    let objective = mission::objective(args.objective, args.planning.allocator, mission);
+    Words::of_run(args).after_run(body, objective.name())
 }
 
 /// The exit code of a run.
@@ -118,8 +135,8 @@ fn never_left(
     if args.json.json {
         Screen::json(&answer)?;
     } else {
-        let words = mission::words(&args.mission.mission, &args.planning);
-        screen.print(&render::run::screen(&answer.run, None, &words, screen.width()))?;
+        let next = next(args, mission, &answer.run);
+        screen.print(&render::run::screen(&answer.run, None, next, screen.width()))?;
     }
     if args.report.is_some() || args.trace.is_some() {
         screen.note("nothing was run: neither a report nor a trace is written");
@@ -128,19 +145,15 @@ fn never_left(
 }
 
 fn options(args: &RunArgs, mission: &Mission) -> Result<Options, Failure> {
-    let steps = args.planning.steps;
     if mission.supervisor().is_some() && (args.upward || !args.planning.lost.is_empty()) {
         let message = "--upward and --lost are for missions without supervisors";
         return Err(
             Failure::new(message).help("name a failure in a file of faults: kind = \"failure\"")
         );
     }
-    let planner = match (mission::objective(args.objective, mission), args.planning.allocator) {
-        (Objective::Paper, Some(AllocatorName::Exact)) => Planner::PanoramaThenExact { steps },
-        (Objective::Paper, _) | (_, Some(AllocatorName::Panorama)) => Planner::Panorama,
-        (Objective::MinEnergy, _) => Planner::Exact { aim: Aim::MinEnergy, steps },
-        _ => Planner::Exact { aim: Aim::Quality, steps },
-    };
+    let allocator = args.planning.allocator;
+    let objective = mission::objective(args.objective, allocator, mission);
+    let planner = mission::planner(objective, allocator, args.planning.steps);
     // A better plan is looked for when a margin has grown by a hundredth of its limit, and leaves
     // half of that.
     let upward = Upward {
@@ -163,6 +176,7 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
         "none" => FaultChoice::None,
         path => {
             let text = input::text(path, "a file of faults", input::MISSION_BYTES)?;
+            kind::expect(path, text.as_bytes(), "a file of faults", &[Kind::Faults])?;
             FaultChoice::Given { source: path.into(), faults: Faults::parse(path, &text, mission)? }
         }
     };
@@ -207,6 +221,7 @@ pub(crate) fn write_files(
         body.trace = Some(path.display().to_string());
     }
     if let Some(folder) = folder {
+        output::make_folder(folder)?;
         let path = folder.join("index.html");
         output::file(&path, report::html(trace).as_bytes())?;
         body.report = Some(path.display().to_string());

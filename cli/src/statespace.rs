@@ -41,7 +41,7 @@ pub(crate) fn statespace(args: &StatespaceArgs, screen: &Screen) -> Result<Exit,
     if args.json.json {
         Screen::json(&answer)?;
     } else if args.mcc {
-        screen.print(&lines(&answer, budget.jobs))?;
+        Screen::raw(lines(&answer, budget.jobs).as_bytes())?;
     } else {
         screen.print(&render::statespace::screen(&answer, screen.width()))?;
     }

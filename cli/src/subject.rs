@@ -5,6 +5,7 @@ use crate::catalogue::{self, Entry, Kind};
 use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
+use crate::kind;
 use crate::model;
 use cotama_core::net::owned::OwnedNet;
 use cotama_models::cotama::Watch;
@@ -77,7 +78,7 @@ impl Subject {
             Model::from(&view.net())
         } else {
             Model::timed(&view.net()).map_err(|defect| {
-                Failure::new(format!("{name}: its intervals of time cannot be kept: {defect}"))
+                Failure::of(name, format!("its intervals of time cannot be kept: {defect}"))
                     .help("--untimed leaves them out")
             })?
         };
@@ -130,6 +131,11 @@ impl Subject {
         matches!(self.model, Model::Timed { .. })
     }
 
+    /// The unit of its intervals; none without them, and of a file of TINA, which names none.
+    pub(crate) fn time_unit(&self) -> Option<&'static str> {
+        (self.is_timed() && self.net.is_some()).then_some("ms")
+    }
+
     /// The same without intervals.
     pub(crate) fn without_time(mut self) -> Self {
         if let Model::Timed { untimed, .. } = self.model {
@@ -141,6 +147,7 @@ impl Subject {
 
 fn time_net(path: &str, untimed: bool) -> Result<Model, Failure> {
     let bytes = input::bytes(path, "a model", input::MODEL_BYTES)?;
+    kind::expect(path, &bytes, "a model", &kind::MODELS)?;
     let net: TimeNet = tina::read(path, &bytes).map_err(|error| {
         let text = String::from_utf8_lossy(&bytes).into_owned();
         FileErrors::at_character(path, text, (error.line, error.column), error.message, error.help)

@@ -4,6 +4,7 @@ use crate::answers::check::VerifyAnswer;
 use crate::args::VerifyArgs;
 use crate::exit::{Exit, Failure};
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::output::Screen;
 use crate::render;
 use cotama_verification::certificate::{VerifyError, verify as verify_text};
@@ -12,6 +13,7 @@ use cotama_verification::certificate::{VerifyError, verify as verify_text};
 pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure> {
     const WHAT: &str = "a certificate";
     let bytes = input::bytes(&args.certificate, WHAT, input::CERTIFICATE_BYTES)?;
+    kind::expect(&args.certificate, &bytes, WHAT, &[Kind::Certificate])?;
     let text = input::utf8(&args.certificate, WHAT, bytes)?;
     let nothing = VerifyAnswer {
         schema: "cotama/verify/1",
@@ -35,7 +37,7 @@ pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure
         // What is no certificate at all is not refused, it is bad input.
         Err(VerifyError { at, message }) if at == "certificate" || at == "schema" => {
             let name = input::name(&args.certificate);
-            return Err(Failure::new(format!("{name}: {at}: {message}")).help(
+            return Err(Failure::of(name, format!("{at}: {message}")).help(
                 "`cotama check MODEL --property TEXT --certificate FILE` writes certificates",
             ));
         }

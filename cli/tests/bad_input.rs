@@ -8,6 +8,13 @@ fn refused(folder: &Folder, name: &str, arguments: &[&str]) {
     assert_eq!((ended.code, ended.stdout.as_str()), (Some(2), ""), "{name}: {ended:?}");
     assert!(!ended.stderr.contains("panicked"), "{name}: {}", ended.stderr);
     golden(&format!("bad_{name}.txt"), &ended.stderr);
+    if ["export", "table"].contains(&arguments[0]) {
+        return;
+    }
+    // The same is said to a program.
+    let ended = folder.cotama(&[arguments, &["--json"]].concat());
+    let error = ended.json(2);
+    assert_eq!((&error["schema"], ended.stderr.as_str()), (&"cotama/error/1".into(), ""), "{name}");
 }
 
 #[test]

@@ -239,7 +239,7 @@ fn files_hold_one_property_a_line_or_those_of_the_contest() {
     let folder = Folder::new("check_files");
     folder.write(
         "wanted.txt",
-        "# of the door\n\nnever: AG !(Closing & obstacle)\n  EF Open\nlive\ndeadlock\n",
+        "# of the door\n\nnever: AG !(Closing & obstacle)\n  EF Open\nlive\nEF deadlock\n",
     );
     let answer = folder
         .cotama(&["check", "door", "--untimed", "--properties", "wanted.txt", "--json"])
@@ -251,7 +251,7 @@ fn files_hold_one_property_a_line_or_those_of_the_contest() {
         .collect();
     assert_eq!(
         named,
-        [("never", "true"), ("EF Open", "true"), ("live", "true"), ("deadlock", "false")]
+        [("never", "true"), ("EF Open", "true"), ("live", "true"), ("EF deadlock", "false")]
     );
     assert_eq!(folder.cotama(&["export", "door", "--output", "door.pnml"]).code, Some(0));
     folder.write("wanted.xml", CONTEST);
@@ -361,7 +361,7 @@ fn evidence_of_every_kind_is_accepted() {
         ("kanban:3", "bounds(P1 + P2)", 0, "parts"),
         ("pump.net", "bounds(tank)", 0, "growth"),
     ] {
-        let more = ["--untimed", "--certificate", "it.json", "--json"];
+        let more = ["--untimed", "--initial", "--certificate", "it.json", "--json"];
         let answer = check(&folder, model, &[property], &more).json(code);
         let row = &answer["results"][0];
         assert_eq!(

@@ -17,6 +17,7 @@ const FORMATS: [(&str, &str, &str); 8] = [
 #[test]
 fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
     let folder = Folder::new("export_formats");
+    std::fs::create_dir(folder.path().join("out")).unwrap();
     for (format, end, begin) in FORMATS {
         let printed = folder.cotama(&["export", "door", "--format", format]);
         assert!(

@@ -142,10 +142,7 @@ fn a_mission_is_read_from_a_file_and_from_standard_input() {
     let answer = folder.shell("cotama plan - --json < 'short walk.toml'").json(0);
     assert_eq!(answer["mission"], "walk");
     let screen = folder.cotama(&["plan", "short walk.toml"]).stdout;
-    assert!(
-        screen.ends_with("next: cotama plan 'short walk.toml' --objective quality\n"),
-        "{screen}"
-    );
+    assert!(screen.ends_with("next: cotama run 'short walk.toml'\n"), "{screen}");
 }
 
 #[test]
@@ -153,4 +150,41 @@ fn the_tables_of_the_patrol_are_those_of_the_library() {
     let printed = Folder::new("table").cotama(&["table", "patrol"]);
     let stored = include_str!("../../models/src/missions/tables/patrol.rs");
     assert_eq!((printed.code, printed.stdout.as_str()), (Some(0), stored));
+}
+
+/// The rule fills the limits: it can lose on every axis.
+#[test]
+fn a_mission_that_does_not_ask_for_the_rule_is_planned_by_a_complete_search() {
+    let folder = Folder::new("plan_objective");
+    let plan = |file: &str, more: &[&str]| {
+        let answer = folder.cotama(&[&["plan", file, "--json"], more].concat()).json(0);
+        let text = |name: &str| answer[name].as_str().unwrap().to_owned();
+        (text("objective"), text("allocator"), answer["quality"].as_u64().unwrap())
+    };
+    let is = |objective: &str, allocator: &str, quality| {
+        (objective.to_owned(), allocator.to_owned(), quality)
+    };
+    let paper = "plan.objective = \"paper\" ";
+    folder.write("walk.toml", patrol(&[(paper, "")]));
+    assert_eq!(plan("walk.toml", &[]), is("quality", "exact", 21_830));
+    assert_eq!(plan("walk.toml", &["--objective", "paper"]), is("paper", "panorama", 19_190));
+    assert_eq!(plan("walk.toml", &["--allocator", "panorama"]), is("paper", "panorama", 19_190));
+    folder.write("rule.toml", patrol(&[]));
+    assert_eq!(plan("rule.toml", &[]), is("paper", "panorama", 19_190));
+    assert_eq!(plan("rule.toml", &["--objective", "quality"]), is("quality", "exact", 21_830));
+    folder.write("saving.toml", patrol(&[(paper, "plan.objective = \"min-energy\" ")]));
+    let energy = folder.cotama(&["plan", "saving.toml", "--json"]).json(0);
+    assert_eq!(
+        (&energy["objective"], &energy["energy_mj"]),
+        (&json!("min-energy"), &json!(4_675_896))
+    );
+    // A run pursues the same, and so does a run of faults that is made again.
+    let run = |file: &str| {
+        let line = ["run", file, "--faults", "none", "--no-report", "--json"];
+        folder.cotama(&line).json(0)["plans"][0]["allocator"].clone()
+    };
+    assert_eq!((run("walk.toml"), run("rule.toml")), (json!("exact"), json!("panorama")));
+    folder.write("quiet.toml", "format = \"panorama-faults/1\"\n");
+    let line = ["replay", "quiet.toml", "--mission", "walk.toml", "--json"];
+    assert_eq!(folder.cotama(&line).json(0)["plans"][0]["allocator"], "exact");
 }

@@ -145,7 +145,7 @@ fn a_limit_that_the_delivery_exceeds_is_a_failure() {
         (&answer["outcome"], &answer["duration_margin_ms"]),
         (&json!("failed"), &json!(-153_700))
     );
-    assert_eq!(answer["reason"], "duration limit exceeded by 153700 ms");
+    assert_eq!(answer["reason"], "duration limit exceeded by 153.7 s");
     // Without a plan for the rest, the adapter goes on and the operator is asked.
     let sonar = &answer["supervised"]["points"][5];
     assert_eq!((&answer["replans"], &sonar["ladder"]), (&json!(0), &json!(["set", "activity"])));
@@ -165,6 +165,7 @@ fn the_report_is_written_where_it_is_said_and_nothing_else() {
         html.to_lowercase().starts_with("<!doctype html>") && html.trim_end().ends_with("</html>")
     );
     // Again, over the old one, and elsewhere.
+    std::fs::create_dir(folder.path().join("a")).unwrap();
     folder.cotama(&["run", "patrol", "--json", "--report", "a/b"]).json(0);
     folder.cotama(&["run", "patrol", "--json", "--report", "a/b"]).json(0);
     assert_eq!(folder.files("a/b"), ["index.html"]);

@@ -4,7 +4,7 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 12] = [
+const COMMANDS: [&str; 13] = [
     "list",
     "plan",
     "run",
@@ -17,6 +17,7 @@ const COMMANDS: [&str; 12] = [
     "verify",
     "fmeca",
     "new",
+    "error",
 ];
 
 fn stored(command: &str) -> PathBuf {

@@ -1,6 +1,8 @@
 //! The instance of an allocation problem, read from JSON with the place of every error.
 
 use crate::exit::Failure;
+use crate::file_errors::FileErrors;
+use crate::input;
 use cotama_core::problem::{Candidate, Problem};
 use serde::de::{Deserialize, Deserializer, Error, IgnoredAny, SeqAccess, Visitor};
 use std::fmt;
@@ -120,11 +122,11 @@ impl<'de, T: Deserialize<'de>, L: List> Deserialize<'de> for Bounded<T, L> {
 impl Instance {
     /// Reads an instance; `name` is that of its file.
     pub(crate) fn parse(name: &str, text: &str) -> Result<Self, Failure> {
-        let name = if name == "-" { "standard input" } else { name };
         let file: File = serde_json::from_str(text).map_err(|error| {
             let said = error.to_string();
             let what = said.rsplit_once(" at line ").map_or(said.as_str(), |(what, _)| what);
-            Failure::new(format!("{name}:{}:{}: {what}", error.line(), error.column().max(1))).help(
+            let (line, column) = (error.line(), error.column().max(1));
+            FileErrors::at(input::name(name), text.to_owned(), line, column, what.to_owned()).help(
                 "an instance is \
                  {\"limits\":{\"duration_ms\":D,\"energy_mj\":E},\
                  \"activities\":[[[quality,duration_ms,energy_mj],...],...]}, \

@@ -12,6 +12,9 @@ pub(crate) struct CheckAnswer {
     pub(crate) model: String,
     /// Whether transitions fire within their intervals; otherwise in any order, at any time.
     pub(crate) timed: bool,
+    /// The unit of `min` and `max` and of the times of runs: `ms`; null where there is no time, and
+    /// of a file of TINA, which names none.
+    pub(crate) time_unit: Option<&'static str>,
     /// What it means that the nets of a system work together; null of one net.
     pub(crate) semantics: Option<Semantics>,
     /// What to know about the model as it was checked.
@@ -179,7 +182,7 @@ pub(crate) struct FiringRow {
     /// What it emits.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) outputs: Vec<String>,
-    /// When, in the unit of the net, as an exact decimal; of time nets.
+    /// When, in `time_unit`, as an exact decimal; of time nets.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) time: Option<String>,
     /// The places that hold another number of tokens afterwards.

@@ -17,39 +17,48 @@ Properties:
   bound(t -> p)            time nets: the least and the most time from t to p
   AG (f -> AF<=200ms o)    time nets: at the latest after 200 ms
   AF a assuming weak(t)    not on runs that could fire t for ever and never do
-  a <= 2, 2*a - b = 1, fireable(t1, t2), deadlock, true, false: about one marking
-By name: deadlock, live, quasi_live, one_safe, stable.
+About one marking, behind a quantifier or with --initial:
+  a, a <= 2, 2*a - b = 1   tokens of places
+  fireable(t1, t2)         one of these transitions can fire
+  deadlock                 nothing can fire
+  true, false              always, never
+By name:
+  deadlock_free            AG !deadlock
+  live, quasi_live         each transition can fire again and again; can fire
+  one_safe, stable         no place holds two tokens; some place never changes
 
-A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with #
-are left out. A property file of the Model Checking Contest (XML) is read as well. Without
-properties, the laws of the model are checked, or the requirements of the systems `delivery` and
-`recovering`; where it has none, the usual three questions: is there no deadlock, is it 1-safe or
+A file has one property a line, as `name: AG !(a & b)` or without a name; lines that begin with # \
+are left out. A property file of the Model Checking Contest (XML) is read as well. Without \
+properties, the laws of the model are checked, or the requirements of the systems `delivery` and \
+`recovering`; where it has none, the usual three questions: is there no deadlock, is it 1-safe or \
 else how many tokens are there, can each transition fire.
 
-Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit
+Engines: auto asks the cheapest first. structural looks at the net alone, stubborn and explicit \
 pass through markings.
 
-Systems: with --semantics rounds, the default, the place `round` is marked between two rounds, and
-`turn.outside` when it is the turn of what is outside. What happens in a round is shown, not the way
-of its token.
+Systems: with --semantics rounds, the default, the place `round` is marked between two rounds, and \
+`turn.outside` when it is the turn of what is outside. What happens in a round is shown, not the \
+way of its token.
 
-Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each
+Evidence: --certificate FILE writes what `cotama verify` checks again. Of several properties each \
 has a file of its own, FILE-1.json, FILE-2.json and so on by its position; so for --trace.
 
-Where quasi_live or live is false because transitions never fire, these are listed, and the places
+Where quasi_live or live is false because transitions never fire, these are listed, and the places \
 that are never marked; in --json as `unused`.
 
-Exit codes: 0 all are true, or their bounds are known; 1 one is false; 3 none is false and one is
+Exit codes: 0 all are true, or their bounds are known; 1 one is false; 3 none is false and one is \
 not known; 2 bad input.
 
 Examples:
   $ cotama check door
   $ cotama check door --property 'AG !(Closing & obstacle)'
+  $ cotama check door --untimed --property deadlock_free
   $ cotama check philosophers:5 --property 'EF deadlock' --trace feast.html
-  $ cotama check philosophers:3 --property 'AG !deadlock' --json   # it is not so: exit code 1
-  $ cotama check kanban:2000 --property 'AG !deadlock' --certificate it.json; cotama verify it.json
+  $ cotama check philosophers:3 --property deadlock_free --json   # it is not so: exit code 1
+  $ cotama check kanban:2000 --property deadlock_free --certificate it.json; cotama verify it.json
   $ printf 'ends: EF deadlock\\nlive\\n' > two.txt
   $ cotama check kanban:2 --properties two.txt --mcc   # it has no deadlock: exit code 1
+  $ cotama check kanban:2 --property 'P1 = 2' --initial
   $ cotama check watchdog --property 'bound(w1 -> Fault)'
   $ cotama check door --untimed --property 'AG (Opening -> AF Open) assuming weak(opened)'
   $ cotama check kanban:2 --junit kanban.xml --sarif kanban.sarif
@@ -58,8 +67,7 @@ Examples:
 
 pub(crate) const STATESPACE_EXAMPLES: &str = "\
 What is counted of an incomplete search is shown as explored, and the exit code is 3. Of an \
-unbounded
-net, it is shown which firings can be repeated to add tokens for ever.
+unbounded net, it is shown which firings can be repeated to add tokens for ever.
 
 Examples:
   $ cotama statespace door
@@ -70,8 +78,7 @@ Examples:
 
 pub(crate) const VERIFY_EXAMPLES: &str = "\
 A certificate that is refused does not show that its verdict is wrong; one that is accepted shows \
-that
-it is right, whatever engine found it.
+that it is right, whatever engine found it.
 
 Exit codes: 0 it shows its verdict, 1 it does not, 2 it is no certificate.
 
@@ -92,11 +99,11 @@ pub(crate) struct BudgetArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) max_states: Option<u64>,
     /// The most memory of a search, in MiB
-    #[arg(long, value_name = "MIB", default_value_t = 4096)]
+    #[arg(long, value_name = "MiB", default_value_t = 4096)]
     #[arg(value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
     pub(crate) max_memory: u64,
     /// The most time of all work together, in seconds [default: no limit]
-    #[arg(long, value_name = "S", value_parser = seconds)]
+    #[arg(long, value_name = "s", value_parser = seconds)]
     pub(crate) max_seconds: Option<Duration>,
 }
 
@@ -105,6 +112,7 @@ fn seconds(text: &str) -> Result<Duration, String> {
     wanted.ok_or_else(|| "a number of seconds is expected, as 60 or 0.5".to_owned())
 }
 
+#[allow(clippy::struct_excessive_bools)] // each is a flag of its own
 #[derive(Args, Debug)]
 pub(crate) struct CheckArgs {
     /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
@@ -116,6 +124,9 @@ pub(crate) struct CheckArgs {
     /// A file of properties: one a line, or of the Model Checking Contest
     #[arg(long, value_name = "FILE")]
     pub(crate) properties: Option<String>,
+    /// Asks properties without a quantifier of the marking at the start
+    #[arg(long)]
+    pub(crate) initial: bool,
     /// Which engine looks for the answer
     #[arg(long, value_enum, value_name = "ENGINE", default_value_t = EngineName::Auto)]
     pub(crate) engine: EngineName,
@@ -200,7 +211,9 @@ pub(crate) enum EngineName {
     /// The structure of the net, without its markings
     Structural,
     /// Not in this version
+    #[value(hide = true)]
     Symbolic,
     /// Not in this version
+    #[value(hide = true)]
     Sat,
 }

@@ -5,8 +5,8 @@ use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
 pub(crate) const FMECA_EXAMPLES: &str = "\
-Severities: weak, medium, hard, fatal; the first while the robot drives itself, the second while the
-operator drives.
+Severities: weak, medium, hard, fatal; the first while the robot drives itself, the second while \
+the operator drives.
 
 Examples:
   $ cotama fmeca

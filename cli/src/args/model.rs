@@ -27,7 +27,7 @@ Words:
   A,B       with --rounds: offers both in one round; there, +MS is a round without events
 
 In a file or on standard input: one of these a line; lines that begin with # are left out.
-On a terminal, and with --interactive, a line can also be the number of an event, the beginning of
+On a terminal, and with --interactive, a line can also be the number of an event, the beginning of \
 its name, `back`, `marking`, `help` or `quit`.
 
 Examples:

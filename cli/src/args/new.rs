@@ -7,8 +7,8 @@ use std::path::PathBuf;
 pub(crate) const NEW_EXAMPLES: &str = "\
 What is written:
   mission  NAME.toml, with every section explained; `plan` and `run` take it as it is
-  net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of
-           what it promises, and an example that writes it as JSON for `check` and `simulate`
+  net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
+what it promises, and an example that writes it as JSON for `check` and `simulate`
   system   the same with two supervisors that work together
 
 Examples:

@@ -25,6 +25,10 @@ pub(super) struct Files {
 impl Files {
     /// The files that are wanted.
     pub(super) fn new(args: &CheckArgs) -> Result<Self, Failure> {
+        for path in args.certificate.iter().chain(&args.trace).chain(&args.junit).chain(&args.sarif)
+        {
+            output::place(path)?;
+        }
         let trace = match &args.trace {
             Some(path) => Some((path.clone(), Form::of(path)?)),
             None => None,

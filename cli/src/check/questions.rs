@@ -5,11 +5,14 @@ use crate::catalogue;
 use crate::exit::Failure;
 use crate::file_errors::{FileError, FileErrors, Mark};
 use crate::input;
+use crate::kind::{self, Kind};
 use crate::models::law;
+use crate::render::visible;
 use crate::subject::Subject;
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::OwnedNet;
 use cotama_models::cotama::Requirement;
+use cotama_verification::pnml::Location;
 use cotama_verification::property::{self, Atom, Formula, Property, PropertyError, Question, mcc};
 use cotama_verification::pt::Pt;
 
@@ -35,10 +38,10 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     let pt = subject.model.pt();
     let mut properties = Vec::new();
     for text in &args.property {
-        properties.push(one(text, pt)?);
+        properties.push(one(text, args.initial, pt)?);
     }
     if let Some(path) = &args.properties {
-        properties.extend(file(path, subject)?);
+        properties.extend(file(path, args.initial, subject)?);
     }
     if !properties.is_empty() {
         return Ok(Asked { properties, ..Asked::default() });
@@ -74,30 +77,28 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
 }
 
 /// A property that was typed, or a question by its name.
-fn one(text: &str, pt: &Pt) -> Result<Property, Failure> {
+fn one(text: &str, initial: bool, pt: &Pt) -> Result<Property, Failure> {
     let name = text.trim();
-    if name == "deadlock" {
-        return Ok(Property { name: name.to_owned(), ..deadlock() });
-    }
     if let Some(known) = mcc::examination(name).filter(|_| pt.place(name).is_none()) {
         return Ok(known);
     }
-    parsed(text, pt).map_err(|error| {
+    parsed(text, initial, pt).map_err(|error| {
         let source = error.source_name.clone();
         let mark = mark(&error, text, 0);
         errors(&source, text.to_owned(), vec![(error, mark)])
     })
 }
 
-fn deadlock() -> Property {
-    let deadlock = Formula::Atom(Atom::Deadlock);
-    let question = Question::Formula(Formula::Exists(Formula::Finally(deadlock.into()).into()));
-    Property { name: "deadlock".to_owned(), question }
+/// The wish that something can always happen: `AG !deadlock`.
+fn deadlock_free() -> Question {
+    let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());
+    Question::Formula(Formula::All(Formula::Globally(alive.into()).into()))
 }
 
-fn file(path: &str, subject: &Subject) -> Result<Vec<Property>, Failure> {
+fn file(path: &str, initial: bool, subject: &Subject) -> Result<Vec<Property>, Failure> {
     const WHAT: &str = "a file of properties";
     let bytes = input::bytes(path, WHAT, input::PROPERTIES_BYTES)?;
+    kind::expect(path, &bytes, WHAT, &[Kind::Properties])?;
     let name = input::name(path);
     let is_xml = path.to_ascii_lowercase().ends_with(".xml") || is_markup(&bytes);
     let properties = if is_xml {
@@ -108,10 +109,10 @@ fn file(path: &str, subject: &Subject) -> Result<Vec<Property>, Failure> {
             errors(name, text, vec![(error, mark)])
         })?
     } else {
-        lines(name, input::utf8(path, WHAT, bytes)?, subject.model.pt())?
+        lines(name, input::utf8(path, WHAT, bytes)?, initial, subject.model.pt())?
     };
     if properties.is_empty() {
-        return Err(Failure::new(format!("{name}: there is no property in it")).help(
+        return Err(Failure::of(name, "there is no property in it").help(
             "one a line, as `name: AG !(a & b)`; or a property file of the Model Checking Contest",
         ));
     }
@@ -124,7 +125,7 @@ fn is_markup(bytes: &[u8]) -> bool {
 }
 
 /// One property a line, with a name before a colon or without.
-fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> {
+fn lines(source: &str, text: String, initial: bool, pt: &Pt) -> Result<Vec<Property>, Failure> {
     let (mut properties, mut wrong, mut at) = (Vec::new(), Vec::new(), 0);
     for line in text.split_inclusive('\n') {
         let start = at;
@@ -134,7 +135,7 @@ fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> 
             continue;
         }
         let (name, formula) = named(line);
-        match one_of_file(formula, pt) {
+        match parsed(formula, initial, pt) {
             Ok(property) => {
                 let name = name.map_or(property.name, str::to_owned);
                 properties.push(Property { name, question: property.question });
@@ -148,16 +149,35 @@ fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> 
     if wrong.is_empty() { Ok(properties) } else { Err(errors(source, text, wrong)) }
 }
 
-fn one_of_file(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
-    match text.trim() {
-        "deadlock" => Ok(deadlock()),
-        _ => parsed(text, pt),
+/// A property that was typed, named as it is written out. One that speaks of a single marking has to
+/// say of which.
+fn parsed(text: &str, initial: bool, pt: &Pt) -> Result<Property, PropertyError> {
+    let name = text.trim();
+    if name == "deadlock_free" && pt.place(name).is_none() {
+        return Ok(Property { name: name.to_owned(), question: deadlock_free() });
     }
-}
-
-/// A property that was typed, named as it is written out.
-fn parsed(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
     let property = property::parse(text, pt)?;
+    let is_state = property.question.formula().is_some_and(Formula::is_state);
+    if is_state && !initial {
+        let start = text.len() - text.trim_start().len();
+        let message = "this speaks of one marking, and no quantifier says of which".to_owned();
+        let shown = if name.chars().count() > 40 { "..".to_owned() } else { visible(name) };
+        let help = match property.question.formula() {
+            Some(Formula::Atom(Atom::Deadlock)) => {
+                "`deadlock_free`: no run comes to an end; `EF deadlock`: some run does; with \
+                 --initial: at the start"
+                    .to_owned()
+            }
+            _ => format!(
+                "`AG ({shown})`: in all markings; `EF ({shown})`: in some marking; with \
+                 --initial: at the start"
+            ),
+        };
+        let column = 1 + text[..start].chars().count();
+        let at = Location { line: 1, column, span: start..start + name.len() };
+        let (source_name, help) = ("property".to_owned(), Some(help));
+        return Err(PropertyError { source_name, at, message, help });
+    }
     let name = property.question.display(pt).to_string();
     Ok(Property { name, ..property })
 }
@@ -223,8 +243,6 @@ fn laws(net: &OwnedNet) -> Asked {
 /// there, can each transition fire.
 fn usual(pt: &Pt) -> Vec<Property> {
     let property = |name: &str, question| Property { name: name.to_owned(), question };
-    let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());
-    let always = Question::Formula(Formula::All(Formula::Globally(alive.into()).into()));
     let transitions = 0..pt.transitions.len() as u32;
     let one_each = pt.initial.iter().all(|&tokens| tokens <= 1)
         && transitions.flat_map(|it| pt.effects.of(it)).all(|&(_, change)| change.abs() <= 1);
@@ -233,5 +251,9 @@ fn usual(pt: &Pt) -> Vec<Property> {
     } else {
         property("bounds", Question::Bound((0..pt.places.len() as u32).map(PlaceId).collect()))
     };
-    vec![property("deadlock_free", always), tokens, property("quasi_live", Question::QuasiLiveness)]
+    vec![
+        property("deadlock_free", deadlock_free()),
+        tokens,
+        property("quasi_live", Question::QuasiLiveness),
+    ]
 }

@@ -3,6 +3,8 @@
 use super::numbers::{grouped, joules, seconds};
 use super::plan::status;
 use crate::answers::AllocateAnswer;
+use cotama_models::missions::infeasible::amount;
+use cotama_models::missions::tables::ENERGY;
 use std::fmt::Write;
 
 /// The most choices that are shown.
@@ -33,8 +35,11 @@ pub(crate) fn screen(
         } else {
             "no plan needs less energy than"
         };
-        let unit = if objective == "quality" { "" } else { " mJ" };
-        let _ = writeln!(text, "  bound     {side} {}{unit}", grouped(&bound.to_string()));
+        let bound = match objective {
+            "quality" => grouped(&bound.to_string()),
+            _ => amount(ENERGY, bound),
+        };
+        let _ = writeln!(text, "  bound     {side} {bound}");
     }
     if let Some(reason) = &answer.reason {
         text += &super::reason::reason(reason, width);

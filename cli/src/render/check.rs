@@ -61,13 +61,13 @@ fn visible_list(names: &[String]) -> String {
     names.iter().map(|it| visible(it)).collect::<Vec<_>>().join(", ")
 }
 
-/// One line of verdict, and what is to be said of it. Laws and usual questions have names that say
-/// enough.
-pub(crate) fn result(row: &ResultRow, is_usual: bool, width: usize) -> String {
+/// One line of verdict, and what is to be said of it; `unit` is that of times. Laws and usual
+/// questions have names that say enough.
+pub(crate) fn result(row: &ResultRow, is_usual: bool, unit: Option<&str>, width: usize) -> String {
     let (style, verdict): (Style, String) = match (row.verdict, row.bound, row.response) {
         (VerdictName::True, Some(bound), _) => (GOOD, shown(bound)),
         (VerdictName::True, _, Some(ResponseRow { min: Some(min), max: Some(max) })) => {
-            (GOOD, format!("{} to {}", shown(min), shown(max)))
+            (GOOD, times([min, max], unit))
         }
         (VerdictName::True, _, Some(_)) => (NOTICE, "never fires".to_owned()),
         (VerdictName::True, ..) => (GOOD, "true".to_owned()),
@@ -108,6 +108,16 @@ pub(crate) fn result(row: &ResultRow, is_usual: bool, width: usize) -> String {
         text += &wrapped(&visible(vacuous), width, &indent);
     }
     text
+}
+
+/// The least and the most of a time.
+fn times(ends: [Amount; 2], unit: Option<&str>) -> String {
+    let [min, max] = ends.map(|it| match (it, unit) {
+        (Amount::Finite(_), Some(unit)) => format!("{} {unit}", shown(it)),
+        _ => shown(it),
+    });
+    let whose = if unit.is_none() { ", in the unit of the file" } else { "" };
+    format!("{min} to {max}{whose}")
 }
 
 fn shown(amount: Amount) -> String {

@@ -3,6 +3,7 @@
 pub(crate) mod allocate;
 pub(crate) mod check;
 pub(crate) mod fmeca;
+pub(crate) mod fold;
 pub(crate) mod models;
 pub(crate) mod numbers;
 pub(crate) mod plan;
@@ -16,6 +17,13 @@ pub(crate) mod style;
 pub(crate) mod supervised;
 pub(crate) mod table;
 pub(crate) mod verify;
+
+/// The command that suggests itself, if one does.
+fn next(command: Option<String>) -> String {
+    command.map_or_else(String::new, |it| {
+        format!("\nnext: {NAME}{}{NAME:#}\n", visible(&it), NAME = style::NAME)
+    })
+}
 
 /// A text of a file as a screen shows it: what a terminal would obey is written as its code.
 pub(crate) fn visible(text: &str) -> String {

@@ -207,6 +207,10 @@ fn more(all: usize) -> String {
 }
 
 fn next(row: &ModelRow) -> String {
+    // What came from standard input is gone.
+    if row.name == "-" {
+        return String::new();
+    }
     let name = visible(&crate::mission::quoted(&row.name));
     let commands = match row.kind {
         ModelKind::Net => vec![format!("simulate {name}"), format!("export {name} --format svg")],

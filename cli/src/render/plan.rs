@@ -2,9 +2,9 @@
 
 use super::numbers::{count, grouped, milli, short_metres};
 use super::reason::reason;
-use super::style::{BAD, FAINT, Families, GOOD, HEADING, NAME, NOTICE};
+use super::style::{BAD, FAINT, Families, GOOD, HEADING, NOTICE};
 use super::table::{Cell, Table};
-use crate::answers::{FrontRow, PlanAnswer, Relaxation, Status};
+use crate::answers::{FrontRow, PlanAnswer, Status};
 use std::fmt::Write;
 
 /// The most activities and plans of a front that are shown.
@@ -22,8 +22,8 @@ pub(crate) fn status(status: Status) -> String {
     format!("{style}{word}{style:#}")
 }
 
-/// The screen; `name` is the mission and what was changed about it, as on the command line.
-pub(crate) fn screen(answer: &PlanAnswer, name: &str, width: usize) -> String {
+/// The screen; `next` is the command that suggests itself.
+pub(crate) fn screen(answer: &PlanAnswer, next: Option<String>, width: usize) -> String {
     let length = answer.activities.iter().map(|it| it.x_end_mm).max().unwrap_or(0);
     let mut text = format!(
         "{HEADING}{}{HEADING:#}: {} m, {}, {} combinations\n\n",
@@ -54,8 +54,7 @@ pub(crate) fn screen(answer: &PlanAnswer, name: &str, width: usize) -> String {
     if let Some(why) = &answer.reason {
         text += &reason(why, width);
     }
-    text += &next(answer, name);
-    text
+    text + &super::next(next)
 }
 
 fn activities(answer: &PlanAnswer) -> Table {
@@ -158,25 +157,4 @@ fn front(rows: &[FrontRow], width: usize) -> String {
         "  {all}, none of them worse than another in duration, energy and quality{some}\n\n{}",
         table.render(width)
     )
-}
-
-fn next(answer: &PlanAnswer, name: &str) -> String {
-    let advice = match (answer.status, answer.objective) {
-        (Status::Infeasible, _) => {
-            let raised = answer
-                .reason
-                .iter()
-                .flat_map(|reason| &reason.relaxations)
-                .find_map(Relaxation::raised);
-            match raised {
-                Some(flags) => format!("cotama plan {name}{flags}"),
-                None => return String::new(),
-            }
-        }
-        (Status::Unknown, "front") => format!("cotama plan {name} --objective quality"),
-        (Status::Unknown, _) => format!("cotama plan {name} --allocator exact --steps 1000000000"),
-        (_, "paper") => format!("cotama plan {name} --objective quality"),
-        _ => format!("cotama run {name}"),
-    };
-    format!("\nnext: {NAME}{advice}{NAME:#}\n")
 }

@@ -15,9 +15,14 @@ const SHOWN_PLANS: usize = 20;
 const SHOWN_ACTIVITIES: usize = 200;
 const SHOWN_EVENTS: usize = 40;
 
-/// The screen; `name` is the mission and what was changed about it, as on the command line. There
-/// is no trace when the robot never left.
-pub(crate) fn screen(body: &RunBody, trace: Option<&Trace>, name: &str, width: usize) -> String {
+/// The screen; `next` is the command that suggests itself. There is no trace when the robot never
+/// left.
+pub(crate) fn screen(
+    body: &RunBody,
+    trace: Option<&Trace>,
+    next: Option<String>,
+    width: usize,
+) -> String {
     let mut text = headline(body, trace);
     if let Some(supervised) = &body.supervised {
         text += &super::supervised::story(supervised, width);
@@ -34,7 +39,10 @@ pub(crate) fn screen(body: &RunBody, trace: Option<&Trace>, name: &str, width: u
         text.push('\n');
         text += &reason(why, width);
     }
-    text += &ending(body, name);
+    text += &ending(body);
+    if let Some(next) = next {
+        let _ = writeln!(text, "next: {NAME}{}{NAME:#}", super::visible(&next));
+    }
     text
 }
 
@@ -201,7 +209,7 @@ fn events(body: &RunBody, width: usize) -> String {
     format!("\n{HEADING}what happened{HEADING:#}\n{}{more}", table.render(width.max(80)))
 }
 
-fn ending(body: &RunBody, name: &str) -> String {
+fn ending(body: &RunBody) -> String {
     let mut text = format!(
         "\n{}: {}, {}",
         outcome(body.outcome),
@@ -222,14 +230,6 @@ fn ending(body: &RunBody, name: &str) -> String {
     }
     if let Some(trace) = &body.trace {
         let _ = writeln!(text, "trace: {NAME}{trace}{NAME:#}");
-        let _ = writeln!(text, "next: {NAME}cotama replay {trace}{NAME:#}");
-    } else if body.outcome == Outcome::Completed {
-        let _ = writeln!(
-            text,
-            "next: {NAME}cotama run {name} --trace run.jsonl && cotama replay run.jsonl{NAME:#}"
-        );
-    } else {
-        let _ = writeln!(text, "next: {NAME}cotama plan {name} --objective min-energy{NAME:#}");
     }
     text
 }

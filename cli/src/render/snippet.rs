@@ -3,6 +3,7 @@
 
 use crate::exit::Failure;
 use crate::file_errors::{FileError, FileErrors, Mark};
+use crate::render::fold::folded;
 use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Renderer, Snippet};
 use std::ops::Range;
 
@@ -13,13 +14,17 @@ const WINDOW: usize = 16 << 10;
 pub(crate) fn failure(failure: &Failure, width: usize) -> String {
     let renderer = Renderer::styled().term_width(width);
     match failure {
-        Failure::Message { message, help } => {
-            let title = Level::ERROR.primary_title(message.as_str());
+        Failure::Message { file, message, help } => {
+            let message = match file {
+                Some(file) => format!("{file}: {message}"),
+                None => message.clone(),
+            };
+            let title = Level::ERROR.primary_title(message);
             let group = match help {
                 Some(help) => title.element(Level::HELP.message(help.as_str())),
                 None => Group::with_title(title),
             };
-            renderer.render(&[group])
+            folded(&renderer.render(&[group]), width)
         }
         Failure::Text(errors) => text(errors, &renderer),
     }

@@ -44,6 +44,6 @@ fn told(point: &Point, width: usize) -> String {
 /// A text in lines, all but the first behind the indent.
 fn beside(text: &str, width: usize, indent: &str) -> String {
     // Not narrower than some words.
-    let lines = wrapped(text, width.max(indent.len() + 30), indent);
+    let lines = wrapped(text, width.max(indent.len() + 24), indent);
     lines.trim().replace(&format!("\n{indent}  "), &format!("\n{indent}"))
 }

@@ -1,0 +1,195 @@
+//! The command line of the commands about missions and plans.
+
+use super::{Json, MissionArg};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+use std::path::PathBuf;
+
+/// The usual limit of a complete search.
+pub(crate) const STEPS: u64 = 50_000_000;
+
+/// Who plans, and with what.
+#[derive(Args, Debug)]
+pub(crate) struct Planning {
+    /// Who plans: the rule of PANORAMA, or a complete search [default: panorama for the objective
+    /// paper, else exact]
+    #[arg(long, value_enum, value_name = "WHO", hide_possible_values = false)]
+    pub(crate) allocator: Option<AllocatorName>,
+    /// The most steps of a complete search
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) steps: u64,
+    /// Hardware lost from the start, as `laser:1`; all units of the kind when no number is given
+    #[arg(long, value_name = "KIND[:UNITS]", value_parser = lost)]
+    pub(crate) lost: Vec<Lost>,
+    /// A duration limit in place of the mission's own, in ms
+    #[arg(long, value_name = "ms", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) duration_limit: Option<u64>,
+    /// An energy limit in place of the mission's own, in mJ
+    #[arg(long, value_name = "mJ", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) energy_limit: Option<u64>,
+    /// How closely the robot is modelled
+    // Hidden while it has one value.
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = Fidelity::Mission, hide = true)]
+    pub(crate) fidelity: Fidelity,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct PlanArgs {
+    #[command(flatten)]
+    pub(crate) mission: MissionArg,
+    /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all
+    /// plans of which none is better in duration, energy and quality [default: what the mission file
+    /// says, else quality]
+    #[arg(long, value_name = "WHAT")]
+    #[arg(value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
+    pub(crate) objective: Option<Objective>,
+    #[command(flatten)]
+    pub(crate) planning: Planning,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct RunArgs {
+    #[command(flatten)]
+    pub(crate) mission: MissionArg,
+    /// What a plan is chosen for: the paper's rule, the most quality, or the least energy [default:
+    /// what the mission file says, else quality]
+    #[arg(long, value_name = "WHAT")]
+    #[arg(value_parser = objectives(&["paper", "quality", "min-energy"]))]
+    pub(crate) objective: Option<Objective>,
+    #[command(flatten)]
+    pub(crate) planning: Planning,
+    /// The seed of all random numbers; under supervisors nothing is random yet
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of
+    /// faults
+    #[arg(long, value_name = "none|script|FILE", default_value = "script")]
+    pub(crate) faults: String,
+    /// How often margins are checked, in ms [default: as the mission file says]
+    #[arg(long, value_name = "ms", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) monitor_period: Option<u64>,
+    /// Also looks for better plans when the margins have grown
+    #[arg(long)]
+    pub(crate) upward: bool,
+    /// The folder of the report, `index.html` [default: report/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub(crate) report: Option<PathBuf>,
+    /// Writes no report
+    #[arg(long, conflicts_with = "report")]
+    pub(crate) no_report: bool,
+    /// Writes the trace of the run, as JSON lines
+    #[arg(long, value_name = "FILE.jsonl")]
+    pub(crate) trace: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct AllocateArgs {
+    /// The instance, a JSON file, or `-`
+    pub(crate) instance: String,
+    /// What the plan is chosen for: the most quality, or the least energy within both limits
+    #[arg(long, value_name = "WHAT", default_value = "quality",
+          value_parser = objectives(&["quality", "min-energy"]))]
+    pub(crate) objective: Objective,
+    /// Who plans: a complete search, or the rule of PANORAMA, which pursues no objective
+    #[arg(long, value_enum, value_name = "WHO", default_value_t = AllocatorName::Exact)]
+    pub(crate) allocator: AllocatorName,
+    /// The most steps of a complete search
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) steps: u64,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+#[derive(Args, Debug)]
+pub(crate) struct ReplayArgs {
+    /// A trace, or a file of faults
+    pub(crate) file: String,
+    /// The mission of a file of faults: its name, or the path of its file
+    #[arg(long)]
+    pub(crate) mission: Option<String>,
+    /// The seed for a file of faults
+    #[arg(long, value_name = "N", requires = "mission")]
+    pub(crate) seed: Option<u64>,
+    /// Writes a report of the run made again, `index.html`, to this folder
+    #[arg(long, value_name = "DIR")]
+    pub(crate) report: Option<PathBuf>,
+    /// Writes the trace of the run made again, as JSON lines
+    #[arg(long, value_name = "FILE.jsonl")]
+    pub(crate) trace: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+/// Who plans.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum AllocatorName {
+    /// A complete search; for the objective paper, only where the rule finds nothing
+    Exact,
+    /// The rule of PANORAMA: fast, can miss a plan, pursues no objective
+    Panorama,
+}
+
+/// How closely the robot is modelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Fidelity {
+    /// Travel, energy, drift and faults
+    Mission,
+}
+
+/// What a plan is chosen for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Objective {
+    /// The rule of PANORAMA: the highest plan that meets the limits
+    Paper,
+    /// The most quality
+    Quality,
+    /// The least energy
+    MinEnergy,
+    /// All plans of which none is better in duration, energy and quality
+    Front,
+}
+
+impl Objective {
+    /// Its name on the command line.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Paper => "paper",
+            Self::Quality => "quality",
+            Self::MinEnergy => "min-energy",
+            Self::Front => "front",
+        }
+    }
+}
+
+fn objectives(names: &'static [&'static str]) -> impl TypedValueParser<Value = Objective> {
+    PossibleValuesParser::new(names).try_map(|name| Objective::from_str(&name, false))
+}
+
+/// Hardware lost from the start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Lost {
+    /// The kind, not yet looked up.
+    pub(crate) kind: String,
+    /// The units; all if none.
+    pub(crate) units: Option<u8>,
+}
+
+fn lost(text: &str) -> Result<Lost, String> {
+    let (kind, units) = match text.rsplit_once(':') {
+        None => (text, None),
+        Some((kind, units)) => match units.parse() {
+            Ok(units @ 1..) => (kind, Some(units)),
+            _ => return Err(format!("`{units}` is not a number of units from 1 to 255")),
+        },
+    };
+    if kind.is_empty() {
+        return Err("a kind of hardware is missing before the colon".into());
+    }
+    Ok(Lost { kind: kind.into(), units })
+}

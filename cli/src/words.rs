@@ -1,0 +1,176 @@
+//! Command lines for the hints: what was typed, with something changed.
+
+use crate::answers::{Outcome, PlanAnswer, Reason, Relaxation, RunBody, Status};
+use crate::args::{Lost, PlanArgs, Planning, ReplayArgs, RunArgs, STEPS};
+use crate::mission::quoted;
+use clap::ValueEnum;
+
+/// The options of a command about a mission, as far as they are not the usual ones.
+#[derive(Clone, Debug)]
+pub(crate) struct Words {
+    mission: String,
+    options: Vec<(&'static str, Option<String>)>,
+}
+
+impl Words {
+    /// As `cotama plan` was called.
+    pub(crate) fn of_plan(args: &PlanArgs) -> Self {
+        let objective = args.objective.map(|it| it.name().to_owned());
+        Self::new(&args.mission.mission, objective, &args.planning)
+    }
+
+    /// As `cotama run` was called; where its trace goes is left out.
+    pub(crate) fn of_run(args: &RunArgs) -> Self {
+        let objective = args.objective.map(|it| it.name().to_owned());
+        let mut words = Self::new(&args.mission.mission, objective, &args.planning);
+        let options = &mut words.options;
+        let mut add = |name, value: Option<String>| {
+            options.extend(value.map(|it| (name, Some(it))));
+        };
+        add("--seed", Some(args.seed).filter(|&it| it != 0).map(|it| it.to_string()));
+        add("--faults", Some(args.faults.clone()).filter(|it| it != "script"));
+        add("--monitor-period", args.monitor_period.map(|it| it.to_string()));
+        add("--report", args.report.as_ref().map(|it| it.display().to_string()));
+        options.extend(args.upward.then_some(("--upward", None)));
+        options.extend(args.no_report.then_some(("--no-report", None)));
+        words
+    }
+
+    fn new(mission: &str, objective: Option<String>, planning: &Planning) -> Self {
+        let mut options = Vec::new();
+        let mut add = |name, value: Option<String>| {
+            options.extend(value.map(|it| (name, Some(it))));
+        };
+        add("--objective", objective);
+        let allocator = planning.allocator.and_then(|it| it.to_possible_value());
+        add("--allocator", allocator.map(|it| it.get_name().to_owned()));
+        add("--steps", Some(planning.steps).filter(|&it| it != STEPS).map(|it| it.to_string()));
+        for Lost { kind, units } in &planning.lost {
+            let lost = units.map_or_else(|| kind.clone(), |units| format!("{kind}:{units}"));
+            add("--lost", Some(lost));
+        }
+        add("--duration-limit", planning.duration_limit.map(|it| it.to_string()));
+        add("--energy-limit", planning.energy_limit.map(|it| it.to_string()));
+        Self { mission: mission.to_owned(), options }
+    }
+
+    fn has(&self, name: &str) -> bool {
+        self.options.iter().any(|it| it.0 == name)
+    }
+
+    fn without(mut self, name: &str) -> Self {
+        self.options.retain(|it| it.0 != name);
+        self
+    }
+
+    fn with(self, name: &'static str, value: impl Into<String>) -> Self {
+        let mut words = self;
+        let value = Some(value.into());
+        match words.options.iter_mut().find(|it| it.0 == name) {
+            Some(found) => found.1 = value,
+            None => words.options.push((name, value)),
+        }
+        words
+    }
+
+    /// The command; none for a mission from standard input, which is gone.
+    fn line(&self, command: &str) -> Option<String> {
+        if self.mission == "-" {
+            return None;
+        }
+        let mut line = format!("cotama {command} {}", quoted(&self.mission));
+        for (name, value) in &self.options {
+            line += " ";
+            line += name;
+            if let Some(value) = value {
+                line += " ";
+                line += &quoted(value);
+            }
+        }
+        Some(line)
+    }
+
+    /// With limits that allow a plan, if that is one of the ways out.
+    fn raised(self, reason: Option<&Reason>) -> Option<Self> {
+        let relaxations = reason.map_or(&[][..], |it| &it.relaxations);
+        let (duration, energy) = relaxations.iter().find_map(Relaxation::raised)?;
+        let words = match duration {
+            Some(limit) => self.with("--duration-limit", limit.to_string()),
+            None => self,
+        };
+        Some(match energy {
+            Some(limit) => words.with("--energy-limit", limit.to_string()),
+            None => words,
+        })
+    }
+
+    /// With twenty times as many steps.
+    fn longer(self, steps: u64) -> Self {
+        self.with("--steps", steps.saturating_mul(20).to_string())
+    }
+
+    /// What to do after a plan.
+    pub(crate) fn after_plan(
+        self,
+        answer: &PlanAnswer,
+        steps: u64,
+        supervised: bool,
+    ) -> Option<String> {
+        let reason = answer.reason.as_ref();
+        match (answer.status, answer.objective) {
+            // Neither a limit nor an activity is the cause: the rule missed the plan.
+            (Status::Infeasible, _)
+                if reason.is_some_and(|it| it.axis.is_none() && it.activity.is_none()) =>
+            {
+                self.with("--allocator", "exact").line("plan")
+            }
+            (Status::Infeasible, _) => self.raised(reason)?.line("plan"),
+            (Status::Unknown, "front") => self.with("--objective", "quality").line("plan"),
+            (Status::Unknown, "paper") => {
+                self.with("--allocator", "exact").longer(steps).line("plan")
+            }
+            (Status::Unknown, _) => self.longer(steps).line("plan"),
+            // Supervisors are told of a loss; it is not there from the start.
+            _ if supervised && self.has("--lost") => None,
+            (_, "front") => self.without("--objective").line("run"),
+            _ => self.line("run"),
+        }
+    }
+
+    /// What to do after a run, of which no trace was written. `objective` is what its plans were
+    /// chosen for.
+    pub(crate) fn after_run(self, body: &RunBody, objective: &str) -> Option<String> {
+        if body.outcome == Outcome::Completed {
+            let line = self.line("run")?;
+            return Some(format!("{line} --trace run.jsonl && cotama replay run.jsonl"));
+        }
+        if let Some(raised) = self.clone().raised(body.infeasible.as_ref()) {
+            return raised.line("run");
+        }
+        if body.infeasible.is_none() && body.supervised.is_none() && objective != "min-energy" {
+            // With less used from the start, more is left when something goes wrong.
+            return self.without("--allocator").with("--objective", "min-energy").line("run");
+        }
+        let faults = self.options.iter().find(|it| it.0 == "--faults");
+        let is_quiet = faults.is_some_and(|it| it.1.as_deref() == Some("none"));
+        if is_quiet || body.infeasible.is_some() {
+            return None;
+        }
+        self.with("--faults", "none").line("run")
+    }
+}
+
+/// What to do after a run was made again.
+pub(crate) fn after_replay(args: &ReplayArgs) -> Option<String> {
+    if args.report.is_some() || args.file == "-" {
+        return None;
+    }
+    let mission = args.mission.as_ref().map(|it| format!(" --mission {}", quoted(it)));
+    let seed = args.seed.map(|it| format!(" --seed {it}"));
+    Some(format!(
+        "cotama replay {}{}{} --report replayed",
+        quoted(&args.file),
+        mission.unwrap_or_default(),
+        seed.unwrap_or_default()
+    ))
+}

@@ -1,0 +1,66 @@
+//! What is asked of a model: the wish for no deadlock, one marking or all, and units of time.
+
+use crate::common::{Folder, golden};
+use serde_json::{Value, json};
+
+/// Of each answer the name, the question and the verdict.
+fn verdicts(answer: &Value) -> Vec<String> {
+    let text = |it: &Value| format!("{}; {}; {}", it["name"], it["property"], it["verdict"]);
+    answer["results"].as_array().unwrap().iter().map(|it| text(it).replace('"', "")).collect()
+}
+
+#[test]
+fn deadlock_free_is_the_wish() {
+    let folder = Folder::new("questions_wish");
+    let ask = ["--property", "deadlock_free", "--certificate", "it.json", "--json"];
+    let answer = folder.cotama(&[&["check", "kanban:2"][..], &ask].concat()).json(0);
+    assert_eq!(verdicts(&answer), ["deadlock_free; AG !deadlock; true"]);
+    assert_eq!(folder.cotama(&["verify", "it.json"]).code, Some(0));
+    let answer = folder.cotama(&[&["check", "philosophers:3"][..], &ask].concat()).json(1);
+    assert_eq!(verdicts(&answer), ["deadlock_free; AG !deadlock; false"]);
+    assert_eq!(folder.cotama(&["verify", "it.json"]).code, Some(0));
+    // The same in a file, under its own name or another.
+    folder.write("two.txt", "deadlock_free\nmine: deadlock_free\n");
+    let answer = folder.cotama(&["check", "kanban:2", "--properties", "two.txt", "--json"]).json(0);
+    assert_eq!(
+        verdicts(&answer),
+        ["deadlock_free; AG !deadlock; true", "mine; AG !deadlock; true"]
+    );
+}
+
+#[test]
+fn deadlock_is_an_atom_and_needs_a_quantifier() {
+    let folder = Folder::new("questions_atom");
+    let said = folder.cotama(&["check", "kanban:2", "--property", "deadlock"]);
+    assert_eq!((said.code, said.stdout.as_str()), (Some(2), ""));
+    golden("bad_property_deadlock.txt", &said.stderr);
+    let said = folder.cotama(&["check", "kanban:2", "--property", " P1 = 2"]);
+    assert_eq!(said.code, Some(2));
+    golden("bad_property_state.txt", &said.stderr);
+    folder.write("wanted.txt", "EF deadlock\nfirst: deadlock\n");
+    let said = folder.cotama(&["check", "kanban:2", "--properties", "wanted.txt"]);
+    assert_eq!(said.code, Some(2));
+    golden("bad_property_file_state.txt", &said.stderr);
+    for (property, code) in
+        [("deadlock", 1), ("!deadlock", 0), ("EF deadlock", 0), ("eat_1 = 0", 0)]
+    {
+        let line = ["check", "philosophers:3", "--property", property, "--initial"];
+        assert_eq!(folder.cotama(&line).code, Some(code), "{property}");
+    }
+}
+
+#[test]
+fn bounds_of_time_have_their_unit() {
+    let folder = Folder::new("questions_units");
+    let property = ["--property", "bound(w1 -> Fault)"];
+    let watchdog = [&["check", "watchdog"][..], &property].concat();
+    assert_eq!(folder.cotama(&[&watchdog[..], &["--json"]].concat()).json(0)["time_unit"], "ms");
+    let screen = folder.cotama(&watchdog).stdout;
+    assert!(screen.lines().nth(1).unwrap().contains("100 ms to no limit  bound("), "{screen}");
+    folder.write("race.net", "tr fast [1,2] idle -> won\ntr late [5,7] won -> done\npl idle (1)");
+    let race = ["check", "race.net", "--property", "bound(fast -> done)"];
+    assert!(folder.cotama(&race).stdout.contains("5 to 7, in the unit of the file  bound("));
+    assert_eq!(folder.cotama(&[&race[..], &["--json"]].concat()).json(0)["time_unit"], Value::Null);
+    let untimed = folder.cotama(&["check", "kanban:2", "--property", "EF P1 = 0", "--json"]);
+    assert_eq!(untimed.json(0)["time_unit"], json!(null));
+}
