@@ -11,6 +11,7 @@ mod args;
 mod budget;
 mod catalogue;
 mod check;
+mod conform;
 mod exit;
 mod export;
 mod file_errors;
@@ -55,6 +56,7 @@ fn main() -> ExitCode {
         Command::Statespace(args) => statespace::statespace(&args, &screen),
         Command::Verify(args) => verify::verify(&args, &screen),
         Command::Simulate(args) => simulate::simulate(&args, &screen),
+        Command::Conform(args) => conform::conform(&args, &screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, &screen),
         Command::New(args) => new::new(&args, &screen),
         Command::Show(args) => show::show(&args),

@@ -35,7 +35,7 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     let pt = subject.model.pt();
     let mut properties = Vec::new();
     for text in &args.property {
-        properties.push(one(text, pt)?);
+        properties.push(one(text, subject)?);
     }
     if let Some(path) = &args.properties {
         properties.extend(file(path, subject)?);
@@ -74,15 +74,16 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
 }
 
 /// A property that was typed, or a question by its name.
-fn one(text: &str, pt: &Pt) -> Result<Property, Failure> {
+fn one(text: &str, subject: &Subject) -> Result<Property, Failure> {
     let name = text.trim();
     if name == "deadlock" {
         return Ok(Property { name: name.to_owned(), ..deadlock() });
     }
-    if let Some(known) = mcc::examination(name).filter(|_| pt.place(name).is_none()) {
+    if let Some(known) = mcc::examination(name).filter(|_| subject.model.pt().place(name).is_none())
+    {
         return Ok(known);
     }
-    parsed(text, pt).map_err(|error| {
+    parsed(text, subject).map_err(|error| {
         let source = error.source_name.clone();
         let mark = mark(&error, text, 0);
         errors(&source, text.to_owned(), vec![(error, mark)])
@@ -108,7 +109,7 @@ fn file(path: &str, subject: &Subject) -> Result<Vec<Property>, Failure> {
             errors(name, text, vec![(error, mark)])
         })?
     } else {
-        lines(name, input::utf8(path, WHAT, bytes)?, subject.model.pt())?
+        lines(name, input::utf8(path, WHAT, bytes)?, subject)?
     };
     if properties.is_empty() {
         return Err(Failure::new(format!("{name}: there is no property in it")).help(
@@ -124,7 +125,7 @@ fn is_markup(bytes: &[u8]) -> bool {
 }
 
 /// One property a line, with a name before a colon or without.
-fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> {
+fn lines(source: &str, text: String, subject: &Subject) -> Result<Vec<Property>, Failure> {
     let (mut properties, mut wrong, mut at) = (Vec::new(), Vec::new(), 0);
     for line in text.split_inclusive('\n') {
         let start = at;
@@ -134,7 +135,7 @@ fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> 
             continue;
         }
         let (name, formula) = named(line);
-        match one_of_file(formula, pt) {
+        match one_of_file(formula, subject) {
             Ok(property) => {
                 let name = name.map_or(property.name, str::to_owned);
                 properties.push(Property { name, question: property.question });
@@ -148,17 +149,17 @@ fn lines(source: &str, text: String, pt: &Pt) -> Result<Vec<Property>, Failure> 
     if wrong.is_empty() { Ok(properties) } else { Err(errors(source, text, wrong)) }
 }
 
-fn one_of_file(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
+fn one_of_file(text: &str, subject: &Subject) -> Result<Property, PropertyError> {
     match text.trim() {
         "deadlock" => Ok(deadlock()),
-        _ => parsed(text, pt),
+        _ => parsed(text, subject),
     }
 }
 
 /// A property that was typed, named as it is written out.
-fn parsed(text: &str, pt: &Pt) -> Result<Property, PropertyError> {
-    let property = property::parse(text, pt)?;
-    let name = property.question.display(pt).to_string();
+fn parsed(text: &str, subject: &Subject) -> Result<Property, PropertyError> {
+    let property = property::parse_with(text, subject.model.pt(), subject.ids())?;
+    let name = property.question.display(subject.model.pt()).to_string();
     Ok(Property { name, ..property })
 }
 
