@@ -1,16 +1,22 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
+use crate::answers::conform::ConformAnswer;
 use crate::answers::error::ErrorAnswer;
 use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{self, Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
+use crate::catalogue::{self, Kind};
 use crate::exit::{Exit, Failure};
 use crate::mission;
 use crate::output::Screen;
 use clap::CommandFactory;
+use clap::builder::PossibleValuesParser;
+use clap_complete::Shell;
+use cotama_models::missions::embedded;
+use cotama_verification::conform::LINE_SCHEMA;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
@@ -40,6 +46,11 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
         SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
         SchemaName::Error => schemas.into_root_schema_for::<ErrorAnswer>(),
+        SchemaName::Conform => schemas.into_root_schema_for::<ConformAnswer>(),
+        SchemaName::Recording => {
+            Screen::raw(LINE_SCHEMA.as_bytes())?;
+            return Ok(Exit::Success);
+        }
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
     };
@@ -57,13 +68,38 @@ fn in_one_line(schema: &mut Schema) {
 /// `cotama completions`: a completion script.
 pub(crate) fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut Cli::command(), "cotama", &mut script);
+    let program = Cli::command();
+    // Where nothing that is known begins so, bash looks among files; other shells would not.
+    let mut program = if args.shell == Shell::Bash { named(program) } else { program };
+    clap_complete::generate(args.shell, &mut program, "cotama", &mut script);
     Screen::raw(&script)?;
     Ok(Exit::Success)
 }
 
 /// The width of a manual page, less its margins.
 const PAGE_WIDTH: usize = 72;
+/// The program with the names of what it comes with as values; it is not to be run so.
+fn named(program: clap::Command) -> clap::Command {
+    let models: Vec<_> = catalogue::entries()
+        .iter()
+        .filter(|it| !matches!(it.kind, Kind::Family(_)))
+        .map(|it| it.name)
+        .collect();
+    let missions: Vec<_> = embedded::embedded().iter().map(|it| it.name).collect();
+    let of = |command: &str, argument: &str, names: &[&'static str], program: clap::Command| {
+        let values = PossibleValuesParser::new(names.to_vec());
+        let valued = |it: clap::Arg| {
+            if it.get_id() == argument { it.value_parser(values.clone()) } else { it }
+        };
+        program.mut_subcommand(command, |it| it.mut_args(valued))
+    };
+    let commands = ["export", "check", "statespace", "simulate", "conform"];
+    let program = commands.iter().fold(program, |it, command| of(command, "model", &models, it));
+    let program = of("models", "name", &models, program);
+    ["plan", "run", "table"]
+        .iter()
+        .fold(program, |it, command| of(command, "mission", &missions, it))
+}
 
 /// `cotama man`: a manual page.
 pub(crate) fn man(args: &ManArgs) -> Result<Exit, Failure> {

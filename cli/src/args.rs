@@ -1,13 +1,16 @@
 //! The command line.
 
 mod check;
+mod conform;
 mod fitted;
 mod fmeca;
 mod mission;
 mod model;
 mod new;
+mod schema;
 
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
+pub(crate) use conform::ConformArgs;
 pub(crate) use fitted::command;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use mission::{
@@ -15,6 +18,7 @@ pub(crate) use mission::{
 };
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};
+pub(crate) use schema::{SchemaArgs, SchemaName};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -148,14 +152,22 @@ Examples:
     /// Checks a certificate again, without the engine that found it
     #[command(after_long_help = check::VERIFY_EXAMPLES)]
     Verify(VerifyArgs),
-    /// Plays a net, with a list of events or by hand
+    /// Plays a net or a system, with a list of events or by hand
     ///
     /// Each event is offered in its turn: a transition that is enabled fires, then those that fire
     /// by themselves; or the event is ignored, and it is said why. Between events, time passes only
     /// as you say. A net with neither events nor time does nothing by itself: there, each
-    /// transition is fired by its name.
+    /// transition is fired by its name. Nets of a system read their mail in rounds, which take
+    /// place as soon as something waits.
     #[command(after_long_help = model::SIMULATE_EXAMPLES)]
     Simulate(SimulateArgs),
+    /// Says whether a recorded run is a run of a model, and where it departs
+    ///
+    /// What was recorded is told to the model again, at the same dates: a log of a real robot is
+    /// held against its supervisors. At the first line that the model does not allow, it is said
+    /// why, and what was allowed there.
+    #[command(after_long_help = conform::CONFORM_EXAMPLES)]
+    Conform(ConformArgs),
     /// Shows what can fail on the delivery robot, how it is seen, what is done, and what looks
     /// alike
     ///
@@ -223,13 +235,6 @@ pub(crate) struct ListArgs {
 }
 
 #[derive(Args, Debug)]
-pub(crate) struct SchemaArgs {
-    /// The command
-    #[arg(value_enum)]
-    pub(crate) command: SchemaName,
-}
-
-#[derive(Args, Debug)]
 pub(crate) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
@@ -240,23 +245,4 @@ pub(crate) struct CompletionsArgs {
 pub(crate) struct ManArgs {
     /// The command; the program as a whole when there is none
     pub(crate) command: Option<String>,
-}
-
-/// Commands that answer in JSON.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum SchemaName {
-    List,
-    Plan,
-    Run,
-    Allocate,
-    Replay,
-    Models,
-    Simulate,
-    Check,
-    Statespace,
-    Verify,
-    Fmeca,
-    New,
-    /// What stands in place of an answer when there is none
-    Error,
 }

@@ -1,17 +1,21 @@
 //! `cotama export`: a model as a file of another tool, or as a drawing.
 
-use crate::args::{DrawnAs, ExportArgs, Format};
-use crate::catalogue::{self, Entry, Kind};
+use crate::args::{DrawnAs, ExportArgs, Format, Semantics};
 use crate::exit::{Exit, Failure};
-use crate::model;
+use crate::model::{self, Found};
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
 use crate::render::visible;
 use clap::ValueEnum;
+use cotama_core::net::owned::OwnedNet;
 use cotama_core::net::{Net, TransitionId};
+use cotama_core::system::System;
 use cotama_verification::export::drawing::Style;
 use cotama_verification::export::{dot, jani, json, matrix, mermaid, overview, scxml, svg};
+use cotama_verification::flat;
 use cotama_verification::pnml;
+use cotama_verification::tina;
+use cotama_verification::tpn;
 use std::path::Path;
 
 /// The most entries of a matrix: zeros are written as well.
@@ -31,14 +35,24 @@ pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure
         return Err(Failure::new(format!("--style is for drawings, and {} is none", name(format)))
             .help("drawings: dot, svg, mermaid"));
     }
-    let text = match catalogue::entry(&args.model.model) {
-        Some(Entry { kind: Kind::System(system), .. }) if format == Format::Svg => {
-            overview::write(system)
+    let style = args.style.unwrap_or(DrawnAs::Auto);
+    let name = &args.model.model;
+    let text = match (model::find(name)?, args.semantics) {
+        (Found::System(system), None) if format == Format::Svg => overview::write(system),
+        (Found::System(system), semantics) => {
+            let net = one_net(system, semantics.unwrap_or(Semantics::Rounds))?;
+            written(&net.view().net(), format, style, screen)?
         }
-        _ => {
-            let loaded = model::load(&args.model.model)?;
-            written(&loaded.net.view().net(), format, args.style.unwrap_or(DrawnAs::Auto), screen)?
+        (_, Some(_)) => {
+            return Err(Failure::new(format!("`{name}` is one net: --semantics is for systems"))
+                .help("leave --semantics out"));
         }
+        // Its intervals can be those of no net.
+        (Found::Time(net), _) if format == Format::Net => tina::write(&net),
+        (Found::Time(net), _) => {
+            written(&model::played(name, &net)?.view().net(), format, style, screen)?
+        }
+        (Found::Net(loaded), _) => written(&loaded.net.view().net(), format, style, screen)?,
     };
     match &args.output {
         None => Screen::raw(text.as_bytes())?,
@@ -70,7 +84,34 @@ fn written(
         Format::Jani => jani::write(net),
         Format::Matrix => matrices(net)?,
         Format::Json => json::write(net),
+        Format::Net => time_net(net, screen)?,
     })
+}
+
+/// A system as one net.
+fn one_net(system: &System<'_>, semantics: Semantics) -> Result<OwnedNet, Failure> {
+    let net = match semantics {
+        Semantics::Rounds => flat::rounds(system).and_then(|it| it.net()),
+        Semantics::Interleaving => flat::flat(system),
+    };
+    net.map_err(|error| {
+        let failure = Failure::new(format!("`{}` cannot be one net: {error}", system.name));
+        match semantics {
+            Semantics::Rounds => failure.help("try --semantics interleaving"),
+            Semantics::Interleaving => failure,
+        }
+    })
+}
+
+/// A net as a time net; what it allows beyond the net is noted.
+fn time_net(net: &Net<'_>, screen: &Screen) -> Result<String, Failure> {
+    let converted = tpn::exported(net).map_err(|defect| {
+        Failure::new(visible(&format!("{}: no time net can say it: {defect}", net.name)))
+    })?;
+    for difference in &converted.differences {
+        screen.note(&format!("note: in the file, {difference}"));
+    }
+    Ok(tina::write(&converted.net))
 }
 
 fn matrices(net: &Net<'_>) -> Result<String, Failure> {
@@ -114,6 +155,7 @@ fn by_name(path: &Path) -> Result<Format, Failure> {
         Some("jani") => Format::Jani,
         Some("tsv") => Format::Matrix,
         Some("json") => Format::Json,
+        Some("net") => Format::Net,
         _ => {
             let message = format!("{}: the end of this name says no format", path.display());
             return Err(Failure::new(message).help(format!("--format {}", formats().join("|"))));

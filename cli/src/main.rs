@@ -11,6 +11,7 @@ mod args;
 mod budget;
 mod catalogue;
 mod check;
+mod conform;
 mod exit;
 mod export;
 mod file_errors;
@@ -87,6 +88,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Statespace(args) => statespace::statespace(&args, screen),
         Command::Verify(args) => verify::verify(&args, screen),
         Command::Simulate(args) => simulate::simulate(&args, screen),
+        Command::Conform(args) => conform::conform(&args, screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, screen),
         Command::New(args) => new::new(&args, screen),
         Command::Show(args) => show::show(&args),

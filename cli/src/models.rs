@@ -8,7 +8,7 @@ use crate::answers::model::{
 use crate::args::ModelsArgs;
 use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
-use crate::model;
+use crate::model::{self, Found};
 use crate::output::Screen;
 use crate::render;
 use cotama_core::net::owned::OwnedNet;
@@ -25,23 +25,22 @@ pub(crate) fn models(args: &ModelsArgs, screen: &Screen) -> Result<Exit, Failure
             render::models::table(&answer, &entries, screen.width())
         });
     };
-    match catalogue::entry(name) {
-        Some(entry) if !matches!(entry.kind, Kind::Net(..)) => {
-            let answer = answer(vec![entry_row(&entry)]);
-            said(args, screen, &answer, || {
-                render::models::one(&answer.models[0], None, screen.width())
-            })
-        }
-        _ => {
-            let loaded = model::load(name)?;
-            let view = loaded.net.view();
-            let answer = answer(vec![net_row(&loaded.name, &view.net(), loaded.known)]);
-            let own = Some(&loaded.net);
-            said(args, screen, &answer, || {
-                render::models::one(&answer.models[0], own, screen.width())
-            })
-        }
-    }
+    let family = catalogue::entry(name).filter(|it| matches!(it.kind, Kind::Family(_)));
+    let (row, net) = match family {
+        Some(family) => (entry_row(&family), None),
+        None => match model::find(name)? {
+            Found::System(system) => (system_row(system), None),
+            Found::Net(it) => (net_row(name, &it.net.view().net(), it.known), Some(it.net)),
+            Found::Time(net) => {
+                let net = model::played(name, &net)?;
+                (net_row(name, &net.view().net(), None), Some(net))
+            }
+        },
+    };
+    let answer = answer(vec![row]);
+    said(args, screen, &answer, || {
+        render::models::one(&answer.models[0], net.as_ref(), screen.width())
+    })
 }
 
 fn answer(models: Vec<ModelRow>) -> ModelsAnswer {

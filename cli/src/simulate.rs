@@ -1,8 +1,6 @@
-//! `cotama simulate`: plays a net, with a list of events or by hand.
+//! `cotama simulate`: plays a net or a system, with a list of events or by hand.
 
-mod game;
 mod interactive;
-mod playable;
 mod refusal;
 mod session;
 mod step;
@@ -12,49 +10,114 @@ use crate::args::SimulateArgs;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::model;
-use crate::output::Screen;
+use crate::output::{self, Screen};
 use crate::render;
 use cotama_core::units::Millis;
+use cotama_verification::conform::SCHEMA;
+use cotama_verification::play::{Fired, NotPlayed, Stage};
+use serde_json::{Value, json};
 use session::{Endless, Session};
 use std::io::IsTerminal;
 use step::{Step, Words};
 
-/// Plays a net.
+/// Plays a net or a system.
 pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let loaded = model::load(&args.model.model)?;
+    let stage = model::with_system(&args.model.model, Stage::of)?;
     let taken = args.model.model == "-";
     let here = || std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-    let by_hand = args.interactive || args.events.is_empty() && !taken && !args.json.json && here();
+    let by_hand = args.interactive
+        || args.events.is_empty() && !taken && !args.json.json && args.trace.is_none() && here();
     if by_hand && taken {
         return Err(Failure::new(
             "standard input cannot hold both the model and what to do with it",
         )
         .help("give the path of the model"));
     }
+    if args.trace.is_some() && args.rounds && !stage.is_system() {
+        return Err(Failure::new(
+            "--trace records events one after the other, and synchronous rounds have many at once",
+        )
+        .help("leave --rounds out"));
+    }
     let script = if args.events.is_empty() && !by_hand && !taken {
         step::lines(&input::text("-", "a list of events", input::SCRIPT_BYTES)?)
     } else {
         args.events.clone()
     };
-    let (net, by_name) = playable::playable(loaded.net);
-    let view = net.view();
+    // In a plain place/transition net, without events and time, no transition would ever wait for
+    // anything. There each one gets an event of its own name.
+    let by_name = stage.is_plain();
+    let stage = if by_name { stage.choosing(|_| true, Millis(0)) } else { stage };
+    let view = stage.whole().view();
     let net = view.net();
-    game::play(&net, &mut |game, fired| {
-        let mut session = Session::new(&net, game, args.rounds);
-        let begun = session.begin(&fired);
-        if by_hand {
-            return interactive::run(session, begun, by_name, args.rounds, &net, screen);
-        }
-        let steps = Words::new(&net, by_name, args.rounds).script(&script)?;
-        let played = begun.and_then(|()| play(&mut session, &steps));
-        let answer = session.answer(by_name, played.is_ok(), 0);
-        if args.json.json {
-            Screen::json(&answer)?;
+    let mut ended = Ok(Exit::Success);
+    let played = stage.play(Millis(0), &mut |game, fired| {
+        let session = Session::new(&stage, &net, game, args.rounds);
+        ended = if by_hand {
+            let mut session = session;
+            let begun = session.begin(&fired);
+            interactive::run(session, begun, by_name, args.rounds, &net, screen)
         } else {
-            screen.print(&render::simulate::screen(&answer, &net, screen.width()))?;
+            let words = Words::new(&net, by_name, args.rounds);
+            words
+                .script(&script)
+                .and_then(|steps| said(args, screen, session, &fired, &steps, by_name))
+        };
+    });
+    played.map_err(|why| not_played(&why))?;
+    ended
+}
+
+/// Why a model cannot be played.
+pub(crate) fn not_played(why: &NotPlayed) -> Failure {
+    let failure = Failure::new(why.to_string());
+    match why.help() {
+        Some(help) => failure.help(help),
+        None => failure,
+    }
+}
+
+/// Plays all steps and says what became of them.
+fn said(
+    args: &SimulateArgs,
+    screen: &Screen,
+    mut session: Session<'_, '_>,
+    fired: &[Fired],
+    steps: &[Step],
+    by_name: bool,
+) -> Result<Exit, Failure> {
+    let net = session.net();
+    let begun = session.begin(fired);
+    let played = begun.and_then(|()| play(&mut session, steps));
+    let answer = session.answer(by_name, played.is_ok(), 0);
+    if let Some(path) = &args.trace {
+        output::file(path, recording(&answer).as_bytes())?;
+    }
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else {
+        screen.print(&render::simulate::screen(&answer, net, screen.width()))?;
+    }
+    Ok(ended(&answer, args.strict))
+}
+
+/// What was played, for `cotama conform`.
+fn recording(answer: &SimulateAnswer) -> String {
+    let mut lines = vec![json!({ "schema": SCHEMA })];
+    for step in &answer.steps {
+        let t_ms = step.time_ms;
+        if step.round && answer.rounds {
+            lines.push(json!({ "t_ms": t_ms, "round": true }));
         }
-        Ok(ended(&answer, args.strict))
-    })
+        // A transition that is fired by its name is its own event.
+        for event in step.events.iter().filter(|_| !answer.by_name) {
+            let ignored = step.fired.is_empty();
+            lines.push(json!({ "t_ms": t_ms, "event": event, "ignored": ignored }));
+        }
+        lines.extend(step.fired.iter().map(|it| json!({ "t_ms": t_ms, "fired": it })));
+    }
+    lines.push(json!({ "t_ms": answer.time_ms, "end": true }));
+    lines.iter().map(Value::to_string).collect::<Vec<_>>().join("\n") + "\n"
 }
 
 fn play(session: &mut Session<'_, '_>, steps: &[Step]) -> Result<(), Endless> {

@@ -1,20 +1,14 @@
 //! What is checked: a net with or without time, from the command line.
 
 use crate::args::Semantics;
-use crate::catalogue::{self, Entry, Kind};
 use crate::exit::Failure;
-use crate::file_errors::FileErrors;
-use crate::input;
-use crate::kind;
-use crate::model;
+use crate::model::{self, Found};
 use cotama_core::net::owned::OwnedNet;
+use cotama_core::system::System;
 use cotama_models::cotama::Watch;
 use cotama_verification::check::Model;
 use cotama_verification::flat::{self, FlatError, Looks, Rounds, flat};
 use cotama_verification::property::Ids;
-use cotama_verification::tina;
-use cotama_verification::tpn::TimeNet;
-use std::path::Path;
 
 /// A model as it is checked.
 #[derive(Debug)]
@@ -53,25 +47,14 @@ impl Subject {
     }
 
     fn found(name: &str, untimed: bool, semantics: Semantics) -> Result<Self, Failure> {
-        if let Some(Entry { kind: Kind::System(system), .. }) = catalogue::entry(name) {
-            let refused =
-                |error| Failure::new(format!("`{name}` cannot be checked as one net: {error}"));
-            let (net, rounds, note) = if semantics == Semantics::Rounds {
-                let rounds = flat::rounds(system).map_err(refused)?;
-                let note = "nets of a system act in rounds, as they are executed";
-                (rounds.net().map_err(refused)?, Some(rounds), note)
-            } else {
-                let note = "nets of a system are checked in every interleaving, rounds among them, \
-                    at any time";
-                (flat(system).map_err(refused)?, None, note)
-            };
-            let subject = Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note);
-            return Ok(Self { semantics: Some(semantics), rounds, ..subject });
-        }
-        if Path::new(name).extension().is_some_and(|end| end.eq_ignore_ascii_case("net")) {
-            return Ok(Self::new(name, time_net(name, untimed)?, None));
-        }
-        let loaded = model::load(name)?;
+        let loaded = match model::find(name)? {
+            Found::System(system) => return Self::of_system(name, system, semantics),
+            Found::Time(net) => {
+                let model = if untimed { Model::Plain(net.untimed()) } else { Model::from(net) };
+                return Ok(Self::new(name, model, None));
+            }
+            Found::Net(loaded) => loaded,
+        };
         let view = loaded.net.view();
         let timed = view.net().transitions.iter().any(|it| it.within.is_some());
         let model = if untimed {
@@ -88,6 +71,22 @@ impl Subject {
             ..Self::new(name, model, Some(loaded.net))
         };
         Ok(if timed && untimed { subject.noted("intervals of time are left out") } else { subject })
+    }
+
+    fn of_system(name: &str, system: &System<'_>, semantics: Semantics) -> Result<Self, Failure> {
+        let refused =
+            |error| Failure::new(format!("`{name}` cannot be checked as one net: {error}"));
+        let (net, rounds, note) = if semantics == Semantics::Rounds {
+            let rounds = flat::rounds(system).map_err(refused)?;
+            let note = "nets of a system act in rounds, as they are executed";
+            (rounds.net().map_err(refused)?, Some(rounds), note)
+        } else {
+            let note = "nets of a system are checked in every interleaving, rounds among them, at \
+                any time";
+            (flat(system).map_err(refused)?, None, note)
+        };
+        let subject = Self::new(name, Model::from(&net.view().net()), Some(net)).noted(note);
+        Ok(Self { semantics: Some(semantics), rounds, ..subject })
     }
 
     fn new(name: &str, model: Model, net: Option<OwnedNet>) -> Self {
@@ -143,14 +142,4 @@ impl Subject {
         }
         self
     }
-}
-
-fn time_net(path: &str, untimed: bool) -> Result<Model, Failure> {
-    let bytes = input::bytes(path, "a model", input::MODEL_BYTES)?;
-    kind::expect(path, &bytes, "a model", &kind::MODELS)?;
-    let net: TimeNet = tina::read(path, &bytes).map_err(|error| {
-        let text = String::from_utf8_lossy(&bytes).into_owned();
-        FileErrors::at_character(path, text, (error.line, error.column), error.message, error.help)
-    })?;
-    Ok(if untimed { Model::Plain(net.untimed()) } else { Model::from(net) })
 }

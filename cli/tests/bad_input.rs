@@ -178,7 +178,6 @@ fn models_that_cannot_be_read() {
     refused(&folder, "model_family", &["export", "philosophers", "--format", "dot"]);
     refused(&folder, "model_number", &["export", "philosophers:1", "--format", "dot"]);
     refused(&folder, "model_no_family", &["simulate", "door:5"]);
-    refused(&folder, "model_system", &["simulate", "delivery"]);
     refused(&folder, "model_missing", &["simulate", "nets/door.pnml"]);
     let cases = [
         ("empty", String::new()),

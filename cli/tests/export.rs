@@ -3,7 +3,7 @@
 use crate::common::{Folder, golden};
 use std::path::Path;
 
-const FORMATS: [(&str, &str, &str); 8] = [
+const FORMATS: [(&str, &str, &str); 9] = [
     ("dot", "gv", "digraph"),
     ("svg", "svg", "<svg xmlns="),
     ("pnml", "pnml", "<?xml"),
@@ -11,6 +11,7 @@ const FORMATS: [(&str, &str, &str); 8] = [
     ("scxml", "scxml", "<?xml"),
     ("jani", "jani", "{\n  \"jani-version\": 1"),
     ("matrix", "tsv", "# Matrices"),
+    ("net", "net", "net door\npl Closed (1)\n"),
     ("json", "json", "{\n  \"schema\": \"cotama/net/1\""),
 ];
 
@@ -105,4 +106,70 @@ fn a_file_is_written_as_a_whole_or_left_as_it_was() {
         (folder.files(""), folder.read("door.svg")),
         (vec!["door.svg".to_owned()], "kept".to_owned())
     );
+}
+
+#[test]
+fn a_system_is_exported_as_one_net() {
+    let folder = Folder::new("export_system");
+    let question = ["--property", "AG (round & gs.Safe -> ls.Idle)", "--json"];
+    for format in ["pnml", "json", "net"] {
+        let file = format!("delivery.{format}");
+        let written = folder.cotama(&["export", "delivery", "--output", &file]);
+        assert_eq!(written.code, Some(0), "{written:?}");
+        let result = folder.cotama(&[&["check", file.as_str()], &question[..]].concat()).json(0);
+        assert_eq!(result["results"][0]["verdict"], "true", "{format}");
+    }
+    let any = ["export", "delivery", "--semantics", "interleaving", "--format", "json"];
+    assert!(folder.cotama(&any).stdout.contains("ls.start_drive.room"));
+    let door = folder.cotama(&["export", "door", "--semantics", "rounds", "--format", "json"]);
+    assert_eq!((door.code, door.stdout.as_str()), (Some(2), ""));
+}
+
+#[test]
+fn a_net_of_tina_is_the_same_for_every_command() {
+    let folder = Folder::new("export_tina");
+    for model in ["door", "watchdog", "philosophers:3"] {
+        let written = folder.cotama(&["export", model, "--output", "it.net"]);
+        assert_eq!(written.code, Some(0), "{written:?}");
+        let states = |model: &str| {
+            let answer = folder.cotama(&["statespace", model, "--json"]).json(0);
+            (answer["states"].clone(), answer["arcs"].clone(), answer["markings"].clone())
+        };
+        assert_eq!(states("it.net"), states(model), "{model}");
+        let again = folder.shell("cotama export - --format net < it.net");
+        assert_eq!(again.stdout, folder.read("it.net"), "{model}");
+        let places = |name: &str| {
+            let answer = folder.cotama(&["models", name, "--json"]).json(0);
+            answer["models"][0]["places"].clone()
+        };
+        assert!(places("it.net").as_u64() > Some(0), "{model}");
+    }
+    // Without intervals it is a plain net, as in PNML.
+    let played = folder.cotama(&["simulate", "it.net", "left_first_1", "--json"]).json(0);
+    assert_eq!((&played["by_name"], &played["fired"][0]), (&true.into(), &"left_first_1".into()));
+    let pnml = folder.shell("cotama export it.net --format pnml | cotama statespace - --json");
+    assert_eq!(pnml.code, Some(0), "{pnml:?}");
+    let noted = folder.cotama(&["export", "door", "--output", "door.net"]).stderr;
+    assert!(noted.contains("note: in the file, priorities and the order of lines are ignored"));
+    folder.write("open.net", "tr t ]2,5] a -> b\npl a (1)\n");
+    assert_eq!(folder.cotama(&["statespace", "open.net"]).code, Some(0));
+    let refused = folder.cotama(&["simulate", "open.net", "+3"]);
+    assert_eq!((refused.code, refused.stdout.as_str()), (Some(2), ""));
+    golden("bad_tina_open.txt", &refused.stderr);
+}
+
+#[test]
+fn nodes_of_a_file_have_their_names_and_their_ids() {
+    let folder = Folder::new("check_ids");
+    let written = folder.cotama(&["export", "door", "--format", "pnml"]).stdout;
+    // A file whose places are called otherwise than their ids.
+    let id = written.split("<place id=\"").nth(1).unwrap().split('"').next().unwrap().to_owned();
+    assert_ne!(id, "Closed");
+    folder.write("door.pnml", written);
+    let check = |property: &str| {
+        folder.cotama(&["check", "door.pnml", "--property", property, "--json"]).json(0)
+    };
+    let (by_id, by_name) = (check(&format!("AG {id} <= 1")), check("AG Closed <= 1"));
+    assert_eq!(by_id["results"][0]["verdict"], by_name["results"][0]["verdict"]);
+    assert_eq!(by_id["results"][0]["property"], by_name["results"][0]["property"]);
 }

@@ -2,7 +2,7 @@
 
 use crate::common::Folder;
 
-pub(crate) const COMMANDS: [&str; 18] = [
+pub(crate) const COMMANDS: [&str; 19] = [
     "list",
     "plan",
     "run",
@@ -14,6 +14,7 @@ pub(crate) const COMMANDS: [&str; 18] = [
     "check",
     "statespace",
     "verify",
+    "conform",
     "fmeca",
     "new",
     "show",
@@ -91,6 +92,24 @@ fn every_command_is_in_the_help_and_has_a_manual_page() {
         let script = folder.cotama(&["completions", shell]);
         assert!(script.code == Some(0) && script.stdout.contains("allocate"), "{shell}");
     }
+}
+
+#[test]
+fn names_of_models_and_missions_are_completed() {
+    let folder = Folder::new("help_complete");
+    let complete = |words: &str| {
+        let last = words.split(' ').count();
+        let line = format!(
+            "bash -c 'source <(cotama completions bash); COMP_WORDS=(cotama {words}); \
+             COMP_CWORD={last}; _cotama cotama {} x; echo \"${{COMPREPLY[@]}}\"'",
+            words.split(' ').next_back().unwrap()
+        );
+        folder.shell(&line).stdout
+    };
+    assert_eq!(complete("check watc"), "watchdog\n");
+    assert_eq!(complete("conform deli"), "delivery\n");
+    assert_eq!(complete("run pat"), "patrol\n");
+    assert_eq!(complete("check nope"), "\n");
 }
 
 #[test]

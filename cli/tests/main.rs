@@ -9,6 +9,7 @@ mod book;
 mod broken_pnml;
 mod check;
 mod common;
+mod conform;
 mod errors;
 mod export;
 mod fmeca;

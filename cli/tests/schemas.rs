@@ -4,7 +4,7 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 13] = [
+const COMMANDS: [&str; 15] = [
     "list",
     "plan",
     "run",
@@ -15,6 +15,8 @@ const COMMANDS: [&str; 13] = [
     "check",
     "statespace",
     "verify",
+    "conform",
+    "recording",
     "fmeca",
     "new",
     "error",

@@ -11,13 +11,15 @@ fn simulate(name: &str, arguments: &[&str], code: i32) -> Value {
 #[test]
 fn the_screens_of_simulations() {
     let folder = Folder::new("simulate_screens");
-    let screens: [(&str, &[&str]); 6] = [
+    let screens: [(&str, &[&str]); 8] = [
         ("door", &["door", "Call", "EndOpen", "+5000", "EndOpen", "Obstacle@5200"]),
         ("crossing", &["crossing", "Button", "+30000"]),
         ("crossing_rounds", &["crossing", "--rounds", "Button,Button", "+10000", "+3000"]),
         ("philosophers", &["philosophers:3", "left_first_1", "then_right_1", "left_first_2"]),
         ("watchdog", &["watchdog", "Release", "+100", "Release", "Done"]),
         ("nothing", &["contextual"]),
+        ("delivery", &["delivery", "gs.mission_received", "ls.path_ready", "faults.fail_hard"]),
+        ("delivery_rounds", &["delivery", "--rounds", "gs.mission_received", "+100", "+100"]),
     ];
     for (name, arguments) in screens {
         let ended = folder.cotama(&[&["simulate"], arguments].concat());
@@ -198,4 +200,20 @@ fn a_line_of_any_length_is_no_harm_by_hand() {
     folder.write("line", "x".repeat(200_000));
     let ended = folder.shell("cotama simulate door -i < line");
     assert_eq!(ended.code, Some(0));
+}
+
+#[test]
+fn nets_of_a_system_read_their_mail_in_rounds() {
+    let answer = simulate("system", &["delivery", "gs.mission_received"], 0);
+    let rounds: Vec<_> =
+        answer["steps"].as_array().unwrap().iter().map(|it| &it["round"]).collect();
+    assert_eq!(rounds, [&Value::Null, &json!(true)]);
+    assert_eq!(answer["marking"]["ls.start_drive.waiting"], 0);
+    // With --rounds nothing is read before the next word.
+    let answer = simulate("system_rounds", &["delivery", "--rounds", "gs.mission_received"], 0);
+    assert_eq!(answer["marking"]["ls.start_drive.waiting"], 1);
+    let folder = Folder::new("simulate_system_unknown");
+    let ended = folder.cotama(&["simulate", "delivery", "mission_received"]);
+    assert_eq!(ended.code, Some(2));
+    assert!(ended.stderr.contains("did you mean `gs.mission_received`?"), "{}", ended.stderr);
 }

@@ -5,12 +5,14 @@
 //! | [`bounds`] | bounds of places that the structure of a net proves |
 //! | [`certificate`] | evidence for a verdict, and a small checker of it |
 //! | [`check`] | a question, its answer, and the choice among engines |
+//! | [`conform`] | whether a recorded run is a run of a model, and where it departs |
 //! | [`coverability`] | infinitely many markings: boundedness, and what more tokens keep true |
 //! | [`diagnosis`] | what a person sees of a verdict |
 //! | [`explicit`] | the engine that passes through reachable markings one by one |
 //! | [`export`] | a net as a file of another tool, or as a drawing |
 //! | [`flat`] | a system of nets as one net |
 //! | [`guide`] | how to check a net of one's own, and ten counterexamples |
+//! | [`play`] | any net or system in play, whatever its size |
 //! | [`pnml`] | the exchange format of Petri nets, read and written |
 //! | [`pt`] | a net without time and priorities, as engines read it |
 //! | [`property`] | what is asked of a net |
@@ -24,11 +26,13 @@
 pub mod bounds;
 pub mod certificate;
 pub mod check;
+pub mod conform;
 pub mod coverability;
 pub mod diagnosis;
 pub mod explicit;
 pub mod export;
 pub mod flat;
+pub mod play;
 pub mod pnml;
 pub mod property;
 pub mod pt;

@@ -104,9 +104,10 @@ pub(crate) struct ComponentRow {
 pub(crate) struct SimulateAnswer {
     #[schemars(extend("const" = "cotama/simulate/1"))]
     pub(crate) schema: &'static str,
-    /// The name of the net.
+    /// The name of the net or system.
     pub(crate) model: String,
-    /// Whether it was played in synchronous rounds.
+    /// Whether each word was a round: of a net a synchronous step; of a system the turns of its
+    /// nets, then what is offered.
     pub(crate) rounds: bool,
     /// Whether transitions are fired by name, as the net has neither events nor time.
     pub(crate) by_name: bool,
@@ -137,6 +138,9 @@ pub(crate) struct StepRow {
     pub(crate) time_ms: u64,
     /// The events that were offered; none for what fired by itself.
     pub(crate) events: Vec<String>,
+    /// Whether it is what the nets of a system did in their turns, with what they had mailed.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub(crate) round: bool,
     /// The transitions that fired, in this order.
     pub(crate) fired: Vec<String>,
     /// The events that no transition used.
@@ -168,7 +172,7 @@ pub(crate) enum RefusalReason {
     TooEarly,
     /// One has, but its interval is over.
     TooLate,
-    /// One has, but a place would hold more than its bound.
+    /// One has, but a place would hold more than its bound, or a mailbox is full.
     Full,
 }
 

@@ -1,6 +1,7 @@
 //! The command line of the commands about models.
 
 use super::Json;
+use super::check::Semantics;
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 
@@ -17,7 +18,10 @@ Examples:
   $ cotama export door --output door.svg                 # the format by the name of the file
   $ cotama export door --style net --output door.dot
   $ cotama export philosophers:5 --format pnml | cotama export - --format matrix
-  $ cotama export watchdog --output watchdog.scxml";
+  $ cotama export watchdog --output watchdog.scxml
+  $ cotama export watchdog --output watchdog.net
+  $ cotama export delivery --format pnml > rounds.pnml   # a system as one net
+  $ cotama export delivery --semantics interleaving --format json > any_order.json";
 
 pub(crate) const SIMULATE_EXAMPLES: &str = "\
 Words:
@@ -25,6 +29,8 @@ Words:
   EVENT@MS  offers it at this time
   +MS       lets so much time pass
   A,B       with --rounds: offers both in one round; there, +MS is a round without events
+
+Events of a system are NET.EVENT, as in `gs.mission_received`: those that no other net causes.
 
 In a file or on standard input: one of these a line; lines that begin with # are left out.
 On a terminal, and with --interactive, a line can also be the number of an event, the beginning of \
@@ -36,18 +42,21 @@ Examples:
   $ cotama simulate philosophers:3 left_first_1 then_right_1 end_1
   $ printf 'Call\\nEndOpen@2000\\n+5000\\n' | cotama simulate door
   $ printf '1\\nback\\nquit\\n' | cotama simulate door --interactive
+  $ cotama simulate delivery gs.mission_received ls.path_ready
   $ cotama simulate door EndOpen --strict   # nothing opens: exit code 1";
 
 /// A model.
 #[derive(Args, Debug)]
 pub(crate) struct ModelArg {
-    /// The name of a model that comes with the program, the path of a PNML or JSON file, or `-`
+    /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
+    /// file, or `-`
     pub(crate) model: String,
 }
 
 #[derive(Args, Debug)]
 pub(crate) struct ModelsArgs {
-    /// The name of a model, or the path of a PNML or JSON file: all that is known of it
+    /// The name of a model, or the path of a PNML, JSON or TINA (.net) file: all that is known
+    /// of it
     pub(crate) name: Option<String>,
     #[command(flatten)]
     pub(crate) json: Json,
@@ -60,6 +69,9 @@ pub(crate) struct ExportArgs {
     /// The format [default: by the end of the name of the output]
     #[arg(long, value_enum)]
     pub(crate) format: Option<Format>,
+    /// What it means that nets of a system work together, for all but its svg [default: rounds]
+    #[arg(long, value_enum, value_name = "MEANING")]
+    pub(crate) semantics: Option<Semantics>,
     /// How dot, svg and mermaid draw it [default: auto]
     #[arg(long, value_enum)]
     pub(crate) style: Option<DrawnAs>,
@@ -75,12 +87,16 @@ pub(crate) struct SimulateArgs {
     /// What is offered, in this order; without any, it is read from standard input
     #[arg(value_name = "EVENT")]
     pub(crate) events: Vec<String>,
-    /// Plays synchronous rounds: each word is one round
+    /// Plays rounds: each word is one. Of a net it is a synchronous step, of a system the turns of
+    /// its nets, and then what is offered
     #[arg(long)]
     pub(crate) rounds: bool,
     /// Ends with exit code 1 when an event is ignored
     #[arg(long)]
     pub(crate) strict: bool,
+    /// Writes what was played as a recorded run, for `cotama conform`
+    #[arg(long, value_name = "FILE.jsonl", conflicts_with = "interactive")]
+    pub(crate) trace: Option<PathBuf>,
     /// Asks what to do and shows it, step by step, even if no terminal is there
     #[arg(long, short, conflicts_with_all = ["events", "json", "strict"])]
     pub(crate) interactive: bool,
@@ -105,6 +121,8 @@ pub(crate) enum Format {
     Jani,
     /// Incidence matrices as a table (.tsv)
     Matrix,
+    /// A time net for TINA and others that read its format (.net)
+    Net,
     /// All of it as JSON; nothing is lost (.json)
     Json,
 }

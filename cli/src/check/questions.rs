@@ -38,7 +38,7 @@ pub(super) fn asked(args: &CheckArgs, subject: &Subject) -> Result<Asked, Failur
     let pt = subject.model.pt();
     let mut properties = Vec::new();
     for text in &args.property {
-        properties.push(one(text, args.initial, pt)?);
+        properties.push(one(text, args.initial, subject)?);
     }
     if let Some(path) = &args.properties {
         properties.extend(file(path, args.initial, subject)?);
@@ -77,12 +77,12 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
 }
 
 /// A property that was typed, or a question by its name.
-fn one(text: &str, initial: bool, pt: &Pt) -> Result<Property, Failure> {
-    let name = text.trim();
+fn one(text: &str, initial: bool, subject: &Subject) -> Result<Property, Failure> {
+    let (name, pt) = (text.trim(), subject.model.pt());
     if let Some(known) = mcc::examination(name).filter(|_| pt.place(name).is_none()) {
         return Ok(known);
     }
-    parsed(text, initial, pt).map_err(|error| {
+    parsed(text, initial, subject).map_err(|error| {
         let source = error.source_name.clone();
         let mark = mark(&error, text, 0);
         errors(&source, text.to_owned(), vec![(error, mark)])
@@ -109,7 +109,7 @@ fn file(path: &str, initial: bool, subject: &Subject) -> Result<Vec<Property>, F
             errors(name, text, vec![(error, mark)])
         })?
     } else {
-        lines(name, input::utf8(path, WHAT, bytes)?, initial, subject.model.pt())?
+        lines(name, input::utf8(path, WHAT, bytes)?, initial, subject)?
     };
     if properties.is_empty() {
         return Err(Failure::of(name, "there is no property in it").help(
@@ -125,7 +125,12 @@ fn is_markup(bytes: &[u8]) -> bool {
 }
 
 /// One property a line, with a name before a colon or without.
-fn lines(source: &str, text: String, initial: bool, pt: &Pt) -> Result<Vec<Property>, Failure> {
+fn lines(
+    source: &str,
+    text: String,
+    initial: bool,
+    subject: &Subject,
+) -> Result<Vec<Property>, Failure> {
     let (mut properties, mut wrong, mut at) = (Vec::new(), Vec::new(), 0);
     for line in text.split_inclusive('\n') {
         let start = at;
@@ -135,7 +140,7 @@ fn lines(source: &str, text: String, initial: bool, pt: &Pt) -> Result<Vec<Prope
             continue;
         }
         let (name, formula) = named(line);
-        match parsed(formula, initial, pt) {
+        match parsed(formula, initial, subject) {
             Ok(property) => {
                 let name = name.map_or(property.name, str::to_owned);
                 properties.push(Property { name, question: property.question });
@@ -151,12 +156,12 @@ fn lines(source: &str, text: String, initial: bool, pt: &Pt) -> Result<Vec<Prope
 
 /// A property that was typed, named as it is written out. One that speaks of a single marking has to
 /// say of which.
-fn parsed(text: &str, initial: bool, pt: &Pt) -> Result<Property, PropertyError> {
-    let name = text.trim();
+fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, PropertyError> {
+    let (name, pt) = (text.trim(), subject.model.pt());
     if name == "deadlock_free" && pt.place(name).is_none() {
         return Ok(Property { name: name.to_owned(), question: deadlock_free() });
     }
-    let property = property::parse(text, pt)?;
+    let property = property::parse_with(text, pt, subject.ids())?;
     let is_state = property.question.formula().is_some_and(Formula::is_state);
     if is_state && !initial {
         let start = text.len() - text.trim_start().len();

@@ -2,6 +2,7 @@
 
 pub(crate) mod allocate;
 pub(crate) mod check;
+pub(crate) mod conform;
 pub(crate) mod fmeca;
 pub(crate) mod fold;
 pub(crate) mod models;

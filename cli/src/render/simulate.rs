@@ -83,10 +83,14 @@ fn steps(steps: &[StepRow], net: &Net<'_>, width: usize) -> String {
         };
         table.row(vec![
             Cell::plain(time(step.time_ms)),
-            Cell::new(
-                listed(step.events.iter().cloned()),
-                if step.events.is_empty() { PLAIN } else { NAME },
-            ),
+            if step.round {
+                Cell::faint("(round)")
+            } else {
+                Cell::new(
+                    listed(step.events.iter().cloned()),
+                    if step.events.is_empty() { PLAIN } else { NAME },
+                )
+            },
             fired,
             Cell::plain(listed(step.emitted.iter().cloned())),
             Cell::plain(listed(changed)),

@@ -1,24 +1,24 @@
 //! Why no transition uses an event, in words.
 
 use crate::answers::model::{RefusalReason, RefusalRow};
-use cotama_core::net::{Arc, EventId, Net, Place, PlaceId, Role, Transition, TransitionId, Within};
+use cotama_core::net::{Arc, EventId, Net, PlaceId, TransitionId, Within};
 use cotama_core::player::Why;
+use cotama_verification::play::{Unused, condition, not_enabled, overflowing};
 
-/// The most transitions of which it is said what they lack.
-const SHOWN: usize = 2;
-/// The most tokens of a place in play.
-const LARGEST: u32 = 65_535;
-
-/// Why an event is ignored at a marking.
-pub(super) fn refusal(
-    net: &Net<'_>,
-    marking: &[u32],
-    event: EventId,
-    why: Why<TransitionId>,
-) -> RefusalRow {
+/// Why an event is not used at a marking.
+pub(super) fn refusal(net: &Net<'_>, marking: &[u32], event: EventId, why: Unused) -> RefusalRow {
     let transition = |TransitionId(id): TransitionId| net.transitions.get(id as usize);
     let name = |id| transition(id).map_or("?", |it| it.name);
     let within = |id| transition(id).and_then(|it| it.within).map_or_else(String::new, interval);
+    let tokens = |place| tokens(marking, place);
+    let why = match why {
+        Unused::Ignored(why) => why,
+        Unused::Full { mailbox: PlaceId(mailbox) } => {
+            let mailbox = net.places.get(mailbox as usize).map_or("?", |it| it.name);
+            let text = format!("refused: {mailbox} is full");
+            return RefusalRow { event: event_name(net, event), reason: RefusalReason::Full, text };
+        }
+    };
     let (reason, text) = match why {
         Why::OnPurpose => (RefusalReason::OnPurpose, on_purpose(net, marking, event)),
         Why::TooEarly(id) => (
@@ -30,7 +30,7 @@ pub(super) fn refusal(
             format!("too late: `{}` fires on it {} after it is enabled", name(id), within(id)),
         ),
         Why::Full(id) => {
-            let place = transition(id).and_then(|it| overflowing(net, marking, it));
+            let place = transition(id).and_then(|it| overflowing(net, &tokens, it));
             let text = place.map_or_else(
                 || format!("`{}` would put too many tokens into a place", name(id)),
                 |(place, bound)| {
@@ -40,7 +40,7 @@ pub(super) fn refusal(
             (RefusalReason::Full, text)
         }
         Why::NotEnabled | Why::Behind | Why::NoSuchEvent => {
-            (RefusalReason::NotEnabled, not_enabled(net, marking, event))
+            (RefusalReason::NotEnabled, not_enabled(net, &tokens, event))
         }
     };
     RefusalRow { event: event_name(net, event), reason, text }
@@ -71,52 +71,6 @@ fn on_purpose(net: &Net<'_>, marking: &[u32], event: EventId) -> String {
     let places: Vec<_> =
         here.map(|it| condition(net, Arc { place: it.place, weight: 1 })).collect();
     format!("ignored on purpose in {}", places.join(", "))
-}
-
-fn not_enabled(net: &Net<'_>, marking: &[u32], event: EventId) -> String {
-    let mut on = net.transitions.iter().filter(|it| it.on == Some(event));
-    let lacks = |it: &Transition<'_>| {
-        let all = it.take.iter().chain(it.read);
-        let lacking = all.filter(|arc| tokens(marking, arc.place) < arc.weight);
-        let lacking: Vec<_> = lacking.map(|&arc| condition(net, arc)).collect();
-        format!("`{}` needs {}", it.name, lacking.join(" & "))
-    };
-    let said: Vec<_> = on.by_ref().take(SHOWN).map(lacks).collect();
-    match (said.is_empty(), on.count()) {
-        (true, _) => "no transition is on it".to_owned(),
-        (false, 0) => said.join("; "),
-        (false, more) => format!("{}; and {more} more", said.join("; ")),
-    }
-}
-
-/// What an arc asks for, as a guard.
-fn condition(net: &Net<'_>, arc: Arc) -> String {
-    let place = |PlaceId(id): PlaceId| net.places.get(id as usize);
-    let name = |id| place(id).map_or("?", |it: &Place<'_>| it.name);
-    match place(arc.place).map(|it| (it.role, it.bound)) {
-        Some((Role::Complement(of), 1)) => format!("!{}", name(of)),
-        Some((Role::Complement(of), bound)) => {
-            format!("{} <= {}", name(of), bound.saturating_sub(arc.weight))
-        }
-        _ if arc.weight == 1 => name(arc.place).to_owned(),
-        _ => format!("{} >= {}", name(arc.place), arc.weight),
-    }
-}
-
-/// The first place that a firing would fill beyond its bound, and the bound.
-fn overflowing<'n>(
-    net: &Net<'n>,
-    marking: &[u32],
-    transition: &Transition<'_>,
-) -> Option<(&'n str, u32)> {
-    transition.give.iter().find_map(|give| {
-        let place = net.places.get(give.place.0 as usize)?;
-        let bound = place.bound.min(LARGEST);
-        let taken =
-            transition.take.iter().filter(|it| it.place == give.place).map(|it| it.weight).sum();
-        let after = tokens(marking, give.place).saturating_sub(taken).saturating_add(give.weight);
-        (after > bound).then_some((place.name, bound))
-    })
 }
 
 fn interval(within: Within) -> String {

@@ -1,6 +1,5 @@
 //! A game and the record of what happened in it.
 
-use super::game::{Fired, Game};
 use super::ms;
 use super::refusal::{refusal, round_is_full, taken_by_others};
 use super::step::Step;
@@ -10,10 +9,13 @@ use crate::answers::model::{
 use cotama_core::net::{Arc, EventId, Net, OutputId, PlaceId, Transition, TransitionId};
 use cotama_core::player::{Stepped, Why};
 use cotama_core::units::Millis;
+use cotama_verification::play::{Fired, Game, Stage, Unused};
 use std::collections::BTreeMap;
 
 /// The most transitions that fire in one session.
 pub(super) const MOST_FIRINGS: usize = 200_000;
+/// The most rounds that follow each other because something waits.
+const MOST_ROUNDS: usize = 1_000;
 
 /// More than [`MOST_FIRINGS`] transitions would fire.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +24,8 @@ pub(super) struct Endless;
 /// A game and its record.
 pub(super) struct Session<'n, 'c> {
     net: &'n Net<'n>,
+    /// Of a system, which reads its mail in rounds.
+    stage: &'n Stage,
     game: Box<dyn Game<'c> + 'c>,
     rounds: bool,
     marking: Vec<u32>,
@@ -39,23 +43,37 @@ pub(super) struct Saved<'c> {
 
 impl<'n, 'c> Session<'n, 'c> {
     /// A game that has not begun to be recorded.
-    pub(super) fn new(net: &'n Net<'n>, game: Box<dyn Game<'c> + 'c>, rounds: bool) -> Self {
+    pub(super) fn new(
+        stage: &'n Stage,
+        net: &'n Net<'n>,
+        game: Box<dyn Game<'c> + 'c>,
+        rounds: bool,
+    ) -> Self {
         let marking = net.places.iter().map(|place| place.initial).collect();
-        Self { net, game, rounds, marking, steps: vec![], firings: 0 }
+        Self { net, stage, game, rounds, marking, steps: vec![], firings: 0 }
     }
 
     /// Records what fired at the start, and lets fire what is due at time zero.
     pub(super) fn begin(&mut self, fired: &[Fired]) -> Result<(), Endless> {
         self.record(fired);
-        if self.rounds { Ok(()) } else { self.advance(Millis(0)) }
+        let begun = if self.rounds { Ok(()) } else { self.advance(Millis(0)) };
+        self.look();
+        begun
     }
 
     /// Does what a step says.
     pub(super) fn apply(&mut self, step: &Step) -> Result<(), Endless> {
-        if self.rounds {
-            return self.round(step);
-        }
-        self.advance(step.at)?;
+        let done = match (self.rounds, self.stage.is_system()) {
+            (true, false) => self.synchronous(step),
+            (true, true) => self.round(step.at).and_then(|()| self.offer(step)),
+            (false, _) => self.advance(step.at).and_then(|()| self.offer(step)),
+        };
+        self.look();
+        done
+    }
+
+    /// Offers the events of a step, one after the other, and lets settle what follows.
+    fn offer(&mut self, step: &Step) -> Result<(), Endless> {
         for &event in &step.events {
             let mut fired = vec![];
             match self.game.offer(step.at, event, &mut fired) {
@@ -65,12 +83,61 @@ impl<'n, 'c> Session<'n, 'c> {
                     self.push(step.at, &[event], &[], ignored);
                 }
             }
-            self.advance(step.at)?;
+            if !self.rounds {
+                self.advance(step.at)?;
+            }
         }
         Ok(())
     }
 
+    /// Time passes, and each net of a system takes its turn.
+    fn round(&mut self, at: Millis) -> Result<(), Endless> {
+        self.pass(at)?;
+        let mut fired = vec![];
+        let behind = self.game.round(at, &mut fired);
+        if self.rounds || !fired.is_empty() {
+            self.push(at, &[], &fired, vec![]);
+            self.steps.iter_mut().next_back().into_iter().for_each(|it| it.round = true);
+        }
+        self.look();
+        if behind { Err(Endless) } else { Ok(()) }
+    }
+
+    /// Time passes; a round follows as soon as something waits in a mailbox.
     fn advance(&mut self, to: Millis) -> Result<(), Endless> {
+        for _ in 0..MOST_ROUNDS {
+            let woken = self.game.wake_at().filter(|_| self.stage.is_system());
+            let next = woken.map_or(to, |it| it.min(to));
+            self.pass(next)?;
+            if self.game.round_is_due() {
+                self.round(next)?;
+            } else if next == to {
+                return Ok(());
+            }
+        }
+        Err(Endless)
+    }
+
+    /// Reads from the game what arcs do not say: mailboxes, and places that several nets change.
+    fn look(&mut self) {
+        let net = self.net;
+        let mut changed = vec![];
+        for ((place, tokens), id) in
+            net.places.iter().zip(&mut self.marking).zip((0..).map(PlaceId))
+        {
+            let now = self.game.tokens(id);
+            if std::mem::replace(tokens, now) != now && (id.0 as usize) < self.stage.shown_places()
+            {
+                changed.push(TokensRow { place: place.name.to_owned(), tokens: now });
+            }
+        }
+        if let Some(step) = self.steps.last_mut() {
+            step.changed.retain(|it| changed.iter().all(|new| new.place != it.place));
+            step.changed.extend(changed);
+        }
+    }
+
+    fn pass(&mut self, to: Millis) -> Result<(), Endless> {
         loop {
             let mut fired = vec![];
             let behind = self.game.advance(to, &mut fired);
@@ -84,7 +151,8 @@ impl<'n, 'c> Session<'n, 'c> {
         }
     }
 
-    fn round(&mut self, step: &Step) -> Result<(), Endless> {
+    /// All transitions of a net see the same marking.
+    fn synchronous(&mut self, step: &Step) -> Result<(), Endless> {
         let before = self.game.fork();
         let mut fired = vec![];
         let round = self.game.step(step.at, &step.events, &mut fired);
@@ -120,7 +188,7 @@ impl<'n, 'c> Session<'n, 'c> {
         // is for later rounds.
         let why = match before.fork().offer(at, event, &mut vec![]) {
             Err(why) => why,
-            Ok(_) => Why::NotEnabled,
+            Ok(_) => Unused::Ignored(Why::NotEnabled),
         };
         refusal(self.net, &self.marking, event, why)
     }
@@ -161,7 +229,8 @@ impl<'n, 'c> Session<'n, 'c> {
         let changed = before.iter().filter_map(|(&place, &before)| {
             let tokens = *self.marking.get(place as usize)?;
             let name = net.places.get(place as usize)?.name;
-            (tokens != before).then(|| TokensRow { place: name.to_owned(), tokens })
+            let shown = (place as usize) < self.stage.shown_places();
+            (tokens != before && shown).then(|| TokensRow { place: name.to_owned(), tokens })
         });
         let outputs = transitions().flat_map(|it| it.emits);
         let output = |id: &OutputId| net.outputs.get(id.0 as usize).map(|it| it.name.to_owned());
@@ -173,6 +242,7 @@ impl<'n, 'c> Session<'n, 'c> {
             emitted: outputs.filter_map(output).collect(),
             changed: changed.collect(),
             ignored,
+            round: false,
         });
     }
 
@@ -186,6 +256,11 @@ impl<'n, 'c> Session<'n, 'c> {
 
     fn event(&self, EventId(id): EventId) -> String {
         self.net.events.get(id as usize).map_or_else(String::new, |it| it.name.to_owned())
+    }
+
+    /// What is in play, as one net.
+    pub(super) fn net(&self) -> &'n Net<'n> {
+        self.net
     }
 
     /// The time it was last told.
@@ -225,7 +300,7 @@ impl<'n, 'c> Session<'n, 'c> {
                 Err(refusal) => unused.push(refusal),
             }
         }
-        let marked = self.net.places.iter().zip(&self.marking);
+        let marked = self.net.places.iter().zip(&self.marking).take(self.stage.shown_places());
         SimulateAnswer {
             schema: "cotama/simulate/1",
             model: self.net.name.to_owned(),
@@ -246,7 +321,7 @@ impl<'n, 'c> Session<'n, 'c> {
     /// The transition that would use an event now, or why none would.
     fn prospect(&self, event: EventId) -> Result<String, RefusalRow> {
         let (now, mut game, mut fired) = (self.now(), self.game.fork(), vec![]);
-        if self.rounds {
+        if self.rounds && !self.stage.is_system() {
             let round = game.step(now, &[event], &mut fired);
             let user = fired.iter().find(|it| self.is_on(it, event));
             let user = user.ok_or_else(|| self.refused_round(&*self.game, now, round, event))?;

@@ -127,7 +127,11 @@ impl<'n> Words<'n> {
             return Failure::new(format!("there is no event `{word}`: the net has none"))
                 .help("it moves by itself as time passes; `+1000` lets a second pass");
         }
-        let guess = near(word, self.list.iter().copied())
+        // In a system a name alone is not enough.
+        let ending = format!(".{word}");
+        let guess = self.list.iter().copied().find(|it| it.ends_with(&ending));
+        let guess = guess
+            .or_else(|| near(word, self.list.iter().copied()))
             .map_or_else(String::new, |near| format!("; did you mean `{near}`?"));
         let shown: Vec<_> = self.list.iter().take(SHOWN).copied().collect();
         let more = if self.list.len() > SHOWN { ", ..." } else { "" };

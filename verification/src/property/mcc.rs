@@ -19,7 +19,7 @@
 
 use super::error::Fault;
 use super::linear::{Comparison, Sum};
-use super::names::{Ids, Names};
+use super::names::{First, Ids, Names};
 use super::operand::too_large;
 use super::xml::{Element, Xml, decode};
 use super::{Atom, Formula, MAX_DEPTH, Property, PropertyError, Question};
@@ -43,7 +43,7 @@ pub fn read(
     let text = decode(bytes).map_err(|(fault, text)| fault.located(name, &text))?;
     let mut file = File {
         xml: Xml::new(text),
-        names: Names::new(net, ids),
+        names: Names::new(net, ids, First::Ids),
         depth: 0,
         quantified: false,
         parts: Formula::MAX_PARTS,

@@ -88,7 +88,7 @@ pub use error::PropertyError;
 pub use evaluate::{Condition, Marking};
 pub use ltl::{Ltl, LtlNode};
 pub use names::Ids;
-pub use parser::{MAX_DEPTH, MAX_TEXT, parse};
+pub use parser::{MAX_DEPTH, MAX_TEXT, parse, parse_with};
 pub use reachability::Reachability;
 
 use cotama_core::net::{PlaceId, TransitionId};

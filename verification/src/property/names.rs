@@ -25,6 +25,13 @@ impl<'a> From<&'a Imported> for Ids<'a> {
     }
 }
 
+/// What a word means that is the id of one node and the name of another.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum First {
+    Ids,
+    Names,
+}
+
 pub(super) struct Names<'a> {
     places: Index<'a>,
     transitions: Index<'a>,
@@ -38,9 +45,14 @@ struct Index<'a> {
 }
 
 impl<'a> Index<'a> {
-    fn new(ids: &'a [String], names: &'a [String]) -> Self {
+    fn new(ids: &'a [String], names: &'a [String], first: First) -> Self {
         let mut positions = HashMap::new();
-        for (name, at) in ids.iter().zip(0..names.len() as u32).chain(names.iter().zip(0..)) {
+        let (first, second) = match first {
+            First::Ids => (ids, names),
+            First::Names => (names, ids),
+        };
+        let numbered = |it: &'a [String]| it.iter().zip(0..names.len() as u32);
+        for (name, at) in numbered(first).chain(numbered(second)) {
             positions.entry(name.as_str()).or_insert(at);
         }
         Self { ids, names, positions }
@@ -72,10 +84,10 @@ impl<'a> Index<'a> {
 }
 
 impl<'a> Names<'a> {
-    pub(super) fn new(net: &'a Pt, ids: Ids<'a>) -> Self {
+    pub(super) fn new(net: &'a Pt, ids: Ids<'a>, first: First) -> Self {
         Self {
-            places: Index::new(ids.places, &net.places),
-            transitions: Index::new(ids.transitions, &net.transitions),
+            places: Index::new(ids.places, &net.places, first),
+            transitions: Index::new(ids.transitions, &net.transitions, first),
         }
     }
 

@@ -3,7 +3,7 @@
 use super::error::Fault;
 use super::lexer::{Lexeme, Token, is_reserved, lexemes};
 use super::linear::Sum;
-use super::names::{Ids, Names};
+use super::names::{First, Ids, Names};
 use super::{Assumptions, Atom, Ctl, Formula, Linear, Property, PropertyError, Question};
 use crate::pt::Pt;
 use crate::source::quoted;
@@ -20,6 +20,14 @@ pub const MAX_DEPTH: usize = 128;
 /// # Errors
 /// The first thing that is wrong with the text, and where.
 pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
+    parse_with(text, net, Ids::default())
+}
+
+/// The same of a net whose nodes can be called by the ids of its file as well; names go first.
+///
+/// # Errors
+/// As [`parse`].
+pub fn parse_with(text: &str, net: &Pt, ids: Ids<'_>) -> Result<Property, PropertyError> {
     let located = |fault: Fault| fault.located("property", text);
     if text.len() > MAX_TEXT {
         let message = format!("the text has {} bytes, more than {MAX_TEXT}", text.len());
@@ -28,7 +36,7 @@ pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
     let mut parser = Parser {
         lexemes: &lexemes(text).map_err(located)?,
         at: 0,
-        names: Names::new(net, Ids::default()),
+        names: Names::new(net, ids, First::Names),
         depth: 0,
         quantified: false,
         parts: Formula::MAX_PARTS,

@@ -78,6 +78,33 @@ pub fn from_net(net: &Net<'_>) -> Result<Converted, TimeNetDefect> {
     Ok(Converted { net, differences: differences.into_iter().flatten().collect() })
 }
 
+/// The time net that a net is exported as: as [`from_net`], but for a net without events and
+/// intervals. Nothing forces its transitions to fire, so they have `[0,w[`.
+///
+/// # Errors
+/// What is wrong with the net.
+///
+/// ```
+/// use cotama_core::net::owned::{OwnedNet, OwnedTransition};
+/// use cotama_verification::tpn::{Interval, exported, from_net};
+/// let mut plain = OwnedNet::new("plain", "");
+/// plain.transition(OwnedTransition::new("t")).unwrap();
+/// let view = plain.view();
+/// assert_eq!(exported(&view.net()).unwrap().net.transitions()[0].interval, Interval::ANY);
+/// assert_eq!(from_net(&view.net()).unwrap().net.transitions()[0].interval, Interval::NOW);
+/// ```
+pub fn exported(net: &Net<'_>) -> Result<Converted, TimeNetDefect> {
+    let Converted { net: forced, differences } = from_net(net)?;
+    let is_plain = |it: &Transition<'_>| it.on.is_none() && it.within.is_none();
+    if !net.transitions.iter().all(is_plain) {
+        return Ok(Converted { net: forced, differences });
+    }
+    let free = |it: &TimeTransition| TimeTransition { interval: Interval::ANY, ..it.clone() };
+    let transitions = forced.transitions().iter().map(free).collect();
+    let net = TimeNet::new(forced.name().to_owned(), forced.places().to_vec(), transitions)?;
+    Ok(Converted { net, differences: Vec::new() })
+}
+
 fn interval(transition: &Transition<'_>) -> Interval {
     match (transition.on, transition.within) {
         (Some(_), within) => Interval::at_least(within.map_or(0, |within| within.earliest.into())),

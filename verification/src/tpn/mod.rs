@@ -7,7 +7,7 @@
 //! | [`bound`], [`bound_from_start`] | least and most time to a marked place |
 //! | [`reach`], [`deadlock`] | whether a marking can be reached, and what to fire when |
 //! | [`schedule`] | dates for a firing sequence |
-//! | [`from_net`], [`to_net`] | a [`Net`](cotama_core::net::Net) as a time net, and back |
+//! | [`from_net`], [`exported`], [`to_net`] | a [`Net`](cotama_core::net::Net) as a time net, and back |
 //!
 //! [`TimeNet`] says what a net means; [`tina`](crate::tina) reads it from files. All answers are
 //! exact, in dense time, with open bounds where they are open. What a limit cuts short is said to
@@ -27,7 +27,7 @@ mod schedule;
 mod untimed;
 
 pub use classes::{ClassId, Classes};
-pub use convert::{Converted, Difference, NotANet, from_net, to_net};
+pub use convert::{Converted, Difference, NotANet, exported, from_net, to_net};
 pub use explore::classes;
 pub use net::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
 pub(crate) use response::measured;

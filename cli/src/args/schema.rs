@@ -1,0 +1,32 @@
+//! The command line of `cotama schema`.
+
+use clap::{Args, ValueEnum};
+
+#[derive(Args, Debug)]
+pub(crate) struct SchemaArgs {
+    /// The command
+    #[arg(value_enum)]
+    pub(crate) command: SchemaName,
+}
+
+/// Commands that answer in JSON.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum SchemaName {
+    List,
+    Plan,
+    Run,
+    Allocate,
+    Replay,
+    Models,
+    Simulate,
+    Check,
+    Statespace,
+    Verify,
+    Conform,
+    Fmeca,
+    New,
+    /// A line of a recorded run
+    Recording,
+    /// What stands in place of an answer when there is none
+    Error,
+}

@@ -1,0 +1,94 @@
+//! Where a recording departs from the model, in words.
+
+use super::allowed::Allowed;
+use crate::play::{Game, NotPlayed, Stage, Unused, condition, not_enabled, overflowing};
+use cotama_core::net::{Arc, EventId, TransitionId, Within};
+use cotama_core::player::Why;
+use cotama_core::units::Millis;
+
+/// Where a recording departs from the model.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Departure {
+    /// The line, from 1.
+    pub line: usize,
+    /// When.
+    pub at: Millis,
+    /// Why it cannot be so.
+    pub reason: String,
+    /// What could have been recorded there.
+    pub allowed: Allowed,
+}
+
+/// Why it cannot be said whether a recording is a run.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Refused {
+    /// The model cannot be played.
+    Model(NotPlayed),
+    /// It has no event, transition or net of this name.
+    Name {
+        /// The line that says it, and the column there; none for the header.
+        at: Option<(usize, usize)>,
+        /// `event`, `transition` or `net`.
+        kind: &'static str,
+        /// The name.
+        name: String,
+        /// Those that there are.
+        known: Vec<String>,
+    },
+    /// The model does not come to rest at this instant.
+    Endless(Millis),
+}
+
+/// Why no transition uses an event now.
+pub(super) fn unused(stage: &Stage, game: &dyn Game<'_>, event: EventId, why: Unused) -> String {
+    let whole = stage.whole();
+    let view = whole.view();
+    let net = view.net();
+    let tokens = |place| game.tokens(place);
+    let within = |id: TransitionId| {
+        let it = net.transitions.get(id.0 as usize).and_then(|it| it.within);
+        it.map_or_else(String::new, interval)
+    };
+    match why {
+        Unused::Full { mailbox } => {
+            let name = whole.places.get(mailbox.0 as usize).map_or("a mailbox", |it| &it.name);
+            format!("{name} is full")
+        }
+        Unused::Ignored(Why::OnPurpose) => {
+            let here = net.ignored.iter().filter(|it| it.event == event && tokens(it.place) > 0);
+            let places: Vec<_> =
+                here.map(|it| condition(&net, Arc { place: it.place, weight: 1 })).collect();
+            format!("ignored on purpose in {}", places.join(", "))
+        }
+        Unused::Ignored(Why::TooEarly(id)) => {
+            format!(
+                "`{}` can fire {} after it is enabled, not before",
+                stage.transition(id),
+                within(id)
+            )
+        }
+        Unused::Ignored(Why::TooLate(id)) => {
+            format!(
+                "`{}` can fire {} after it is enabled, not later",
+                stage.transition(id),
+                within(id)
+            )
+        }
+        Unused::Ignored(Why::Full(id)) => {
+            let it = net.transitions.get(id.0 as usize);
+            let full = it.and_then(|it| overflowing(&net, &tokens, it));
+            let (place, bound) =
+                full.map_or(("a place", String::new()), |it| (it.0, format!(" {}", it.1)));
+            format!("`{}` would put more than{bound} tokens into {place}", stage.transition(id))
+        }
+        Unused::Ignored(_) => not_enabled(&net, &tokens, event),
+    }
+}
+
+fn interval(within: Within) -> String {
+    match within.latest {
+        None => format!("{} ms or more", within.earliest),
+        Some(latest) if latest == within.earliest => format!("{latest} ms"),
+        Some(latest) => format!("{} to {latest} ms", within.earliest),
+    }
+}

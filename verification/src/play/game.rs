@@ -1,0 +1,278 @@
+//! A player of any system, whatever its size.
+
+use super::stage::{Seat, Stage};
+use cotama_core::net::{Defect, EventId, Place, PlaceId, TransitionId};
+use cotama_core::player::{
+    Checked, Firing, Loaded, Outcome, Packed, Player, Stepped, Why, clocks, words,
+};
+use cotama_core::system::{System, SystemDefect};
+use cotama_core::units::Millis;
+use std::fmt;
+
+/// The largest sizes of the players, of which there are few, as each has code of its own: machine
+/// words of a marking, transitions with an interval, and what waits in mailboxes. Nothing is
+/// carried along, so slots take no memory.
+const MOST_WORDS: usize = 256;
+const MOST_CLOCKS: usize = 256;
+const SLOTS: usize = u16::MAX as usize;
+
+/// A transition that fired, by its number on the [`Stage`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Fired {
+    /// The transition.
+    pub transition: TransitionId,
+    /// When.
+    pub at: Millis,
+    /// Whether an event that was offered from outside made it fire.
+    pub offered: bool,
+}
+
+/// Why no transition uses an event that is offered.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unused {
+    /// It is ignored.
+    Ignored(Why<TransitionId>),
+    /// A mailbox on the way is full, and nothing has happened.
+    Full {
+        /// The place on the [`Stage`] that counts what waits in it.
+        mailbox: PlaceId,
+    },
+}
+
+/// A net or a system in play. Numbers are those of its [`Stage`].
+pub trait Game<'c> {
+    /// As [`Player::now`].
+    fn now(&self) -> Millis;
+    /// As [`Player::wake_at`].
+    fn wake_at(&self) -> Option<Millis>;
+    /// As [`Player::round_is_due`].
+    fn round_is_due(&self) -> bool;
+    /// The tokens of a place, or what waits in a mailbox.
+    fn tokens(&self, place: PlaceId) -> u32;
+    /// As [`Player::advance`]; whether there is more to catch up with.
+    fn advance(&mut self, to: Millis, fired: &mut Vec<Fired>) -> bool;
+    /// As [`Player::offer`].
+    ///
+    /// # Errors
+    /// Why nothing fired.
+    fn offer(
+        &mut self,
+        at: Millis,
+        event: EventId,
+        fired: &mut Vec<Fired>,
+    ) -> Result<TransitionId, Unused>;
+    /// As [`Player::round`]; whether there is more to catch up with first.
+    fn round(&mut self, at: Millis, fired: &mut Vec<Fired>) -> bool;
+    /// As [`Player::step`], which a net alone has.
+    fn step(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Stepped;
+    /// The same game, to go on with in another way.
+    fn fork(&self) -> Box<dyn Game<'c> + 'c>;
+}
+
+/// What is played: bounds are checked, so that steps can be taken too.
+type Played<'c, const W: usize, const C: usize> = Checked<Loaded<'c, W, C, SLOTS>>;
+
+#[derive(Clone, Copy)]
+struct Playing<'c, const W: usize, const C: usize> {
+    player: Player<Played<'c, W, C>, W, C, SLOTS>,
+    stage: &'c Stage,
+}
+
+type Seen<'f, 'c, const W: usize, const C: usize> = Firing<'f, Played<'c, W, C>>;
+
+fn told<const W: usize, const C: usize>(stage: &Stage, it: &Seen<'_, '_, W, C>) -> Fired {
+    Fired { transition: stage.number(it.id), at: it.at, offered: it.event.is_some() }
+}
+
+impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
+    fn now(&self) -> Millis {
+        self.player.now()
+    }
+
+    fn wake_at(&self) -> Option<Millis> {
+        self.player.wake_at()
+    }
+
+    fn round_is_due(&self) -> bool {
+        self.player.round_is_due()
+    }
+
+    fn tokens(&self, place: PlaceId) -> u32 {
+        match self.stage.seat(place) {
+            Some(Seat::Place(place)) => self.player.tokens(place),
+            Some(Seat::Mailbox(event)) => self.player.waiting(&event),
+            Some(Seat::Complement { of, bound }) => bound.saturating_sub(self.player.tokens(of)),
+            None => 0,
+        }
+    }
+
+    fn advance(&mut self, to: Millis, fired: &mut Vec<Fired>) -> bool {
+        let stage = self.stage;
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        self.player.advance_with(to, &mut observer).behind
+    }
+
+    fn offer(
+        &mut self,
+        at: Millis,
+        event: EventId,
+        fired: &mut Vec<Fired>,
+    ) -> Result<TransitionId, Unused> {
+        let stage = self.stage;
+        let Some(event) = stage.event_of(event) else {
+            return Err(Unused::Ignored(Why::NoSuchEvent));
+        };
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        match self.player.offer_with(at, &event, &mut observer).map(|it| stage.number(it)) {
+            Outcome::Fired { transition, .. } => Ok(transition),
+            Outcome::Ignored { why } => Err(Unused::Ignored(why)),
+            Outcome::Refused { full } => Err(Unused::Full { mailbox: stage.mailbox(full) }),
+        }
+    }
+
+    fn round(&mut self, at: Millis, fired: &mut Vec<Fired>) -> bool {
+        let stage = self.stage;
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        self.player.round_with(at, &mut observer).behind
+    }
+
+    fn step(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Stepped {
+        let stage = self.stage;
+        let events: Vec<_> = events.iter().filter_map(|&it| stage.event_of(it)).collect();
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        self.player.step_with(at, &events, &mut observer)
+    }
+
+    fn fork(&self) -> Box<dyn Game<'c> + 'c> {
+        Box::new(*self)
+    }
+}
+
+/// What is done with a game that has just begun, and with what fired at its start.
+type Then<'t> = dyn for<'c> FnMut(Box<dyn Game<'c> + 'c>, Vec<Fired>) + 't;
+
+impl Stage {
+    /// Plays it from its start, at this time.
+    ///
+    /// # Errors
+    /// Why it cannot be played.
+    pub fn play(&self, start: Millis, then: &mut Then<'_>) -> Result<(), NotPlayed> {
+        self.with_system(|system| match words(system) {
+            Some(0..=4) => self.with_words::<4>(system, start, then),
+            Some(5..=16) => self.with_words::<16>(system, start, then),
+            Some(17..=MOST_WORDS) => self.with_words::<MOST_WORDS>(system, start, then),
+            Some(words) => {
+                let mut places = system.components.iter().flat_map(|it| it.net.places);
+                let unbounded = places.any(|it| it.bound == Place::UNBOUNDED);
+                Err(NotPlayed::Words { words, unbounded })
+            }
+            None => Err(NotPlayed::Parts),
+        })
+    }
+
+    fn with_words<const W: usize>(
+        &self,
+        system: &System<'_>,
+        start: Millis,
+        then: &mut Then<'_>,
+    ) -> Result<(), NotPlayed> {
+        match clocks(system) {
+            0 => self.with::<W, 0>(system, start, then),
+            1..=16 => self.with::<W, 16>(system, start, then),
+            17..=MOST_CLOCKS => self.with::<W, MOST_CLOCKS>(system, start, then),
+            clocks => Err(NotPlayed::Clocks(clocks)),
+        }
+    }
+
+    fn with<const W: usize, const C: usize>(
+        &self,
+        system: &System<'_>,
+        start: Millis,
+        then: &mut Then<'_>,
+    ) -> Result<(), NotPlayed> {
+        let packed = Packed::<W, C, SLOTS>::of(system).map_err(|it| refused(system, it))?;
+        let program = Checked(packed.load(system));
+        let mut fired = Vec::new();
+        let mut observer = |it: &Seen<'_, '_, W, C>| fired.push(told(self, it));
+        let player = Player::<_, W, C, SLOTS>::start(program, start, &mut observer);
+        then(Box::new(Playing { player, stage: self }), fired);
+        Ok(())
+    }
+}
+
+/// Why a net or a system cannot be played.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NotPlayed {
+    /// A marking is too large.
+    Words {
+        /// The machine words that it needs.
+        words: usize,
+        /// Whether a place has no bound: it takes 17 bits, and a 1-safe place 2.
+        unbounded: bool,
+    },
+    /// More than 65,533 places, events or transitions.
+    Parts,
+    /// So many transitions have an interval, which is too many.
+    Clocks(usize),
+    /// This place starts with more than its bound, or more than 65,535 tokens.
+    Place(String),
+    /// The net or the system does not fit together.
+    Defect(SystemDefect),
+}
+
+fn refused(system: &System<'_>, defect: SystemDefect) -> NotPlayed {
+    match defect {
+        SystemDefect::Net { component, defect: Defect::Place { place } } => {
+            let net = system.components.get(usize::from(component)).map(|it| it.net);
+            let name = net.and_then(|it| it.places.get(place)).map_or("?", |it| it.name);
+            NotPlayed::Place(name.to_owned())
+        }
+        SystemDefect::TooLong => NotPlayed::Parts,
+        other => NotPlayed::Defect(other),
+    }
+}
+
+impl fmt::Display for NotPlayed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let large = "the net is too large to be played";
+        match self {
+            Self::Words { words, .. } => {
+                write!(
+                    f,
+                    "{large}: a marking needs {words} machine words, and {MOST_WORDS} are the most"
+                )
+            }
+            Self::Parts => {
+                write!(f, "{large}: it has more than 65 533 places, events or transitions")
+            }
+            Self::Clocks(clocks) => write!(
+                f,
+                "{large}: {clocks} transitions have an interval, and {MOST_CLOCKS} are the most"
+            ),
+            Self::Place(name) => {
+                write!(f, "the net cannot be played: place `{name}` starts with too many tokens")
+            }
+            Self::Defect(SystemDefect::Net { defect, .. }) => {
+                write!(f, "the net cannot be played: {defect}")
+            }
+            Self::Defect(defect) => write!(f, "the nets cannot be played: {defect}"),
+        }
+    }
+}
+
+impl std::error::Error for NotPlayed {}
+
+impl NotPlayed {
+    /// What to do about it, where that is known.
+    pub fn help(&self) -> Option<&'static str> {
+        match self {
+            Self::Words { unbounded: true, .. } => {
+                Some("claim bounds of places: a place without one takes 17 bits, a 1-safe place 2")
+            }
+            Self::Place(_) => {
+                Some("a place holds at most its bound, and at most 65535 tokens in play")
+            }
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,41 @@
+//! Any net or system in play, whatever its size: events, rounds and time go in, what fired comes
+//! out.
+//!
+//! A [`Stage`] tells everything in a system by one number each, as if it were one net; a [`Game`]
+//! is a [`Player`](cotama_core::player::Player) behind these numbers.
+//!
+//! ```
+//! use cotama_core::net;
+//! use cotama_core::net::EventId;
+//! use cotama_core::system::{Component, System};
+//! use cotama_core::units::Millis;
+//! use cotama_verification::play::Stage;
+//!
+//! net! {
+//!     /// Goes out by itself.
+//!     pub mod lamp {
+//!         places { Dark: 1, Lit }
+//!         events { press }
+//!         transitions { on on press: Dark => Lit; off: Lit => Dark after 5 s; }
+//!     }
+//! }
+//! let stage = Stage::of(&System::alone(&[Component::alone(&lamp::NET)]));
+//! let mut names = Vec::new();
+//! stage
+//!     .play(Millis(0), &mut |mut game, _| {
+//!         let mut fired = Vec::new();
+//!         game.offer(Millis(0), EventId(0), &mut fired).unwrap();
+//!         game.advance(Millis(5_000), &mut fired);
+//!         names = fired.iter().map(|it| stage.transition(it.transition).to_owned()).collect();
+//!     })
+//!     .unwrap();
+//! assert_eq!(names, ["on", "off"]);
+//! ```
+
+mod game;
+mod needs;
+mod stage;
+
+pub use game::{Fired, Game, NotPlayed, Unused};
+pub use needs::{condition, not_enabled, overflowing};
+pub use stage::Stage;

@@ -1,0 +1,59 @@
+//! What a transition lacks, in words.
+
+use cotama_core::net::{Arc, EventId, Net, Place, PlaceId, Role, Transition};
+
+/// The most transitions of which it is said what they lack.
+const SHOWN: usize = 2;
+/// The most tokens of a place in play.
+const LARGEST: u32 = 65_535;
+
+/// Why no transition on an event is enabled, where places hold these tokens.
+pub fn not_enabled(net: &Net<'_>, tokens: &dyn Fn(PlaceId) -> u32, event: EventId) -> String {
+    let mut on = net.transitions.iter().filter(|it| it.on == Some(event));
+    let said: Vec<_> = on
+        .by_ref()
+        .take(SHOWN)
+        .map(|it| format!("`{}` needs {}", it.name, lacks(net, tokens, it)))
+        .collect();
+    match (said.is_empty(), on.count()) {
+        (true, _) => "no transition is on it".to_owned(),
+        (false, 0) => said.join("; "),
+        (false, more) => format!("{}; and {more} more", said.join("; ")),
+    }
+}
+
+fn lacks(net: &Net<'_>, tokens: &dyn Fn(PlaceId) -> u32, it: &Transition<'_>) -> String {
+    let all = it.take.iter().chain(it.read);
+    let lacking = all.filter(|arc| tokens(arc.place) < arc.weight);
+    lacking.map(|&arc| condition(net, arc)).collect::<Vec<_>>().join(" & ")
+}
+
+/// What an arc asks for, as a guard.
+pub fn condition(net: &Net<'_>, arc: Arc) -> String {
+    let place = |PlaceId(id): PlaceId| net.places.get(id as usize);
+    let name = |id| place(id).map_or("?", |it: &Place<'_>| it.name);
+    match place(arc.place).map(|it| (it.role, it.bound)) {
+        Some((Role::Complement(of), 1)) => format!("!{}", name(of)),
+        Some((Role::Complement(of), bound)) => {
+            format!("{} <= {}", name(of), bound.saturating_sub(arc.weight))
+        }
+        _ if arc.weight == 1 => name(arc.place).to_owned(),
+        _ => format!("{} >= {}", name(arc.place), arc.weight),
+    }
+}
+
+/// The first place that a firing would fill beyond its bound, and the bound.
+pub fn overflowing<'n>(
+    net: &Net<'n>,
+    tokens: &dyn Fn(PlaceId) -> u32,
+    transition: &Transition<'_>,
+) -> Option<(&'n str, u32)> {
+    transition.give.iter().find_map(|give| {
+        let place = net.places.get(give.place.0 as usize)?;
+        let bound = place.bound.min(LARGEST);
+        let taken =
+            transition.take.iter().filter(|it| it.place == give.place).map(|it| it.weight).sum();
+        let after = tokens(give.place).saturating_sub(taken).saturating_add(give.weight);
+        (after > bound).then_some((place.name, bound))
+    })
+}
