@@ -150,7 +150,9 @@ impl Svg {
 
     /// The pieces of a guide between the texts in its way.
     fn pieces(&self, guide: &Guide) -> String {
-        let on = |it: &&[f64; 4]| it[0] - 2.0 < guide.x && guide.x < it[2] + 2.0;
+        // Fonts differ in width.
+        let room = |it: &[f64; 4]| 2.0 + (it[2] - it[0]) * 0.08;
+        let on = |it: &&[f64; 4]| it[0] - room(it) < guide.x && guide.x < it[2] + room(it);
         let mut breaks: Vec<[f64; 2]> =
             self.texts.iter().filter(on).map(|it| [it[1] - 1.0, it[3] + 1.0]).collect();
         breaks.sort_by(|a, b| a[0].total_cmp(&b[0]));
