@@ -13,6 +13,9 @@ use std::fmt::Write as _;
 /// Larger nets are not drawn: nobody would find anything.
 const LARGEST: usize = 60;
 
+/// A step for the script: what fires, its name, and the tokens of the places that it changes.
+type Move = (Option<usize>, String, Vec<(u32, u32)>);
+
 /// A drawing with a line above it.
 pub(super) struct Frame {
     pub(super) caption: String,
@@ -158,8 +161,7 @@ impl Picture {
         let net = view.net();
         let places = net.places.iter().zip(0u32..);
         let start = places.filter(|it| it.0.initial > 0).map(|(it, at)| (at, it.initial));
-        let mut run: Vec<(Option<usize>, String, Vec<(u32, u32)>)> =
-            vec![(None, String::new(), start.collect())];
+        let mut run: Vec<Move> = vec![(None, String::new(), start.collect())];
         for step in trace {
             let fired = net.transitions.iter().position(|it| it.name == step.transition);
             let changes = step.changes.iter();

@@ -27,6 +27,9 @@ fn check(diagnosis: &Diagnosis) -> String {
     page
 }
 
+/// What fires, its name, and the tokens of the places that it changes.
+type Move = (Option<u32>, String, Vec<(u32, u32)>);
+
 /// The slider knows the start and each step, and colours elements that are there.
 fn player(diagnosis: &Diagnosis, elements: &[xml::Element]) {
     let player = elements.iter().find(|it| it.get("class") == Some("player")).unwrap();
@@ -35,8 +38,7 @@ fn player(diagnosis: &Diagnosis, elements: &[xml::Element]) {
         let text = player.get(name).unwrap().to_owned();
         signs.iter().fold(text, |text, (from, to)| text.replace(from, to))
     };
-    let run: Vec<(Option<u32>, String, Vec<(u32, u32)>)> =
-        serde_json::from_str(&plain("data-run")).unwrap();
+    let run: Vec<Move> = serde_json::from_str(&plain("data-run")).unwrap();
     assert_eq!(run.len(), diagnosis.trace.len() + 1);
     let slider = elements.iter().find(|it| it.get("type") == Some("range")).unwrap();
     assert_eq!(slider.number("max"), i64::try_from(diagnosis.trace.len()).unwrap());
