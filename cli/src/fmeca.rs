@@ -1,6 +1,7 @@
 //! `cotama fmeca`: what can fail, how it is seen, what is done, and what looks alike.
 
 mod diagnosability;
+mod glossary;
 mod ishikawa;
 mod markdown;
 mod names;

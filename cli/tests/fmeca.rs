@@ -53,9 +53,12 @@ fn the_values_separated_by_commas_are_those_of_the_models() {
 #[test]
 fn the_page_needs_nothing_else_and_every_link_in_it_leads_somewhere() {
     let page = Folder::new("fmeca_page").cotama(&["fmeca", "--format", "html"]).stdout;
-    for alien in ["<script", "http:", "https:", "url(", "@import", "src="] {
+    for alien in ["<script ", "http:", "https:", "url(", "@import", "src=", "fetch", "import("] {
         assert!(!page.contains(alien), "{alien}");
     }
+    // One script of its own; what it needs stays hidden without it.
+    assert_eq!(page.matches("<script>").count(), 1);
+    assert!(page.contains("<form id=\"pick\" hidden>"));
     assert_eq!(page.matches("<svg class=\"causes\"").count(), 16);
     let mut links = 0;
     for target in page.split("href=\"#").skip(1).filter_map(|it| it.split('"').next()) {
@@ -63,6 +66,74 @@ fn the_page_needs_nothing_else_and_every_link_in_it_leads_somewhere() {
         links += 1;
     }
     assert!(links > 80, "{links}");
+}
+
+#[test]
+fn each_row_can_be_sorted_by_each_order_and_each_cell_of_a_card_says_its_column() {
+    let page = Folder::new("fmeca_cards").cotama(&["fmeca", "--format", "html"]).stdout;
+    let orders = page.split_once("<select name=\"order\">").unwrap().1;
+    let orders: Vec<&str> = orders
+        .split_once("</select>")
+        .unwrap()
+        .0
+        .split("value=\"")
+        .skip(1)
+        .map(|it| it.split_once('"').unwrap().0)
+        .collect();
+    assert_eq!(orders, ["place", "severity", "interval", "latency"]);
+    let table = page.split_once("<tbody>").unwrap().1.split_once("</tbody>").unwrap().0;
+    let rows: Vec<&str> = table.split("<tr ").skip(1).collect();
+    assert_eq!(rows.len(), 40);
+    for row in &rows {
+        assert_eq!(row.matches("<td").count(), 8, "{row}");
+        assert_eq!(row.matches(" data-column=\"").count(), 8, "{row}");
+        for order in &orders {
+            let key = row.split_once(&format!(" data-{order}=\"")).unwrap().1;
+            let key: u64 = key.split_once('"').unwrap().0.parse().unwrap();
+            // The script reads numbers of 53 bits.
+            assert!(key <= 1 << 53, "{order}: {row}");
+        }
+    }
+    let of = |id: &str, order: &str| -> u64 {
+        let row = rows.iter().find(|it| it.starts_with(&format!("id=\"{id}\""))).unwrap();
+        let key = row.split_once(&format!(" data-{order}=\"")).unwrap().1;
+        key.split_once('"').unwrap().0.parse().unwrap()
+    };
+    // Fatal before medium, 10 h before 400 h, 5 s before 1 s.
+    assert!(of("BAT2", "severity") < of("SON1", "severity"));
+    assert!(of("SON4", "interval") < of("SON1", "interval"));
+    assert!(of("SON1", "latency") < of("SON2", "latency"));
+}
+
+#[test]
+fn every_abbreviation_of_the_page_is_in_its_glossary_or_a_row_of_its_table() {
+    let page = Folder::new("fmeca_glossary").cotama(&["fmeca", "--format", "html"]).stdout;
+    let body = page.split_once("<body>").unwrap().1;
+    let (text, glossary) = body.split_once("<section id=\"abbreviations\">").unwrap();
+    let glossary = glossary.split_once("</section>").unwrap().0;
+    let text: Vec<&str> =
+        text.split('<').filter_map(|it| it.split_once('>')).map(|it| it.1).collect();
+    let text = text.join(" ");
+    let words = text.split(|it: char| !(it.is_alphanumeric() || it == '-'));
+    let is_short = |it: &&str| {
+        let shape = |it: char| it.is_ascii_uppercase() || it.is_ascii_digit() || it == '-';
+        let letters = it.chars().filter(char::is_ascii_uppercase).count();
+        it.starts_with(|it: char| it.is_ascii_uppercase())
+            && it.chars().all(shape)
+            && letters >= 1
+            && it.len() >= 2
+    };
+    let mut found = 0;
+    for word in words.map(|it| it.trim_matches('-')).filter(is_short) {
+        let row = page.contains(&format!("<tr id=\"{word}\""));
+        assert!(row || glossary.contains(&format!("<dt>{word}</dt>")), "{word}");
+        found += 1;
+    }
+    assert!(found > 100, "{found}");
+    for entry in glossary.split("<dt>").skip(1) {
+        let entry = entry.split_once("</dt>").unwrap().0;
+        assert!(text.contains(entry), "{entry}");
+    }
 }
 
 #[test]

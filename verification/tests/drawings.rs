@@ -167,19 +167,58 @@ fn a_marking_and_a_transition_are_pointed_out() {
     let net = nets::crates();
     let (view, transitions) = (net.view(), [TransitionId(1)]);
     let marking = [0, 1, 5, 7, 2, 0, 1, 8];
-    let highlight = Highlight { marking: Some(&marking), transitions: &transitions };
+    let highlight = Highlight { marking: Some(&marking), transitions: &transitions, places: None };
     let text = svg::write_highlighted(&view.net(), Style::Auto, &highlight);
     golden("crates-highlighted.svg", &text);
     assert!(text.contains("<g id=\"place-1\" class=\"place hot\">"));
     assert!(text.contains("<g id=\"place-0\" class=\"place\">"));
     assert!(text.contains("<g id=\"transition-1\" class=\"transition hot\">"));
     assert!(text.contains("<g id=\"transition-0\" class=\"transition\">"));
+    // Places that are chosen are coloured in place of those that are marked.
+    let highlight = Highlight { places: Some(&[PlaceId(0)]), ..highlight };
+    let text = svg::write_highlighted(&view.net(), Style::Auto, &highlight);
+    assert!(text.contains("<g id=\"place-0\" class=\"place hot\">"));
+    assert!(text.contains("<g id=\"place-1\" class=\"place\">"));
     // A marking that is too short leaves the other places empty.
     check_svg(&svg::write_highlighted(
         &view.net(),
         Style::Auto,
-        &Highlight { marking: Some(&[1]), transitions: &[] },
+        &Highlight { marking: Some(&[1]), ..Highlight::default() },
     ));
+}
+
+#[test]
+fn a_large_net_has_few_bars_with_every_transition_at_one_of_them() {
+    let net = &cotama_models::nets::ace::selection::NET;
+    assert_eq!(net.transitions.len(), 61);
+    let of = |text: &str| {
+        let elements = check_svg(text);
+        let count = |class: &str| {
+            elements.iter().filter(|it| it.get("class").is_some_and(|it| it == class)).count()
+        };
+        (count("transition"), count("place"), elements[0].number("width"))
+    };
+    let text = svg::write(net, Style::Auto);
+    let (bars, places, width) = of(&text);
+    let (all, _, wide) = of(&svg::write(net, Style::Net));
+    assert_eq!((all, places), (61, 9), "data are words");
+    assert!(bars <= 12 && width < 2000 && wide > 4 * width, "{bars} bars, {width} of {wide}");
+    for it in net.transitions {
+        let line = it.name.split('.').next().unwrap();
+        let bars = text.split("class=\"transition\"><title>").skip(1);
+        let titles: Vec<&str> = bars.map(|it| it.split("</title>").next().unwrap()).collect();
+        let says = |title: &str, name: &str| {
+            title.split("&#10;").any(|it| it.split(':').next() == Some(name))
+        };
+        let at = |name: &str| titles.iter().filter(|it| says(it, name)).count();
+        assert_eq!(at(it.name), 1, "{}", it.name);
+        assert!(text.contains(&format!("<tspan class=\"strong\">{line}</tspan>")), "{line}");
+        let is_made = it.name != line;
+        assert!(!is_made || !text.contains(&format!("strong\">{}</tspan>", it.name)));
+    }
+    golden("ace_selection.svg", &text);
+    golden("ace_selection.dot", &dot::write(net, Style::Auto));
+    golden("ace_selection.mmd", &mermaid::write(net, Style::Auto));
 }
 
 /// Well-formed, ids once, all shapes in the picture, no two nodes on each other. Returns the

@@ -1,11 +1,18 @@
-//! The FMECA as a page of its own: table, diagrams, diagnosability. No script, nothing from the
-//! network.
+//! The FMECA as a page of its own: table, diagrams, diagnosability. Nothing comes from the network;
+//! a small script sorts and filters the rows, and without it all are there.
 
-use super::sheet;
+use super::{glossary, sheet};
 use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
 use crate::render::fmeca::{against, event, hours, seconds, shared, summary};
 use cotama_verification::export::svg::escape;
 use std::fmt::Write;
+
+/// Writes into a page, which cannot fail.
+macro_rules! put {
+    ($page:expr, $($text:tt)*) => {{
+        let _ = writeln!($page, $($text)*);
+    }};
+}
 
 /// The page.
 pub(crate) fn write(answer: &FmecaAnswer) -> String {
@@ -18,7 +25,8 @@ pub(crate) fn write(answer: &FmecaAnswer) -> String {
          <p>Failure modes, effects and criticality of the delivery robot (COTAMA on a Pioneer \
          3-DX). {}.</p>\n\
          <nav><a href=\"#table\">Table</a> <a href=\"#diagrams\">Cause-effect diagrams</a> \
-         <a href=\"#diagnosability\">What cannot be told apart</a></nav>\n",
+         <a href=\"#diagnosability\">What cannot be told apart</a> \
+         <a href=\"#abbreviations\">Abbreviations</a></nav>\n",
         include_str!("page.css"),
         sheet::STYLE,
         escape(&summary(&answer.counts)),
@@ -26,60 +34,121 @@ pub(crate) fn write(answer: &FmecaAnswer) -> String {
     table(&mut page, &answer.rows);
     diagrams(&mut page, answer);
     diagnosability(&mut page, &answer.diagnosability);
-    page.push_str("</main>\n</body>\n</html>\n");
+    let body = page.find("<body>").unwrap_or_default();
+    let glossary = glossary::section(&page[body..]);
+    page.push_str(&glossary);
+    put!(page, "</main>\n<script>\n{}</script>\n</body>\n</html>", include_str!("page.js"));
     page
 }
 
-/// Writes into a page, which cannot fail.
-macro_rules! put {
-    ($page:expr, $($text:tt)*) => {{
-        let _ = writeln!($page, $($text)*);
-    }};
+/// An order of the rows: its name as an attribute, in words, and the number to sort by.
+type Order = (&'static str, &'static str, fn(usize, &FmecaRow) -> u64);
+
+/// The orders to choose from. The script sorts by any that stands here.
+const ORDERS: [Order; 4] = [
+    ("place", "as the functions follow", |at, _| at as u64),
+    ("severity", "the most severe first", |_, row| severity(row)),
+    ("interval", "the most frequent first", |_, row| row.mtbf_mh.into()),
+    ("latency", "the slowest to be seen first", |_, row| {
+        (u32::MAX - row.detection_latency_ms).into()
+    }),
+];
+
+/// The worse of both severities: 0 is fatal, 3 is weak.
+fn severity(row: &FmecaRow) -> u64 {
+    let both = [row.severity_autonomous, row.severity_operator];
+    let rank = |it| SEVERITIES.iter().position(|severity| *severity == it);
+    both.into_iter().filter_map(rank).min().unwrap_or(SEVERITIES.len()) as u64
 }
+
+const SEVERITIES: [&str; 4] = ["fatal", "hard", "medium", "weak"];
+
+/// The form that the script acts on; it stays hidden without.
+fn pick(page: &mut String) {
+    page.push_str(
+        "<form id=\"pick\" hidden><label>Filter <input name=\"words\" type=\"search\" \
+         placeholder=\"as: sonar, global event\"></label>\n<label>Severity \
+         <select name=\"severity\">",
+    );
+    for (least, name) in SEVERITIES.iter().rev().enumerate() {
+        let words = if *name == "weak" { "any" } else { name };
+        let more = if least == 0 || *name == "fatal" { "" } else { " or worse" };
+        let _ = write!(page, "<option value=\"{}\">{words}{more}</option>", least + 1);
+    }
+    page.push_str("</select></label>\n<label>Order <select name=\"order\">");
+    for (name, words, _) in ORDERS {
+        let _ = write!(page, "<option value=\"{name}\">{words}</option>");
+    }
+    page.push_str("</select></label>\n<output></output></form>\n");
+}
+
+/// The columns behind the id. On a narrow screen a row is a card, and each cell says its column.
+const COLUMNS: [&str; 8] = [
+    "What fails",
+    "Cause and effect",
+    "Robot drives",
+    "Operator drives",
+    "Seen by",
+    "Modules lost",
+    "Reaction",
+    "MTBF",
+];
 
 fn table(page: &mut String, rows: &[FmecaRow]) {
     page.push_str(
         "<section id=\"table\">\n<h2>Failure modes</h2>\n<p class=\"note\">Severity while the \
          robot drives itself, and while the operator drives. Rates are assumed unless they are \
-         marked as stated.</p>\n<div class=\"scroll\"><table>\n\
-         <thead><tr><th>Id<th>What fails<th>Cause and effect<th>Robot drives<th>Operator drives\
-         <th>Seen by<th>Modules lost\
-         <th>Reaction<th class=\"n\">MTBF</tr></thead>\n<tbody>\n",
+         marked as stated.</p>\n",
     );
-    for row in rows {
-        let seen = match row.undetectable_reason {
-            Some(reason) => format!("<b>undetectable</b>: {}", escape(reason)),
-            None => format!(
-                "{} <small>within {}: {}</small>",
-                escape(row.observer),
-                seconds(row.detection_latency_ms),
-                escape(row.detection)
-            ),
-        };
-        let severity = |name: &str| format!("<b class=\"pill {name}\">{name}</b>");
-        let stated = if row.rate_label == "assumed" { "" } else { row.rate_label };
-        put!(
-            page,
-            "<tr id=\"{id}\"><th scope=\"row\">{id}<td>{}: {} <small>{}; {}</small><td>{} <small>{}\
-             </small>\
-             <td>{}<td>{}<td>{seen}<td>{}<td>{} <small>{}</small><td class=\"n\">{} <small>{stated}\
-             </small></tr>",
-            escape(row.component),
-            escape(row.failure),
-            escape(row.function),
-            row.persistence,
-            escape(row.cause),
-            escape(row.effect),
-            severity(row.severity_autonomous),
-            severity(row.severity_operator),
-            escape(row.loss),
-            escape(row.reaction),
-            event(row),
-            hours(row.mtbf_mh),
-            id = row.id,
-        );
+    pick(page);
+    page.push_str("<div class=\"scroll\"><table>\n<thead><tr><th>Id");
+    for column in COLUMNS {
+        let class = if column == "MTBF" { " class=\"n\"" } else { "" };
+        let _ = write!(page, "<th{class}>{column}");
+    }
+    page.push_str("</tr></thead>\n<tbody>\n");
+    for (at, row) in rows.iter().enumerate() {
+        let keys: String = ORDERS
+            .iter()
+            .map(|(name, _, key)| format!(" data-{name}=\"{}\"", key(at, row)))
+            .collect();
+        let _ = write!(page, "<tr id=\"{id}\"{keys}><th scope=\"row\">{id}", id = row.id);
+        for (column, cell) in COLUMNS.iter().zip(cells(row)) {
+            let class = if *column == "MTBF" { " class=\"n\"" } else { "" };
+            let _ = write!(page, "<td{class} data-column=\"{column}\"><span>{cell}</span>");
+        }
+        page.push_str("</tr>\n");
     }
     page.push_str("</tbody>\n</table></div>\n</section>\n");
+}
+
+/// The cells of a row, in the order of [`COLUMNS`].
+fn cells(row: &FmecaRow) -> [String; 8] {
+    let seen = match row.undetectable_reason {
+        Some(reason) => format!("<b>undetectable</b>: {}", escape(reason)),
+        None => format!(
+            "{} <small>within {}: {}</small>",
+            escape(row.observer),
+            seconds(row.detection_latency_ms),
+            escape(row.detection)
+        ),
+    };
+    let pill = |name: &str| format!("<b class=\"pill {name}\">{name}</b>");
+    let with = |text: String, small: String| format!("{text} <small>{small}</small>");
+    let stated = if row.rate_label == "assumed" { "" } else { row.rate_label };
+    [
+        with(
+            format!("{}: {}", escape(row.component), escape(row.failure)),
+            format!("{}; {}", escape(row.function), row.persistence),
+        ),
+        with(escape(row.cause), escape(row.effect)),
+        pill(row.severity_autonomous),
+        pill(row.severity_operator),
+        seen,
+        escape(row.loss),
+        with(escape(row.reaction), event(row)),
+        with(hours(row.mtbf_mh), stated.to_owned()),
+    ]
 }
 
 fn diagrams(page: &mut String, answer: &FmecaAnswer) {

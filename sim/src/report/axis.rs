@@ -173,7 +173,7 @@ impl Axis {
     /// Stops as bands from `top` to `bottom`.
     pub(super) fn draw_stops(&self, svg: &mut Svg, top: f64, bottom: f64) {
         for band in &self.bands {
-            svg.rect("stop", [band.left, top], [band.width, bottom - top]);
+            svg.ground("stop", [band.left, top], [band.width, bottom - top]);
         }
     }
 

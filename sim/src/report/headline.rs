@@ -112,6 +112,7 @@ pub(super) fn section(view: &View<'_>) -> String {
         escape(name(view)),
         escape(&sentence(view))
     );
+    html.push_str(&super::story::section(view));
     let used = view.end.map_or_else(
         || view.samples.last().map_or(Used::default(), |sample| sample.used),
         |end| end.used,

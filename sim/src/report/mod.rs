@@ -19,10 +19,12 @@ mod charts;
 mod decisions;
 mod events;
 mod format;
+mod glossary;
 mod headline;
 mod plans;
 mod replans;
 mod series;
+mod story;
 mod strip;
 mod svg;
 mod timeline;
@@ -83,6 +85,9 @@ pub fn html(trace: &Trace) -> String {
     page.push_str(&plans::section(&view));
     page.push_str(&activities::section(&view));
     page.push_str(&events::section(&view));
+    let body = page.find("<body>").unwrap_or_default();
+    let glossary = glossary::section(&view, &page[body..]);
+    page.push_str(&glossary);
     footer(&mut page, &trace.header);
     page.push_str("</main>\n</body>\n</html>\n");
     page

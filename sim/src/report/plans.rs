@@ -111,7 +111,7 @@ fn objectives(html: &mut String, view: &View<'_>, columns: usize) {
 }
 
 /// What an option needs: `sonar, 2 laser`.
-fn needs(tio: &Tio, mission: &Mission) -> String {
+pub(super) fn needs(tio: &Tio, mission: &Mission) -> String {
     let hardware = mission.hardware.iter().enumerate();
     let parts = hardware.filter_map(|(kind, hardware)| match tio.needs.of(kind) {
         0 => None,

@@ -95,14 +95,14 @@ pub(super) fn draw_pins(svg: &mut Svg, axis: &Axis, view: &View<'_>, y: f64, bot
             moment(plan.t_us),
             plan.cause
         );
-        svg.titled(&title, |svg| {
-            svg.line("replan", [x, y], [x, bottom]);
-            if x - radius > free {
+        svg.guide("replan", &title, x, [y, bottom]);
+        if x - radius > free {
+            svg.titled(&title, |svg| {
                 svg.circle("pin", [x, y], radius);
                 svg.text("m pin", [x, y + 4.0], &number.to_string());
-                free = x + radius + 1.0;
-            }
-        });
+            });
+            free = x + radius + 1.0;
+        }
     }
 }
 

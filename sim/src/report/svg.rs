@@ -38,15 +38,60 @@ pub(super) fn text_width(text: &str, size: f64) -> f64 {
     text.chars().count() as f64 * size * 0.56
 }
 
+/// About where a text stands: left, top, right, bottom. Its class tells its size and its anchor.
+pub(super) fn text_box(class: &str, [x, y]: [f64; 2], text: &str) -> [f64; 4] {
+    let is = |name: &str| class.split(' ').any(|it| it == name);
+    let size = if is("small") || is("pin") { 11.0 } else { 12.0 };
+    let width = text_width(text, size);
+    let left = match (is("m"), is("e")) {
+        (true, _) => x - width / 2.0,
+        (_, true) => x - width,
+        _ => x,
+    };
+    [left, y - size * 0.8, left + width, y + size * 0.25]
+}
+
+/// A vertical line behind everything, which stops where text stands.
+struct Guide {
+    class: &'static str,
+    title: String,
+    x: f64,
+    top: f64,
+    bottom: f64,
+}
+
 /// A drawing under construction.
 pub(super) struct Svg {
+    /// What lies under the guides.
+    ground: String,
+    guides: Vec<Guide>,
     body: String,
+    /// The boxes of all texts: left, top, right, bottom.
+    texts: Vec<[f64; 4]>,
 }
 
 impl Svg {
     /// An empty drawing.
     pub(super) fn new() -> Self {
-        Self { body: String::new() }
+        Self { ground: String::new(), guides: Vec::new(), body: String::new(), texts: Vec::new() }
+    }
+
+    /// A rectangle under everything.
+    pub(super) fn ground(&mut self, class: &str, corner: [f64; 2], size: [f64; 2]) {
+        let mut under = Self::new();
+        under.rect(class, corner, size);
+        self.ground.push_str(&under.body);
+    }
+
+    /// A shape under everything.
+    pub(super) fn ground_path(&mut self, class: &str, commands: &str) {
+        let _ = write!(self.ground, "<path class=\"{class}\" d=\"{commands}\"/>");
+    }
+
+    /// A vertical line that runs behind everything and leaves out the texts in its way.
+    pub(super) fn guide(&mut self, class: &'static str, title: &str, x: f64, ends: [f64; 2]) {
+        let [top, bottom] = ends;
+        self.guides.push(Guide { class, title: title.into(), x, top, bottom });
     }
 
     /// A rectangle; a negative width or height is none.
@@ -84,6 +129,7 @@ impl Svg {
 
     /// Text with its base line at `y`; classes `m` and `e` put its middle or its end at `x`.
     pub(super) fn text(&mut self, class: &str, [x, y]: [f64; 2], text: &str) {
+        self.texts.push(text_box(class, [x, y], text));
         let (x, y, text) = (fixed(x), fixed(y), escape(text));
         let _ = write!(self.body, "<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{text}</text>");
     }
@@ -97,16 +143,47 @@ impl Svg {
 
     /// Draws another drawing on top.
     pub(super) fn append(&mut self, other: &Self) {
+        self.ground.push_str(&other.ground);
         self.body.push_str(&other.body);
+        self.texts.extend_from_slice(&other.texts);
+    }
+
+    /// The pieces of a guide between the texts in its way.
+    fn pieces(&self, guide: &Guide) -> String {
+        // Fonts differ in width.
+        let room = |it: &[f64; 4]| 2.0 + (it[2] - it[0]) * 0.08;
+        let on = |it: &&[f64; 4]| it[0] - room(it) < guide.x && guide.x < it[2] + room(it);
+        let mut breaks: Vec<[f64; 2]> =
+            self.texts.iter().filter(on).map(|it| [it[1] - 1.0, it[3] + 1.0]).collect();
+        breaks.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        breaks.push([guide.bottom, guide.bottom]);
+        let mut path = String::new();
+        let mut from = guide.top;
+        for [top, bottom] in breaks {
+            let to = top.min(guide.bottom);
+            if to - from >= 2.0 {
+                let _ = write!(path, "M{} {}V{}", fixed(guide.x), fixed(from), fixed(to));
+            }
+            from = from.max(bottom);
+        }
+        path
     }
 
     /// The element; `label` says in words what it shows.
     pub(super) fn finish(self, class: &str, [width, height]: [f64; 2], label: &str) -> String {
         let (width, height, label) = (fixed(width), fixed(height), escape(label));
+        let mut guides = String::new();
+        for it in &self.guides {
+            let (class, title, pieces) = (it.class, escape(&it.title), self.pieces(it));
+            let _ = write!(
+                guides,
+                "<path class=\"{class}\" d=\"{pieces}\"><title>{title}</title></path>"
+            );
+        }
         format!(
             "<svg class=\"{class}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-label=\"{label}\">{}</svg>\n",
-            self.body
+             aria-label=\"{label}\">{}{guides}{}</svg>\n",
+            self.ground, self.body
         )
     }
 }
@@ -119,6 +196,15 @@ mod tests {
     fn coordinates_have_one_decimal_at_most_and_no_negative_zero() {
         let written = [1.0, 1.26, -0.04, -12.34, f64::NAN, f64::INFINITY].map(fixed);
         assert_eq!(written, ["1", "1.3", "0", "-12.3", "0", "1000000"]);
+    }
+
+    #[test]
+    fn a_guide_leaves_out_the_texts_in_its_way_wherever_they_are_added() {
+        let mut svg = Svg::new();
+        svg.guide("replan", "plan 1", 50.0, [0.0, 100.0]);
+        svg.text("m small", [50.0, 40.0], "label");
+        svg.text("small", [80.0, 60.0], "aside");
+        assert!(svg.finish("", [100.0, 100.0], "").contains("d=\"M50 0V30.2M50 43.8V100\""));
     }
 
     #[test]

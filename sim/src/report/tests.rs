@@ -6,6 +6,8 @@ use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 
+mod reading;
+
 fn recorded(text: &str, options: &Options) -> Trace {
     Trace::record("patrol", text, options).unwrap().0
 }

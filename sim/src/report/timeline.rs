@@ -6,7 +6,7 @@ use super::axis::{Layout, NARROW, WIDE, tick_label, ticks};
 use super::format::{clock, metres, moment, seconds};
 use super::series::{Point, Scale, below_zero, line, steps, thinned};
 use super::strip::{BAR, Bar, Lanes, Rows};
-use super::svg::Svg;
+use super::svg::{Svg, fixed};
 use super::view::View;
 use crate::trace::{Record, Sample};
 use cotama_core::net::Role;
@@ -22,29 +22,62 @@ const NETS: [(&str, &str); 5] = [
     ("permit", "Permit"),
 ];
 
-/// The timeline and its key; once more from the first point to the last, if those lie close
-/// together.
+/// What the colours say, in the order of the legend: a class, and words.
+const COLOURS: [(&str, &str); 8] = [
+    ("f0", "the robot alone, as planned"),
+    ("f1", "the same with fewer particles"),
+    ("f2", "degraded: less is used than planned"),
+    ("f3", "the robot stands, the operator is asked or edits"),
+    ("f4", "the operator drives"),
+    ("f5", "motion is granted"),
+    ("f6", "planning, standing at an objective"),
+    ("gone", "stopped for good"),
+];
+
+/// The timeline and its key: the whole mission and, under it, its part from the first point to the
+/// last with all lanes, if that is short.
 pub(super) fn section(view: &View<'_>) -> String {
+    let whole = Span { from_us: 0, to_us: view.last().1.max(1) };
+    let close = close(view, whole);
     let mut html = String::from(
         "<section class=\"timeline\"><h2>Who was where, when</h2>\n<p class=\"note\">A lane is a \
-         supervisor, a bar a place of its net; where it rests there is none. Numbers are the \
-         points of the story below. Red in the lane of failures is the time from a failure to the \
-         first reaction.</p>\n",
+         supervisor, a bar a place of its net; where it rests there is none. ",
     );
-    let whole = Span { from_us: 0, to_us: view.last().1.max(1) };
-    figure(&mut html, view, whole, "The whole mission");
-    let (first, last) =
-        (view.points.first().map(|it| it.t_us), view.points.last().map(|it| it.t_us));
-    if let (Some(first), Some(last)) = (first, last) {
-        let room = (last - first) / 12 + 1_000_000;
-        let end = leaving(view, last).saturating_add(room).min(whole.to_us);
-        let close = Span { from_us: first.saturating_sub(room), to_us: end };
-        if view.points.len() > 1 && close.to_us - close.from_us < whole.to_us / 3 * 2 {
-            figure(&mut html, view, close, "From the first point to the last");
+    if close.is_some() {
+        html.push_str(
+            "Above is the whole mission; its framed part is drawn below with the lanes of all \
+             supervisors. ",
+        );
+    }
+    let drawn = format!("{}{}", draw(view, whole, close, WIDE), draw(view, whole, close, NARROW));
+    let _ = write!(html, "</p>\n<figure>\n{drawn}<figcaption class=\"keys\">");
+    html.push_str("<span class=\"key\"><b class=\"pin point\">1</b>point of the story</span>");
+    if drawn.contains("class=\"open\"") {
+        html.push_str(
+            "<span class=\"key\"><i class=\"swatch tint open\"></i>from a failure to the first \
+             reaction</span>",
+        );
+    }
+    for (class, words) in COLOURS {
+        if drawn.contains(&format!("class=\"tint {class}\"")) {
+            let _ = write!(
+                html,
+                "<span class=\"key\"><i class=\"swatch tint {class}\"></i>{words}</span>"
+            );
         }
     }
-    html.push_str("</section>\n");
+    html.push_str("</figcaption></figure></section>\n");
     html
+}
+
+/// From the first point to the last, and what that led to; none if it is most of the mission.
+fn close(view: &View<'_>, whole: Span) -> Option<Span> {
+    let (first, last) = (view.points.first()?.t_us, view.points.last()?.t_us);
+    let room = (last - first) / 12 + 1_000_000;
+    let to_us = leaving(view, last).saturating_add(room).min(whole.to_us);
+    let from_us = first.saturating_sub(room);
+    let is_short = to_us.saturating_sub(from_us) < whole.to_us / 3 * 2;
+    (view.points.len() > 1 && is_short).then_some(Span { from_us, to_us })
 }
 
 /// When the mode that the last point led to was left again.
@@ -54,17 +87,6 @@ fn leaving(view: &View<'_>, from_us: u64) -> u64 {
         _ => None,
     });
     rests.unwrap_or(from_us)
-}
-
-fn figure(html: &mut String, view: &View<'_>, span: Span, title: &str) {
-    let length = clock((span.to_us - span.from_us) / 1000);
-    let _ = write!(
-        html,
-        "<figure><figcaption><h3>{title}</h3><span class=\"note\">{length}</span></figcaption>\n\
-         {}{}</figure>\n",
-        draw(view, span, WIDE),
-        draw(view, span, NARROW)
-    );
 }
 
 /// A part of the time of a run, in µs; not empty.
@@ -114,11 +136,51 @@ impl Time {
     }
 }
 
-fn draw(view: &View<'_>, span: Span, layout: Layout) -> String {
-    let time = Time { span, layout };
+/// The space between the whole mission and its part.
+const BETWEEN: f64 = 58.0;
+
+fn draw(view: &View<'_>, whole: Span, close: Option<Span>, layout: Layout) -> String {
+    let mut all = Svg::new();
+    let title = |svg: &mut Svg, y: f64, words: &str, span: Span| {
+        let length = clock((span.to_us - span.from_us) / 1000);
+        svg.text("strong", [0.0, y], &format!("{words}, {length}"));
+    };
+    title(&mut all, 12.0, "The whole mission", whole);
+    let time = Time { span: whole, layout };
+    let Some(close) = close else {
+        let end = panel(&mut all, view, time, 20.0, true, true);
+        return finish(all, layout, end);
+    };
+    let end = panel(&mut all, view, time, 20.0, true, false);
+    let next = end + BETWEEN;
+    // The frame around the part, and what leads from it to the ends of the axis below.
+    let (left, right) = (time.at(close.from_us), time.at(close.to_us));
+    all.ground("part", [left, 20.0], [right - left, end - 20.0]);
+    let at = |x: f64, y: f64| format!("{} {}", fixed(x), fixed(y));
+    let lead = [
+        at(left, end),
+        at(right, end),
+        at(layout.end(), next - 22.0),
+        at(layout.left, next - 22.0),
+    ];
+    all.ground_path("part", &format!("M{}Z", lead.join("L")));
+    title(&mut all, next - 8.0, "The framed part", close);
+    let end = panel(&mut all, view, Time { span: close, layout }, next, false, true);
+    finish(all, layout, end)
+}
+
+fn finish(svg: Svg, layout: Layout, end: f64) -> String {
+    let label = "Places of the supervisors over time, with speed, position and margin";
+    svg.finish(layout.class, [layout.width, end], label)
+}
+
+/// Lanes and curves over an axis of time, from `top` on: those of the `whole` mission, those of
+/// `every` supervisor, or both. Returns where it ends.
+fn panel(all: &mut Svg, view: &View<'_>, time: Time, top: f64, whole: bool, every: bool) -> f64 {
+    let layout = time.layout;
     let pins = pins(view, time);
-    let top = 14.0 + pins.len() as f64 * 18.0;
-    let mut rows = Rows { svg: Svg::new(), layout, axis: time, y: top + 6.0 };
+    let first = top + 14.0 + pins.len() as f64 * 18.0;
+    let mut rows = Rows { svg: Svg::new(), layout, axis: time, y: first + 6.0 };
     lane(&mut rows, "Failures", &failures(view, time));
     let configured = |mode: bool| {
         stretches(view, time, move |it| match it {
@@ -131,27 +193,24 @@ fn draw(view: &View<'_>, span: Span, layout: Layout) -> String {
     };
     lane(&mut rows, "Mode", &configured(true));
     lane(&mut rows, "Runs", &configured(false));
-    for (net, name) in NETS {
+    for (net, name) in NETS.into_iter().filter(|_| every) {
         lane(&mut rows, name, &places(view, time, net));
     }
     rows.y += 4.0;
-    let sampled = |value: fn(&Sample) -> i64| -> Vec<(u64, i64)> {
+    let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX);
+    let sampled = |value: &dyn Fn(&Sample) -> i64| -> Vec<(u64, i64)> {
         view.samples.iter().map(|it| (it.t_us, value(it))).collect()
     };
-    let signed = |value: u64| i64::try_from(value).unwrap_or(i64::MAX);
-    curve(
-        &mut rows,
-        "Speed m/s",
-        44.0,
-        &sampled(|it| i64::try_from(it.speed_mm_s).unwrap_or(i64::MAX)),
-        true,
-    );
-    let place = view.samples.iter().map(|it| (it.t_us, signed(it.x_mm))).collect::<Vec<_>>();
-    curve(&mut rows, "Position m", 60.0, &place, false);
-    curve(&mut rows, "Margin s", 60.0, &sampled(|it| it.margins.duration_ms), false);
+    if every {
+        curve(&mut rows, "Speed m/s", 44.0, &sampled(&|it| signed(it.speed_mm_s)), true);
+    }
+    curve(&mut rows, "Position m", 60.0, &sampled(&|it| signed(it.x_mm)), false);
+    if whole {
+        curve(&mut rows, "Margin s", 60.0, &sampled(&|it| it.margins.duration_ms), false);
+    }
     let bottom = rows.y;
     let mut under = Svg::new();
-    time.draw(&mut under, top, bottom);
+    time.draw(&mut under, first, bottom);
     for (row, pins) in pins.iter().enumerate() {
         for &(number, x) in pins {
             let Some(point) = view.points.get(number - 1) else { continue };
@@ -161,20 +220,17 @@ fn draw(view: &View<'_>, span: Span, layout: Layout) -> String {
                 metres(point.x_mm),
                 moment(point.t_us)
             );
-            let y = 10.0 + row as f64 * 18.0;
+            let y = top + 12.0 + row as f64 * 18.0;
+            all.guide("replan point", &title, x, [y, bottom]);
             under.titled(&title, |svg| {
-                svg.line("replan point", [x, y], [x, bottom]);
                 svg.circle("pin point", [x, y], 8.0);
                 svg.text("m pin", [x, y + 4.0], &number.to_string());
             });
         }
     }
-    under.append(&rows.svg);
-    under.finish(
-        layout.class,
-        [layout.width, bottom + 22.0],
-        "Places of the supervisors over time, with speed and position",
-    )
+    all.append(&under);
+    all.append(&rows.svg);
+    bottom + 22.0
 }
 
 /// The numbered pins of the points: rows from top to bottom, in each the numbers with their places.
@@ -269,21 +325,18 @@ fn places(view: &View<'_>, time: Time, net: &str) -> Vec<Bar> {
     })
 }
 
-/// The colour of a place, a mode or a configuration: blue for the robot alone, as planned; amber
-/// while it waits for the operator; violet and red for what he does; green and grey for what is
-/// degraded. The label says the same.
+/// The colour of a place, a mode or a configuration, as [`COLOURS`] says it. The label says the
+/// same.
 fn tint(name: &str) -> &'static str {
     match name {
         "autonomous" | "Following" | "PF.OPT" | "Optimal" | "DriveA" | "DriveB" => "f0",
         "PF.OPTR" | "Reduced" => "f1",
         // `Degraded` of both adapters: they have lanes of their own.
-        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "Odometric" | "Degraded" | "Granted" => "f5",
-        "hand-over" | "HandOver" | "Security" => "f2",
-        "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
-        "teleoperated" | "Teleoperated" | "TO.FULL" | "TO.DEG" | "Full" | "Safe" | "Destroyed" => {
-            "f4"
-        }
-        // Planning, standing at an objective, and the ends.
+        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "TO.DEG" | "Odometric" | "Degraded" => "f2",
+        "hand-over" | "HandOver" | "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
+        "teleoperated" | "Teleoperated" | "TO.FULL" | "Full" => "f4",
+        "Granted" => "f5",
+        "SEC" | "Security" | "Safe" | "Destroyed" => "gone",
         _ => "f6",
     }
 }

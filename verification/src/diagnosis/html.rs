@@ -18,7 +18,7 @@ body{margin:0;background:#fff}
 --hot:#c2410c;--good:#1a7f4b;--glow:#fff3e6;\
 background:var(--paper);color:var(--ink);font:15px/1.5 Helvetica,Arial,'Liberation Sans',system-ui,\
 sans-serif;\
-max-width:1100px;margin:0 auto;padding:24px}
+max-width:1352px;margin:0 auto;padding:24px}
 @media screen and (prefers-color-scheme:dark){body{background:#14181d}
 .diagnosis{--paper:#14181d;--ink:#e6eaef;--quiet:#a0abb7;--line:#343c46;--fill:#222b36;\
 --bar:#6ea8e0;--count:#10151b;\
@@ -55,14 +55,22 @@ font-variant-numeric:tabular-nums}
 .diagnosis .timeline .bar{fill:var(--bar)}
 .diagnosis .timeline .atom{fill:var(--hot)}
 .diagnosis .timeline .cycle{fill:var(--hot);opacity:.14}
-.diagnosis figure{margin:0;overflow-x:auto}
-.diagnosis figure svg{max-width:100%;height:auto}
+.diagnosis tr.now td{background:var(--fill)}
+.diagnosis figure{margin:0}
+.diagnosis .player{display:flex;gap:8px;align-items:center;position:sticky;top:0;padding:8px 0;\
+background:var(--paper)}
+.diagnosis .player[hidden]{display:none}
+.diagnosis .player input{flex:1;max-width:420px;accent-color:var(--bar)}
+.diagnosis .player button{font:inherit;color:inherit;background:var(--fill);\
+border:1px solid var(--line);border-radius:4px;padding:2px 10px}
+.diagnosis figure svg{display:block}
 ";
 
 impl Diagnosis {
     /// A page of its own: what [`Display`](std::fmt::Display) says, bars of the places that the
-    /// property speaks of, and the net as the run leaves it, if it is small. It needs no script and
-    /// no other file; colours follow the reader's light or dark mode.
+    /// property speaks of, and the net as the run leaves it, if it is small; a slider and the arrow
+    /// keys go through the run. It needs no other file, and without its script it shows the last
+    /// step; colours follow the reader's light or dark mode.
     pub fn html(&self) -> String {
         page(&format!("{}: {}", printable(&self.net), printable(&self.name)), &self.html_section())
     }
@@ -110,7 +118,9 @@ impl Diagnosis {
             out.push_str("</dl>\n");
         }
         if let Some(picture) = &self.picture {
-            out += &picture.figure("The net after the last step");
+            let heading = "The net after the last step; the keys ← and → go through the run";
+            let heading = if self.trace.is_empty() { "The net at the start" } else { heading };
+            out += &picture.figure(heading, &self.trace);
         }
         out.push_str("</section>\n");
         out
@@ -167,7 +177,9 @@ impl Diagnosis {
             } else {
                 ""
             };
-            let _ = write!(out, "<tr{class}><td class=\"number\">{}</td>", at + 1);
+            let number = at + 1;
+            let _ =
+                write!(out, "<tr{class} data-step=\"{number}\"><td class=\"number\">{number}</td>");
             if has_date {
                 let date = step.at.map_or_else(String::new, |it| it.to_string());
                 let _ = write!(out, "<td class=\"number\">{date}</td>");

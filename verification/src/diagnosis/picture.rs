@@ -1,6 +1,7 @@
 //! The net, drawn as a run leaves it.
 
 use super::Step;
+use super::words::{escape, printable};
 use crate::export::drawing::Style;
 use crate::export::svg::{self, Highlight, Part};
 use crate::pt::Pt;
@@ -11,6 +12,9 @@ use std::fmt::Write as _;
 
 /// Larger nets are not drawn: nobody would find anything.
 const LARGEST: usize = 60;
+
+/// A step for the script: what fires, its name, and the tokens of the places that it changes.
+type Move = (Option<usize>, String, Vec<(u32, u32)>);
 
 /// A drawing with a line above it.
 pub(super) struct Frame {
@@ -50,14 +54,35 @@ impl Picture {
         Some(Self { net, style, marking, pointed, culprits: culprits.iter().copied().collect() })
     }
 
-    /// The drawing as a part of a sheet.
-    pub(super) fn frame(&self, caption: String, prefix: &str) -> Frame {
-        let highlight = Highlight { marking: Some(&self.marking), transitions: &self.pointed };
+    /// The drawing as a part of a sheet; coloured are the places that changed, or those that are
+    /// marked.
+    pub(super) fn frame(
+        &self,
+        caption: String,
+        prefix: &str,
+        changed: Option<&[PlaceId]>,
+    ) -> Frame {
+        let highlight = self.highlight(changed);
         let mut part = svg::part(&self.net.view().net(), self.style, &highlight, prefix);
         if !self.culprits.is_empty() {
             let _ = writeln!(part.text, "<style>{}</style>", self.rims(".cotama", prefix));
         }
         Frame { caption, part, is_last: true }
+    }
+
+    fn highlight<'p>(&'p self, changed: Option<&'p [PlaceId]>) -> Highlight<'p> {
+        let (marking, transitions) = (Some(self.marking.as_slice()), self.pointed.as_slice());
+        Highlight { marking, transitions, places: changed }
+    }
+
+    fn place(&self, name: &str) -> Option<PlaceId> {
+        let at = self.net.view().net().places.iter().position(|it| it.name == name)?;
+        u32::try_from(at).ok().map(PlaceId)
+    }
+
+    /// The places that a step changes.
+    fn changed(&self, step: &Step) -> Vec<PlaceId> {
+        step.changes.iter().filter_map(|it| self.place(&it.place)).collect()
     }
 
     /// The drawings of a run: of the start and after each step, or after the last one if they are
@@ -69,23 +94,27 @@ impl Picture {
         now.marking = net.places.iter().map(|it| it.initial).collect();
         let mut frames = Vec::new();
         if trace.len() < most {
-            frames.push(Frame { is_last: false, ..now.frame("start".to_owned(), "at-0-") });
+            let start = now.frame("start".to_owned(), "at-0-", Some(&[]));
+            frames.push(Frame { is_last: false, ..start });
             for (at, step) in trace.iter().enumerate().take(trace.len().saturating_sub(1)) {
                 for it in &step.changes {
-                    if let Some(place) = net.places.iter().position(|place| place.name == it.place)
-                    {
-                        now.marking[place] = it.after;
+                    if let Some(place) = self.place(&it.place) {
+                        now.marking[place.0 as usize] = it.after;
                     }
                 }
                 let fired = net.transitions.iter().position(|it| it.name == step.transition);
                 now.pointed = fired.map(|it| TransitionId(it as u32)).into_iter().collect();
                 let prefix = format!("at-{}-", at + 1);
-                frames.push(Frame { is_last: false, ..now.frame(caption(at, step), &prefix) });
+                let frame = now.frame(caption(at, step), &prefix, Some(&self.changed(step)));
+                frames.push(Frame { is_last: false, ..frame });
             }
         }
         match trace.last() {
-            Some(step) => frames.push(self.frame(caption(trace.len() - 1, step), "last-")),
-            None => frames = vec![self.frame("start".to_owned(), "last-")],
+            Some(step) => {
+                let caption = caption(trace.len() - 1, step);
+                frames.push(self.frame(caption, "last-", Some(&self.changed(step))));
+            }
+            None => frames = vec![self.frame("start".to_owned(), "last-", Some(&[]))],
         }
         frames
     }
@@ -100,17 +129,57 @@ impl Picture {
         format!("{}{{stroke:#c2410c;stroke:var(--hot);stroke-width:4}}", rims.join(","))
     }
 
-    /// The drawing as a figure of a page, with a heading.
-    pub(super) fn figure(&self, heading: &str) -> String {
+    /// The drawing as a figure of a page, with a heading. It is that of the last step; a script
+    /// moves along the run, if the page may have one.
+    pub(super) fn figure(&self, heading: &str, trace: &[Step]) -> String {
         let keys: Vec<String> = self.culprits.iter().map(|it| format!("place-{it}")).collect();
         let class = format!("at-{}", keys.join("-"));
         let mut out = format!("<h2>{heading}</h2>\n");
         if !self.culprits.is_empty() {
-            let _ = writeln!(out, "<style>{}</style>", self.rims(&format!(".{class}"), ""));
+            let _ = writeln!(out, "<style>{}</style>", self.rims(&format!(".{class}.ended"), ""));
         }
-        let highlight = Highlight { marking: Some(&self.marking), transitions: &self.pointed };
+        let changed = trace.last().map(|it| self.changed(it));
+        let highlight = self.highlight(changed.as_deref());
         let drawing = svg::write_highlighted(&self.net.view().net(), self.style, &highlight);
-        out + &format!("<figure class=\"{class}\">\n{drawing}</figure>\n")
+        let (player, script) = if trace.is_empty() {
+            (String::new(), String::new())
+        } else {
+            let script = format!("<script>\n{}</script>\n", include_str!("player.js"));
+            (self.player(trace), script)
+        };
+        let _ = write!(
+            out,
+            "<figure class=\"{class} ended\">\n{player}<div class=\"scroll\">\n{drawing}</div>\n\
+             {script}</figure>\n"
+        );
+        out
+    }
+
+    /// What moves along a run: a slider and two buttons, hidden until the script is there.
+    fn player(&self, trace: &[Step]) -> String {
+        let view = self.net.view();
+        let net = view.net();
+        let places = net.places.iter().zip(0u32..);
+        let start = places.filter(|it| it.0.initial > 0).map(|(it, at)| (at, it.initial));
+        let mut run: Vec<Move> = vec![(None, String::new(), start.collect())];
+        for step in trace {
+            let fired = net.transitions.iter().position(|it| it.name == step.transition);
+            let changes = step.changes.iter();
+            let changes = changes.filter_map(|it| Some((self.place(&it.place)?.0, it.after)));
+            run.push((fired, printable(&step.transition), changes.collect()));
+        }
+        let run = serde_json::to_string(&run).unwrap_or_default();
+        let parts = serde_json::to_string(&svg::parts(&net, self.style)).unwrap_or_default();
+        let last = trace.len();
+        format!(
+            "<div class=\"player\" hidden=\"hidden\" data-run=\"{}\" data-parts=\"{}\">\
+             <button type=\"button\" value=\"-1\" aria-label=\"one step back\">◀</button>\
+             <input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" aria-label=\"step\"/>\
+             <button type=\"button\" value=\"1\" aria-label=\"one step on\">▶</button>\
+             <output></output></div>\n",
+            escape(&run),
+            escape(&parts)
+        )
     }
 }
 

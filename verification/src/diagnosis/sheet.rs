@@ -76,7 +76,7 @@ impl Unused<'_> {
     /// A drawing of its own, in SVG: what is unused, and a small net in which it is pointed out; of
     /// the net with its events and documentation, if that is given.
     pub fn svg(&self, net: Option<&Net<'_>>) -> String {
-        let frame = self.picture(net).map(|it| it.frame("start".to_owned(), "at-0-"));
+        let frame = self.picture(net).map(|it| it.frame("start".to_owned(), "at-0-", None));
         let frames: Vec<Frame> =
             frame.map(|it| Frame { is_last: false, ..it }).into_iter().collect();
         let mut sheet = Sheet::around(&frames);

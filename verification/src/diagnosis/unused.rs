@@ -141,7 +141,7 @@ impl<'n> Unused<'n> {
             out += "</table>\n</div>\n";
         }
         if let Some(picture) = self.picture(net) {
-            out += &picture.figure("The net at the start");
+            out += &picture.figure("The net at the start", &[]);
         }
         page(&format!("{}: what no run uses", printable(&self.pt.name)), &(out + "</section>\n"))
     }

@@ -78,8 +78,11 @@ fn graph(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Result {
             Kind::Transition(_) => {
                 let label =
                     node.label.as_ref().map(Label::to_string).filter(|label| !label.is_empty());
-                let text =
+                let mut text =
                     label.map_or(node.name.to_owned(), |label| format!("{}\n{label}", node.name));
+                for (name, label) in &node.also {
+                    write!(text, "\n{name}\n{label}")?;
+                }
                 let look = "shape=box, height=0.25, style=filled, fillcolor=\"#e4e7eb\"";
                 writeln!(
                     out,

@@ -76,6 +76,9 @@ fn flowchart(out: &mut String, net: &Net<'_>, figure: &Figure<'_>) -> fmt::Resul
             }
             Kind::Transition(_) => {
                 lines.extend(node.label.iter().map(|label| escape(&label.to_string())));
+                for (name, label) in &node.also {
+                    lines.extend([visible(name), escape(&label.to_string())]);
+                }
                 lines.retain(|line| !line.is_empty());
                 writeln!(out, "  {id}[\"{}\"]", lines.join("<br/>"))?;
             }

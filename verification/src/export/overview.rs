@@ -24,6 +24,13 @@ impl Way {
     }
 }
 
+/// What the words at the lines mean.
+const LEGEND: [svg::Key; 3] = [
+    (Flow::Move, Way::Now.word(), "the other net hears the output in the same step"),
+    (Flow::Move, Way::Mail.word(), "the output waits in a mailbox of the other net, as its event"),
+    (Flow::Read, Way::Look.word(), "the other net sees these places or mailboxes, unchanged"),
+];
+
 /// Draws a system: each net as a box. An arrow leads from a net to one that hears its outputs,
 /// `now` in the same step or by `mail`; an output is written with its event where that has another
 /// name. A dashed line leads from a net to one that `sees` its places or its mailboxes.
@@ -44,7 +51,11 @@ pub fn write(system: &System<'_>) -> String {
         let _ = boxes.place(OwnedPlace::new(&name, 0).doc(component.net.doc));
     }
     let view = boxes.view();
-    svg::write_figure(&view.net(), figure(&view.net(), system), "System")
+    let figure = figure(&view.net(), system);
+    let is_said =
+        |word| figure.edges.iter().flat_map(|it| &it.labels).any(|it| it.event == Some(word));
+    let legend: Vec<svg::Key> = LEGEND.into_iter().filter(|it| is_said(it.1)).collect();
+    svg::write_figure(&view.net(), figure, "System", &legend)
 }
 
 fn figure<'n>(boxes: &Net<'n>, system: &System<'_>) -> Figure<'n> {
@@ -54,6 +65,7 @@ fn figure<'n>(boxes: &Net<'n>, system: &System<'_>) -> Figure<'n> {
         doc: it.doc,
         label: None,
         entries: Vec::new(),
+        also: Vec::new(),
     };
     let nodes: Vec<Node<'_>> = boxes.places.iter().enumerate().map(node).collect();
     let mut said = said(system);
@@ -145,5 +157,16 @@ mod tests {
         let drawing = write(&delivery::SYSTEM);
         assert!(drawing.contains("ended → tick") || drawing.contains("ended\u{a0}→\u{a0}tick"));
         assert_eq!(drawing.matches("local_event\u{a0}waiting").count(), 1);
+    }
+
+    #[test]
+    fn a_legend_says_what_now_mail_and_sees_mean() {
+        let drawing = write(&delivery::SYSTEM);
+        let legend = drawing.split_once("<g class=\"legend\">").unwrap().1;
+        for (_, word, meaning) in LEGEND {
+            let line =
+                format!("\"strong\">{word}</tspan> <tspan class=\"quiet\">{meaning}</tspan>");
+            assert_eq!(legend.matches(&line).count(), 1, "{word}");
+        }
     }
 }

@@ -6,17 +6,20 @@
 //! optimised; larger nets are drawn with more crossings, and from 20,000 on with long lines across
 //! whatever is there.
 
+mod legend;
 mod scene;
 mod style;
 mod text;
 
 use super::drawing::{Figure, Flow, Kind, Label, Style};
 use super::layout::{Outline, Point, Run};
-use cotama_core::net::{Net, Place, TransitionId};
+use cotama_core::net::{Net, Place, PlaceId, TransitionId};
 use scene::{ENTRY, INITIAL, LOOP, SPACE, Scene};
 use std::fmt::Write as _;
 use text::{Block, Face, NAME};
 
+pub(crate) use legend::{Key, write_figure};
+pub(crate) use scene::parts;
 pub(crate) use style::STYLE;
 pub(crate) use text::short;
 pub use text::{bold_width, escape, width};
@@ -28,6 +31,8 @@ pub struct Highlight<'a> {
     pub marking: Option<&'a [u32]>,
     /// Transitions to colour.
     pub transitions: &'a [TransitionId],
+    /// Places to colour, drawn as circles; without it those that are marked.
+    pub places: Option<&'a [PlaceId]>,
 }
 
 /// Draws a net.
@@ -52,12 +57,6 @@ pub fn write_highlighted(net: &Net<'_>, style: Style, highlight: &Highlight<'_>)
     let scene = Scene::of(net, Figure::of(net, style), highlight);
     let kind = if scene.figure.is_states { "State diagram" } else { "Petri net" };
     written(net, &scene, kind, highlight)
-}
-
-/// Draws a figure, whose places are those of a net; what it is, in a word or two.
-pub(crate) fn write_figure(net: &Net<'_>, figure: Figure<'_>, kind: &str) -> String {
-    let highlight = Highlight::default();
-    written(net, &Scene::of(net, figure, &highlight), kind, &highlight)
 }
 
 fn written(net: &Net<'_>, scene: &Scene<'_>, kind: &str, highlight: &Highlight<'_>) -> String {
@@ -260,7 +259,9 @@ impl Svg<'_> {
                 self.block(&sign.text, beside, "begin");
             }
             Kind::Transition(_) => {
-                self.title(&labels_title(net, node.label.as_slice()));
+                let labels: Vec<Label<'_>> =
+                    node.label.iter().chain(node.also.iter().map(|it| &it.1)).cloned().collect();
+                self.title(&labels_title(net, &labels));
                 let Outline::Rectangle(_, high) = scene.graph.nodes[at].outline else { return };
                 self.rectangle(Point { x, y }, half, high, 1);
                 self.block(&sign.text, beside, "begin");

@@ -20,8 +20,59 @@ fn check(diagnosis: &Diagnosis) -> String {
     let document = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
     let elements = xml::parse(document).unwrap();
     assert_eq!(elements.iter().filter(|it| it.name == "tr").count(), diagnosis.trace.len() + 3);
-    assert!(!page.contains("<script") && !page.contains("http-equiv") && !page.contains("src="));
+    // One script of its own, which goes through the run, and nothing from elsewhere.
+    assert_eq!((page.matches("<script").count(), page.matches("<script>").count()), (1, 1));
+    assert!(!page.contains("http-equiv") && !page.contains("src=") && !page.contains("fetch"));
+    player(diagnosis, &elements);
     page
+}
+
+/// What fires, its name, and the tokens of the places that it changes.
+type Move = (Option<u32>, String, Vec<(u32, u32)>);
+
+/// The slider knows the start and each step, and colours elements that are there.
+fn player(diagnosis: &Diagnosis, elements: &[xml::Element]) {
+    let player = elements.iter().find(|it| it.get("class") == Some("player")).unwrap();
+    let plain = |name: &str| {
+        let signs = [("&quot;", "\""), ("&lt;", "<"), ("&gt;", ">"), ("&amp;", "&")];
+        let text = player.get(name).unwrap().to_owned();
+        signs.iter().fold(text, |text, (from, to)| text.replace(from, to))
+    };
+    let run: Vec<Move> = serde_json::from_str(&plain("data-run")).unwrap();
+    assert_eq!(run.len(), diagnosis.trace.len() + 1);
+    let slider = elements.iter().find(|it| it.get("type") == Some("range")).unwrap();
+    assert_eq!(slider.number("max"), i64::try_from(diagnosis.trace.len()).unwrap());
+    let tokens = |changes: &[(u32, u32)]| changes.iter().map(|it| it.1).collect::<Vec<_>>();
+    let initial: Vec<u32> = diagnosis.initial.iter().map(|it| it.tokens).collect();
+    assert_eq!((run[0].0, tokens(&run[0].2)), (None, initial));
+    for (it, step) in run[1..].iter().zip(&diagnosis.trace) {
+        assert_eq!(tokens(&it.2), step.changes.iter().map(|it| it.after).collect::<Vec<_>>());
+    }
+    let parts: Vec<(String, Vec<u32>)> = serde_json::from_str(&plain("data-parts")).unwrap();
+    let is_there = |id: &str| elements.iter().any(|it| it.get("id") == Some(id));
+    assert!(!parts.is_empty() && parts.iter().all(|it| is_there(&it.0)), "{parts:?}");
+    for fired in run.iter().filter_map(|it| it.0) {
+        assert!(parts.iter().any(|it| it.1.contains(&fired)), "{fired} colours nothing");
+    }
+}
+
+/// The names of the places that a page shows strong.
+fn strong(page: &str) -> Vec<&str> {
+    let places = page.split("class=\"place hot\"><title>").skip(1);
+    places.map(|it| it.split(['\n', ':', '&']).next().unwrap()).collect()
+}
+
+#[test]
+fn only_the_places_that_the_step_changes_are_drawn_strong() {
+    let it = diagnosis(&nets::philosophers(), "AG !deadlock");
+    let page = check(&it);
+    let mut changed: Vec<&str> =
+        it.trace.last().unwrap().changes.iter().map(|it| it.place.as_str()).collect();
+    let mut strong = strong(&page);
+    changed.sort_unstable();
+    strong.sort_unstable();
+    assert_eq!(strong, changed);
+    assert!(it.last.len() > 1 && page.contains("class=\"token\""));
 }
 
 #[test]

@@ -8,6 +8,8 @@ use std::fmt;
 pub(crate) struct Label<'n> {
     /// The transitions that it stands for.
     pub(crate) transitions: Vec<u32>,
+    /// Where the transitions differ in their places: `from a or b`.
+    pub(crate) places: Vec<String>,
     /// The event that it needs.
     pub(crate) event: Option<&'n str>,
     /// What must hold, all of it.
@@ -33,6 +35,7 @@ impl<'n> Label<'n> {
         };
         Self {
             transitions: Vec::new(),
+            places: Vec::new(),
             event: transition
                 .on
                 .and_then(|event| net.events.get(event.0 as usize))
@@ -45,16 +48,18 @@ impl<'n> Label<'n> {
 
     /// Whether it says the same, of whichever transitions.
     pub(super) fn says_the_same(&self, other: &Self) -> bool {
-        let Self { transitions: _, event, guard, actions, timing } = self;
-        (event, guard, actions, timing)
-            == (&other.event, &other.guard, &other.actions, &other.timing)
+        let Self { transitions: _, places, event, guard, actions, timing } = self;
+        (places, event, guard, actions, timing)
+            == (&other.places, &other.event, &other.guard, &other.actions, &other.timing)
     }
 
-    /// `event`, `[guard]`, `/ actions`, those that are there; and the timing.
+    /// `from a or b`, `event`, `[guard]`, `/ actions`, those that are there; and the timing.
     fn parts(&self) -> (Vec<String>, String) {
         let guard = (!self.guard.is_empty()).then(|| format!("[{}]", self.guard.join(" & ")));
         let actions = (!self.actions.is_empty()).then(|| format!("/ {}", self.actions.join(", ")));
-        let text = self.event.map(str::to_owned).into_iter().chain(guard).chain(actions).collect();
+        let places = self.places.iter().cloned();
+        let event = self.event.map(str::to_owned);
+        let text = places.chain(event).chain(guard).chain(actions).collect();
         (text, self.timing.join(", "))
     }
 }

@@ -1,6 +1,7 @@
 //! What a drawing of a net shows, before any format or coordinate: the same for DOT, Mermaid and
 //! SVG.
 
+mod bundled;
 mod condition;
 mod label;
 mod net;
@@ -13,7 +14,9 @@ use cotama_core::net::Net;
 /// How a net is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Style {
-    /// [`Style::States`] when the net is a state machine, otherwise [`Style::Net`].
+    /// [`Style::States`] when the net is a state machine, otherwise [`Style::Net`]; of 50
+    /// transitions and more, those with the same arrows share a bar, a line of the definition is
+    /// drawn once, and data are words in the labels.
     #[default]
     Auto,
     /// Places as circles, transitions as bars. Complements that only mirror another place are left
@@ -50,6 +53,17 @@ pub(crate) struct Node<'n> {
     pub(crate) label: Option<Label<'n>>,
     /// Transitions into this state that are not drawn as edges.
     pub(crate) entries: Vec<Entry<'n>>,
+    /// Further transitions with the same arrows that share this bar.
+    pub(crate) also: Vec<(&'n str, Label<'n>)>,
+}
+
+impl Node<'_> {
+    /// The transitions that a bar stands for; none for a place.
+    pub(crate) fn transitions(&self) -> impl Iterator<Item = u32> {
+        let labels = self.label.iter().chain(self.also.iter().map(|it| &it.1));
+        let is_bar = matches!(self.kind, Kind::Transition(_));
+        labels.filter(move |_| is_bar).flat_map(|it| &it.transitions).copied()
+    }
 }
 
 /// What a node stands for, by its position in the net.
@@ -100,6 +114,7 @@ impl<'n> Figure<'n> {
     /// Ids that point nowhere are left out.
     pub(crate) fn of(net: &Net<'n>, style: Style) -> Self {
         let states = if style == Style::Net { None } else { states::figure(net) };
-        states.unwrap_or_else(|| net::figure(net))
+        let bundled = || if style == Style::Auto { bundled::figure(net) } else { None };
+        states.or_else(bundled).unwrap_or_else(|| net::figure(net))
     }
 }

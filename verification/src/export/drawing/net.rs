@@ -11,7 +11,14 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Figure<'n> {
     for (place, it) in net.places.iter().enumerate().filter(|&(place, _)| !mirrors.hides(place)) {
         node_of[place] = Some(nodes.len());
         let kind = Kind::Place { place, shared: it.role == Role::Shared };
-        nodes.push(Node { kind, name: it.name, doc: it.doc, label: None, entries: Vec::new() });
+        nodes.push(Node {
+            kind,
+            name: it.name,
+            doc: it.doc,
+            label: None,
+            entries: Vec::new(),
+            also: Vec::new(),
+        });
     }
     let mut edges = Vec::new();
     for (at, it) in net.transitions.iter().enumerate() {
@@ -27,6 +34,7 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Figure<'n> {
             doc: it.doc,
             label,
             entries: Vec::new(),
+            also: Vec::new(),
         });
         let node = |arc: &Arc| node_of.get(arc.place.0 as usize).copied().flatten();
         let edge = |from, to, flow, weight| Edge { from, to, flow, weight, labels: Vec::new() };

@@ -21,6 +21,7 @@ pub(super) fn figure<'n>(net: &Net<'n>) -> Option<Figure<'n>> {
             doc: it.doc,
             label: None,
             entries: Vec::new(),
+            also: Vec::new(),
         });
     }
     let mut bundles: Vec<(u32, usize, Label<'n>, Vec<usize>)> = Vec::new();

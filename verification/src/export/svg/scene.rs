@@ -2,7 +2,7 @@
 
 use super::Highlight;
 use super::text::{self, Block, Face};
-use crate::export::drawing::{Figure, Flow, Kind, Label, Node};
+use crate::export::drawing::{Figure, Flow, Kind, Label, Node, Style};
 use crate::export::layout::{self, Graph, Layout, Outline};
 use cotama_core::net::{Net, TransitionId};
 
@@ -112,14 +112,27 @@ impl<'n> Scene<'n> {
     /// Whether the edge stands for something that is pointed out.
     pub(super) fn is_hot(&self, edge: usize, highlight: &Highlight<'_>) -> bool {
         let it = &self.figure.edges[edge];
-        let of = |node: usize| match self.figure.nodes[node].kind {
-            Kind::Transition(at) => highlight.has(at as u32),
-            Kind::State(_) | Kind::Place { .. } => false,
-        };
+        let of = |node: usize| self.figure.nodes[node].transitions().any(|at| highlight.has(at));
         let labelled =
             it.labels.iter().flat_map(|label| &label.transitions).any(|&at| highlight.has(at));
         labelled || (it.flow != Flow::Read && (of(it.from) || of(it.to)))
     }
+}
+
+/// What a drawing colours for transitions: ids of its elements, each with its transitions.
+pub(crate) fn parts(net: &Net<'_>, style: Style) -> Vec<(String, Vec<u32>)> {
+    let figure = Figure::of(net, style);
+    let edges = figure.edges.iter().enumerate().map(|(at, it)| {
+        let labelled = it.labels.iter().flat_map(|label| &label.transitions).copied();
+        let ends = [it.from, it.to].into_iter().filter(|_| it.flow != Flow::Read);
+        let moved = ends.flat_map(|node| figure.nodes[node].transitions());
+        (format!("edge-{at}"), labelled.chain(moved).collect())
+    });
+    let bars = figure.nodes.iter().filter_map(|it| match it.kind {
+        Kind::Transition(at) => Some((format!("transition-{at}"), it.transitions().collect())),
+        Kind::State(_) | Kind::Place { .. } => None,
+    });
+    edges.chain(bars).collect()
 }
 
 impl Highlight<'_> {
@@ -142,16 +155,25 @@ fn sign(net: &Net<'_>, node: &Node<'_>, highlight: &Highlight<'_>) -> Sign {
         Kind::State(place) | Kind::Place { place, .. } => {
             sign.tokens = highlight.tokens(net, place);
             sign.is_initial = net.places[place].initial > 0;
-            sign.is_hot = highlight.marking.is_some() && sign.tokens > 0;
+            let is_marked = highlight.marking.is_some() && sign.tokens > 0;
+            let is_state = matches!(node.kind, Kind::State(_));
+            let chosen = highlight.places.filter(|_| !is_state);
+            sign.is_hot = chosen.map_or(is_marked, |it| it.iter().any(|id| id.0 as usize == place));
             sign.text.text(Face::Plain, &name.replace(' ', "\u{a0}"), sign.is_hot);
         }
-        Kind::Transition(at) => {
-            sign.is_hot = highlight.has(at as u32);
+        Kind::Transition(_) => {
+            sign.is_hot = node.transitions().any(|at| highlight.has(at));
             sign.text.text(Face::Strong, &name.replace(' ', "\u{a0}"), sign.is_hot);
             // An event of the same name need not be said twice.
             if let Some(label) = node.label.as_ref().filter(|label| label.to_string() != node.name)
             {
                 sign.text.label(label, sign.is_hot);
+            }
+            for (name, label) in &node.also {
+                let is_hot = label.transitions.iter().any(|&at| highlight.has(at));
+                sign.text.pause();
+                sign.text.text(Face::Strong, &text::short(name).replace(' ', "\u{a0}"), is_hot);
+                sign.text.label(label, is_hot);
             }
         }
     }

@@ -147,6 +147,9 @@ impl Block {
         trigger.extend(words(Face::Plain, joined(&label.guard, "[", " &", "]")));
         let actions = words(Face::Quiet, joined(&label.actions, "/\u{a0}", ",", ""));
         let timing = words(Face::Quiet, joined(&label.timing, "", ",", ""));
+        for places in &label.places {
+            self.text(Face::Sources, places, hot);
+        }
         let sections = [trigger, actions, timing];
         let all: Vec<(Face, String)> = sections.concat();
         let total: i64 = all.iter().map(|(_, word)| width(word, LABEL) + width(" ", LABEL)).sum();

@@ -1,0 +1,37 @@
+//! What the abbreviations of the page mean: only those that occur on it.
+
+use cotama_models::cotama::Module;
+use cotama_verification::export::svg::escape;
+use std::collections::HashSet;
+use std::fmt::Write;
+
+/// Abbreviations that are no module's name; failure modes stand in the table.
+const WORDS: [(&str, &str); 9] = [
+    ("FMECA", "failure modes, effects and criticality analysis"),
+    ("COTAMA", "the control architecture of Durand et al., TAROS 2010"),
+    ("MTBF", "mean time between failures"),
+    ("CS", "the contextual supervisor: who must react"),
+    ("CPU", "the processor of the laptop"),
+    ("NaN", "a value that is not a number"),
+    ("PRM", "probabilistic roadmap, a method of path planning"),
+    ("USB", "universal serial bus, the cable to a device"),
+    ("WiFi", "the wireless network"),
+];
+
+/// The section of the page; `page` is what stands before it.
+pub(super) fn section(page: &str) -> String {
+    let texts = page.split('<').filter_map(|it| it.split_once('>')).map(|it| it.1);
+    let words: HashSet<&str> =
+        texts.flat_map(|it| it.split(|it: char| !(it.is_alphanumeric() || it == '-'))).collect();
+    let modules = Module::ALL.iter().map(|it| (it.name(), it.doc()));
+    let mut html = String::from(
+        "<section id=\"abbreviations\">\n<h2>Abbreviations on this page</h2>\n<p class=\"note\">\
+         Ids of failure modes, as SON1, lead to their rows.</p>\n<dl>\n",
+    );
+    for (name, meaning) in WORDS.into_iter().chain(modules).filter(|it| words.contains(it.0)) {
+        let meaning = escape(meaning.trim().trim_end_matches('.'));
+        let _ = writeln!(html, "<div><dt>{name}</dt><dd>{meaning}</dd></div>");
+    }
+    html.push_str("</dl>\n</section>\n");
+    html
+}
