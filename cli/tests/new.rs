@@ -95,7 +95,14 @@ fn crates_run_are_checked_and_fail_with_a_counterexample_when_they_are_broken() 
         folder.write(&lib, text.replace(whole, broken));
         let tested = cargo(&folder, name, &["test", "everything"]);
         assert_eq!(tested.code, Some(101), "{tested:?}");
-        assert!(tested.stdout.contains("start"), "{}", tested.stdout);
+        assert!(tested.stdout.contains("does not hold: after "), "{}", tested.stdout);
+        assert!(tested.stdout.contains("\ncause: `"), "{}", tested.stdout);
+        if kind == "net" {
+            let less = text.lines().filter(|it| !it.contains("recover on heard"));
+            folder.write(&lib, less.collect::<Vec<_>>().join("\n"));
+            let checked = cargo(&folder, name, &["check"]);
+            assert!(checked.stderr.contains("event `heard` is neither used nor"), "{checked:?}");
+        }
     }
 }
 

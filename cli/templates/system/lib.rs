@@ -1,7 +1,7 @@
 //! A system of two supervisors: the motors run only while the operator is heard.
 //!
-//! `cargo run` plays it, `cargo test` checks it. Break it and see: with `mail 1` in place of `now` a
-//! test fails and shows the way there.
+//! `cargo run` plays it, `cargo test` checks it. Break it and see: with `mail 1` in place of `now`
+//! a test fails and shows the way there.
 #![no_std]
 
 use cotama_core::{net, system};
