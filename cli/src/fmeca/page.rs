@@ -108,10 +108,11 @@ fn table(page: &mut String, rows: &[FmecaRow]) {
     }
     page.push_str("</tr></thead>\n<tbody>\n");
     for (at, row) in rows.iter().enumerate() {
-        let keys: String = ORDERS
-            .iter()
-            .map(|(name, _, key)| format!(" data-{name}=\"{}\"", key(at, row)))
-            .collect();
+        let mut keys = String::new();
+        for (name, _, key) in ORDERS {
+            // Writing to a string cannot fail.
+            let _ = write!(keys, " data-{name}=\"{}\"", key(at, row));
+        }
         let _ = write!(page, "<tr id=\"{id}\"{keys}><th scope=\"row\">{id}", id = row.id);
         for (column, cell) in COLUMNS.iter().zip(cells(row)) {
             let class = if *column == "MTBF" { " class=\"n\"" } else { "" };
