@@ -19,6 +19,7 @@ mod models;
 mod new;
 mod plan;
 mod questions;
+mod reference;
 mod replay;
 mod run;
 mod schemas;
