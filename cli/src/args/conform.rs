@@ -31,7 +31,7 @@ Examples:
   $ cotama conform door door.jsonl
   $ sed /EndOpen/d door.jsonl | cotama conform door -   # nothing opens it: exit code 1
   $ sed s/7000/7020/ door.jsonl | cotama conform door - --tolerance 50 --json
-  $ cotama run delivery --no-report --trace delivery.jsonl && cotama conform delivery delivery.jsonl";
+  $ cotama run delivery --no-report --trace run.jsonl && cotama conform delivery run.jsonl";
 
 #[derive(Args, Debug)]
 pub(crate) struct ConformArgs {

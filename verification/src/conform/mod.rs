@@ -17,7 +17,7 @@
 //!
 //! | line | what it says |
 //! | --- | --- |
-//! | `event` | the model was told it, `NET.EVENT` in a system; `"ignored"` says whether it used it |
+//! | `event` | the model was told it, `NET.EVENT` in a system; `"ignored"`: whether in vain |
 //! | `fired` | the transition fired, `NET.TRANSITION` in a system |
 //! | `round` | a round of a system took place: each net read its mailboxes |
 //! | `end` | until then nothing else happened; else the recording ends with its last line |

@@ -110,8 +110,8 @@ impl Recording {
     ///
     /// ```
     /// use cotama_verification::conform::Recording;
-    /// let error = Recording::read("log", "{\"t_ms\":5,\"round\":true}\n{\"t_ms\":4,\"end\":true}");
-    /// let error = error.unwrap_err().to_string();
+    /// let text = "{\"t_ms\":5,\"round\":true}\n{\"t_ms\":4,\"end\":true}";
+    /// let error = Recording::read("log", text).unwrap_err().to_string();
     /// assert!(error.starts_with("log:2:1: the time goes back from 5 ms to 4 ms"), "{error}");
     /// ```
     pub fn read(source_name: &str, text: &str) -> Result<Self, RecordingError> {
