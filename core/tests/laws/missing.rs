@@ -52,17 +52,14 @@ fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
         let Some(text) = said(&owned) else { continue };
         let pairs = pasted(&owned, &text);
         let told = text.lines().find_map(|line| line.trim().strip_prefix("one of "));
-        match told {
-            Some(told) => {
-                let count: usize = told.split(' ').next().unwrap().parse().unwrap();
-                let without = text.matches("// no place is marked").count();
-                assert_eq!(count, pairs.len() + without, "{number}: {text}");
-                several += 1;
-            }
-            None => {
-                assert!(pairs.len() <= 1, "{number}: {text}");
-                one += 1;
-            }
+        if let Some(told) = told {
+            let count: usize = told.split(' ').next().unwrap().parse().unwrap();
+            let without = text.matches("// no place is marked").count();
+            assert_eq!(count, pairs.len() + without, "{number}: {text}");
+            several += 1;
+        } else {
+            assert!(pairs.len() <= 1, "{number}: {text}");
+            one += 1;
         }
         owned.ignored.extend(pairs);
         if let Some(rest) = said(&owned) {
