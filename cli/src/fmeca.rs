@@ -12,7 +12,7 @@ mod sheet;
 
 use crate::args::{FmecaArgs, FmecaFormat};
 use crate::exit::{Exit, Failure};
-use crate::model::near;
+use crate::names::near;
 use crate::output::{self, Screen};
 use crate::render;
 use crate::render::style::NAME;

@@ -4,7 +4,7 @@
 use crate::catalogue;
 use crate::exit::Failure;
 use crate::input;
-use crate::mission::quoted;
+use crate::names::quoted;
 use cotama_models::missions::embedded;
 
 /// A kind of file that some command reads.

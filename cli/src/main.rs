@@ -23,6 +23,7 @@ mod list;
 mod mission;
 mod model;
 mod models;
+mod names;
 mod new;
 mod output;
 mod plan;

@@ -4,7 +4,7 @@ use crate::args::{AllocatorName, Lost, Objective, Planning};
 use crate::exit::Failure;
 use crate::input;
 use crate::kind::{self, Kind};
-use crate::model::near;
+use crate::names::{is_name, near};
 use cotama_core::hardware::Equipment;
 use cotama_models::missions::{Definition, Mission, PlannedFor, embedded};
 use cotama_sim::options::{Aim, Planner};
@@ -84,11 +84,6 @@ pub(crate) fn planner(
     }
 }
 
-/// Whether this looks like a name and not like a path.
-pub(crate) fn is_name(text: &str) -> bool {
-    text != "-" && !text.contains(['/', '\\', '.'])
-}
-
 fn unknown(name: &str) -> Failure {
     let names: Vec<_> = embedded::embedded().iter().map(|mission| mission.name).collect();
     let guess = near(name, names.iter().copied())
@@ -125,16 +120,6 @@ fn with_limits(text: &str, wanted: [Option<u64>; 2]) -> Option<String> {
         }
     }
     Some(text)
-}
-
-/// A word as a shell takes it.
-pub(crate) fn quoted(word: &str) -> String {
-    let safe = |c: char| c.is_alphanumeric() || "-_./:=+@,".contains(c);
-    if !word.is_empty() && word.chars().all(safe) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 /// Hardware that was lost from the start: kinds with their units.

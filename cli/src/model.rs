@@ -5,7 +5,7 @@ use crate::exit::Failure;
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind;
-use crate::mission::is_name;
+use crate::names::{is_name, near};
 use cotama_core::net::Known;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::{Component, System};
@@ -92,19 +92,6 @@ fn unknown(name: &str, family: &str) -> Failure {
         "`cotama models` lists those that come with the program; or give the path of a PNML, JSON \
          or TINA (.net) file",
     )
-}
-
-/// The name that was probably meant: one with at most one wrong letter of three, or else one that
-/// begins with the word.
-pub(crate) fn near<'a>(word: &str, names: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    // The distance takes time that grows with both lengths.
-    let names = names.filter(|name| name.len() <= 64 && word.len() <= 64);
-    let like = |(distance, name): &(usize, &str)| {
-        let begins = word.len() >= 3 && name.starts_with(word);
-        *distance <= (name.chars().count() / 3).max(1) || begins
-    };
-    let names = names.map(|name| (strsim::damerau_levenshtein(word, name), name));
-    names.filter(like).min().map(|it| it.1)
 }
 
 /// The model in a file, or on standard input: in the format that the end of its name says, or its

@@ -6,7 +6,7 @@ use crate::answers::new::NewAnswer;
 use crate::args::{NewArgs, NewKind};
 use crate::exit::{Exit, Failure};
 use crate::input::plain;
-use crate::mission::quoted;
+use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
 use std::fmt::Write;

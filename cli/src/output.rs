@@ -4,7 +4,7 @@ use crate::answers::error::ErrorAnswer;
 use crate::args::Color;
 use crate::exit::Failure;
 use crate::input::plain;
-use crate::mission::quoted;
+use crate::names::quoted;
 use crate::render::fold::folded;
 use crate::render::snippet;
 use anstream::{AutoStream, ColorChoice};

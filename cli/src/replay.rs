@@ -7,6 +7,7 @@ use crate::file_errors::FileErrors;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::mission::{self, Loaded};
+use crate::names;
 use crate::output::{self, Screen};
 use crate::render;
 use crate::run::{body, ended, refused, write_files};
@@ -67,7 +68,7 @@ fn twice(args: &ReplayArgs, text: &str) -> Result<Again, Failure> {
     let Some(name) = &args.mission else {
         let message = "this is not a trace; a file of faults needs a mission";
         return Err(Failure::of(input::name(&args.file), message)
-            .help(format!("cotama replay {} --mission patrol", mission::quoted(&args.file))));
+            .help(format!("cotama replay {} --mission patrol", names::quoted(&args.file))));
     };
     let loaded = mission::load(name)?;
     let faults = Faults::parse(&args.file, text, &loaded.mission)?;

@@ -7,6 +7,7 @@ use crate::infeasible;
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::mission::{self, Loaded};
+use crate::names;
 use crate::output::{self, Screen};
 use crate::render;
 use crate::words::Words;
@@ -78,7 +79,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
 /// The command that suggests itself.
 fn next(args: &RunArgs, mission: &Mission, body: &RunBody) -> Option<String> {
     if let Some(trace) = &body.trace {
-        return Some(format!("cotama replay {}", mission::quoted(trace)));
+        return Some(format!("cotama replay {}", names::quoted(trace)));
     }
     let objective = mission::objective(args.objective, args.planning.allocator, mission);
     Words::of_run(args).after_run(body, objective.name())

@@ -2,7 +2,7 @@
 
 use crate::answers::{Outcome, PlanAnswer, Reason, Relaxation, RunBody, Status};
 use crate::args::{Lost, PlanArgs, Planning, ReplayArgs, RunArgs, STEPS};
-use crate::mission::quoted;
+use crate::names::quoted;
 use clap::ValueEnum;
 
 /// The options of a command about a mission, as far as they are not the usual ones.

@@ -3,9 +3,9 @@
 //!
 //! A block ```` ```console ```` shows commands (`$ cotama ...`) and what they print; `…` stands for
 //! any text in a line, and alone for any lines. `# exit code 1` behind a command says how it ends.
-//! A block with a name behind its language, ```` ```toml room.toml ````, is a file that the commands
-//! after it find in their folder. A page has one folder. `UPDATE_GOLDEN=1` writes the whole output
-//! of commands that print something else into the page.
+//! A block with a name behind its language, ```` ```toml room.toml ````, is a file that the
+//! commands after it find in their folder. A page has one folder. `UPDATE_GOLDEN=1` writes the
+//! whole output of commands that print something else into the page.
 
 use crate::common::Folder;
 use std::fmt::Write as _;

@@ -39,8 +39,8 @@ pub(crate) struct PlanArgs {
     #[command(flatten)]
     pub(crate) mission: MissionArg,
     /// What a plan is chosen for: the paper's rule, the most quality, the least energy, or all
-    /// plans of which none is better in duration, energy and quality [default: what the mission file
-    /// says, else quality]
+    /// plans of which none is better in duration, energy and quality [default: what the mission
+    /// file says, else quality]
     #[arg(long, value_name = "WHAT")]
     #[arg(value_parser = objectives(&["paper", "quality", "min-energy", "front"]))]
     pub(crate) objective: Option<Objective>,

@@ -154,8 +154,8 @@ fn lines(
     if wrong.is_empty() { Ok(properties) } else { Err(errors(source, text, wrong)) }
 }
 
-/// A property that was typed, named as it is written out. One that speaks of a single marking has to
-/// say of which.
+/// A property that was typed, named as it is written out. One that speaks of a single marking has
+/// to say of which.
 fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, PropertyError> {
     let (name, pt) = (text.trim(), subject.model.pt());
     if name == "deadlock_free" && pt.place(name).is_none() {

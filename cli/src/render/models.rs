@@ -211,7 +211,7 @@ fn next(row: &ModelRow) -> String {
     if row.name == "-" {
         return String::new();
     }
-    let name = visible(&crate::mission::quoted(&row.name));
+    let name = visible(&crate::names::quoted(&row.name));
     let commands = match row.kind {
         ModelKind::Net => vec![format!("simulate {name}"), format!("export {name} --format svg")],
         ModelKind::Family => {

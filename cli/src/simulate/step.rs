@@ -1,7 +1,7 @@
 //! The words of the command line: what is offered, and when.
 
 use crate::exit::Failure;
-use crate::model::near;
+use crate::names::near;
 use cotama_core::net::{EventId, Net};
 use cotama_core::units::Millis;
 use std::collections::BTreeMap;

@@ -54,7 +54,7 @@ pub trait Names {
 ///     pub mod bell {
 ///         places { Quiet: 1, Loud }
 ///         events { hush }
-///         transitions { ring: Quiet => Loud after 1 s; hush on hush: Loud => Quiet; }
+///         transitions { ring: Quiet => Loud after 1_000 ms; hush on hush: Loud => Quiet; }
 ///     }
 /// }
 /// use cotama_core::player::Player;

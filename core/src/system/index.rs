@@ -10,8 +10,8 @@ pub(super) const fn key(component: u16, id: u32) -> u64 {
     (component as u64) << 32 | id as u64
 }
 
-/// Finds the links to an event, those from an output, and the bindings of a place. Its memory is as long as the lists of
-/// the system.
+/// Finds the links to an event, those from an output, and the bindings of a place. Its memory is
+/// as long as the lists of the system.
 pub(super) struct Index<'i> {
     /// As many as links.
     pub(super) links: &'i mut [Entry],

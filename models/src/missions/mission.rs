@@ -1,7 +1,7 @@
 //! A mission: what a `panorama-mission/1` file says, with units, checked as a whole.
 //!
-//! `plan.objective` says what plans are chosen for: `"paper"`, the rule of PANORAMA; `"quality"`; or
-//! `"min-energy"`. Where it is left out, who plans decides.
+//! `plan.objective` says what plans are chosen for: `"paper"`, the rule of PANORAMA; `"quality"`;
+//! or `"min-energy"`. Where it is left out, who plans decides.
 //!
 //! # Supervised missions
 //!

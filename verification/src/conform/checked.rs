@@ -67,7 +67,8 @@ pub struct Verdict {
 /// };
 /// assert_eq!(told(5_500), None);
 /// let late = told(7_000).unwrap();
-/// assert_eq!((late.line, late.reason.as_str()), (3, "`off` had to fire by 6009 ms"));
+/// let reason = "`off` fired at 7000 ms, too late: it had to fire by 6009 ms";
+/// assert_eq!((late.line, late.reason.as_str()), (3, reason));
 /// ```
 pub fn conform(
     system: &System<'_>,

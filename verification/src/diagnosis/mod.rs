@@ -103,9 +103,9 @@ impl<'a> Case<'a> {
 /// Why a property holds or does not, shown by a run.
 ///
 /// It is written as text by `Display`, in lines of at most 100 characters, or as many as the
-/// precision says (`{:.58}`), with the middle of a long run left out; by [`json`](Self::json) whole;
-/// by [`html`](Self::html) as a page with pictures; by [`svg`](Self::svg) as one drawing. Names in
-/// sentences stand in backticks.
+/// precision says (`{:.58}`), with the middle of a long run left out; by [`json`](Self::json)
+/// whole; by [`html`](Self::html) as a page with pictures; by [`svg`](Self::svg) as one drawing.
+/// Names in sentences stand in backticks.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnosis {
     /// The name of the net.

@@ -16,7 +16,7 @@
 //!     pub mod lamp {
 //!         places { Dark: 1, Lit }
 //!         events { press }
-//!         transitions { on on press: Dark => Lit; off: Lit => Dark after 5 s; }
+//!         transitions { on on press: Dark => Lit; off: Lit => Dark after 5_000 ms; }
 //!     }
 //! }
 //! let stage = Stage::of(&System::alone(&[Component::alone(&lamp::NET)]));

@@ -7,7 +7,7 @@
 //! | [`bound`], [`bound_from_start`] | least and most time to a marked place |
 //! | [`reach`], [`deadlock`] | whether a marking can be reached, and what to fire when |
 //! | [`schedule`] | dates for a firing sequence |
-//! | [`from_net`], [`exported`], [`to_net`] | a [`Net`](cotama_core::net::Net) as a time net, and back |
+//! | [`from_net`], [`exported`], [`to_net`] | a [`Net`](cotama_core::net::Net) as one, and back |
 //!
 //! [`TimeNet`] says what a net means; [`tina`](crate::tina) reads it from files. All answers are
 //! exact, in dense time, with open bounds where they are open. What a limit cuts short is said to

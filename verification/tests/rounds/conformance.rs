@@ -5,7 +5,7 @@ use crate::shared;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{EventId, Net, OutputId, Place, PlaceId, Role};
 use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player};
-use cotama_core::system::{Clear, Component, Delivery, Link, Of, System};
+use cotama_core::system::{Clear, Component, Delivery, Link, Of, System, SystemDefect};
 use cotama_core::units::Millis;
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::flat::{FlatError, Rounds, Size, rounds};
@@ -200,11 +200,16 @@ fn system(draw: &mut Draw, shares: bool) -> System<'static> {
 }
 
 /// Compares so many; how many were compared, their states, and how many are endless.
-fn compared(seeds: u64, shares: bool) -> (usize, usize, usize) {
+fn compared(systems: usize, shares: bool) -> (usize, usize, usize) {
     let (mut compared, mut states, mut endless) = (0, 0, 0);
-    for seed in 0..seeds {
-        let system = system(&mut Draw(seed), shares);
-        assert_eq!(system.defect(), None, "{seed}");
+    // A transition that mails more than fits is drawn, too, and is a defect.
+    let drawn = (0..).map(|seed| (seed, system(&mut Draw(seed), shares)));
+    let sound = drawn.filter(|(seed, it)| match it.defect() {
+        None => true,
+        Some(SystemDefect::Overfills(_)) => false,
+        Some(other) => panic!("{seed}: {other}"),
+    });
+    for (seed, system) in sound.take(systems) {
         let rounds = match rounds(&system) {
             Ok(rounds) => rounds,
             Err(FlatError::Endless { .. }) => {
@@ -223,12 +228,12 @@ fn compared(seeds: u64, shares: bool) -> (usize, usize, usize) {
 
 #[test]
 fn players_and_nets_of_rounds_agree() {
-    assert_eq!(compared(400, false), (400, 3_369, 0));
+    assert_eq!(compared(400, false), (400, 3_358, 0));
 }
 
 #[test]
 fn players_and_nets_of_rounds_agree_with_shared_places() {
-    assert_eq!(compared(400, true), (366, 2_703, 34));
+    assert_eq!(compared(400, true), (364, 2_706, 36));
 }
 
 #[test]

@@ -72,8 +72,8 @@ fn three_sentences_tell_the_story_of_the_patrol() {
          118.0 m.",
         "The robot planned again 3 times: at 63.4 m, as the energy margin had come below zero; at \
          118.0 m, as one laser was lost; at 170.0 m, as the energy margin had come below zero.",
-        "All 17 activities are done after 545.9 s and 187.0 m; 54.1 s (9.0 %) and 31.4 J (0.4 %) of \
-         the limits are left.",
+        "All 17 activities are done after 545.9 s and 187.0 m; 54.1 s (9.0 %) and 31.4 J (0.4 %) \
+         of the limits are left.",
     ];
     assert_eq!(story(&html(&patrol())), expected);
 }
@@ -81,14 +81,14 @@ fn three_sentences_tell_the_story_of_the_patrol() {
 #[test]
 fn three_sentences_tell_the_story_of_the_delivery() {
     let expected = [
-        "4 failures on the way: at 3.0 m, RT1: MCL, deadline missed again and again; at 12.0 m, LOC2: \
-         map, map wrong at this place (uncharted obstacle); at 26.0 m, SON1: sonar array, one \
-         transducer stuck at maximum range; at 34.0 m, LOC3: odometry only (degraded mode), drift \
+        "4 failures on the way: at 3.0 m, RT1: MCL, deadline missed again and again; at 12.0 m, \
+         LOC2: map, map wrong at this place (uncharted obstacle); at 26.0 m, SON1: sonar array, \
+         one transducer stuck at maximum range; at 34.0 m, LOC3: odometry only (degraded mode), drift \
          beyond the corridor width.",
-        "The adapter took fewer particles after RT1; the operator was asked after LOC2 and LOC3; the \
-         adapter went on without sonars after SON1; the rest was planned again after SON1.",
-        "All 4 activities are done after 546.3 s and 80.0 m; 353.7 s (39.3 %) and 3794.6 J (52.7 %) \
-         of the limits are left.",
+        "The adapter took fewer particles after RT1; the operator was asked after LOC2 and LOC3; \
+         the adapter went on without sonars after SON1; the rest was planned again after SON1.",
+        "All 4 activities are done after 546.3 s and 80.0 m; 353.7 s (39.3 %) and 3794.6 J \
+         (52.7 %) of the limits are left.",
     ];
     assert_eq!(story(&html(&delivery_under(FaultChoice::Script))), expected);
     let quiet = story(&html(&delivery_under(FaultChoice::None)));

@@ -128,10 +128,25 @@ pub(super) struct Sync {
 pub(super) enum Expression {
     Number(u64),
     Variable(String),
-    Predicate { op: &'static str },
-    Unary { op: &'static str, exp: Box<Expression> },
-    Binary { op: &'static str, left: Box<Expression>, right: Box<Expression> },
-    Filter { op: &'static str, fun: &'static str, values: Box<Expression>, states: Box<Expression> },
+    Predicate {
+        op: &'static str,
+    },
+    Unary {
+        op: &'static str,
+        exp: Box<Expression>,
+    },
+    Binary {
+        op: &'static str,
+        left: Box<Expression>,
+        right: Box<Expression>,
+    },
+    /// The values of an expression in some states, and what is made of them.
+    Filter {
+        op: &'static str,
+        fun: &'static str,
+        values: Box<Expression>,
+        states: Box<Expression>,
+    },
 }
 
 impl Expression {
