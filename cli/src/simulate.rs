@@ -14,7 +14,7 @@ use crate::output::{self, Screen};
 use crate::render;
 use cotama_core::units::Millis;
 use cotama_verification::conform::SCHEMA;
-use cotama_verification::play::{Fired, NotPlayed, Stage};
+use cotama_verification::play::{Fired, NotPlayed, Numbered};
 use serde_json::{Value, json};
 use session::{Endless, Session};
 use std::io::IsTerminal;
@@ -22,7 +22,7 @@ use step::{Step, Words};
 
 /// Plays a net or a system.
 pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let stage = model::with_system(&args.model.model, Stage::of)?;
+    let numbered = model::with_system(&args.model.model, Numbered::of)?;
     let taken = args.model.model == "-";
     let here = || std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let by_hand = args.interactive
@@ -33,7 +33,7 @@ pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Fai
         )
         .help("give the path of the model"));
     }
-    if args.trace.is_some() && args.rounds && !stage.is_system() {
+    if args.trace.is_some() && args.rounds && !numbered.is_system() {
         return Err(Failure::new(
             "--trace records events one after the other, and synchronous rounds have many at once",
         )
@@ -46,13 +46,13 @@ pub(crate) fn simulate(args: &SimulateArgs, screen: &Screen) -> Result<Exit, Fai
     };
     // In a plain place/transition net, without events and time, no transition would ever wait for
     // anything. There each one gets an event of its own name.
-    let by_name = stage.is_plain();
-    let stage = if by_name { stage.choosing(|_| true, Millis(0)) } else { stage };
-    let view = stage.whole().view();
+    let by_name = numbered.is_plain();
+    let numbered = if by_name { numbered.choosing(|_| true, Millis(0)) } else { numbered };
+    let view = numbered.whole().view();
     let net = view.net();
     let mut ended = Ok(Exit::Success);
-    let played = stage.play(Millis(0), &mut |game, fired| {
-        let session = Session::new(&stage, &net, game, args.rounds);
+    let played = numbered.play(Millis(0), &mut |game, fired| {
+        let session = Session::new(&numbered, &net, game, args.rounds);
         ended = if by_hand {
             let mut session = session;
             let begun = session.begin(&fired);

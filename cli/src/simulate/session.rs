@@ -9,7 +9,7 @@ use crate::answers::model::{
 use cotama_core::net::{Arc, EventId, Net, OutputId, PlaceId, Transition, TransitionId};
 use cotama_core::player::{Stepped, Why};
 use cotama_core::units::Millis;
-use cotama_verification::play::{Fired, Game, Stage, Unused};
+use cotama_verification::play::{Fired, Game, Numbered, Unused};
 use std::collections::BTreeMap;
 
 /// The most transitions that fire in one session.
@@ -25,7 +25,7 @@ pub(super) struct Endless;
 pub(super) struct Session<'n, 'c> {
     net: &'n Net<'n>,
     /// Of a system, which reads its mail in rounds.
-    stage: &'n Stage,
+    numbered: &'n Numbered,
     game: Box<dyn Game<'c> + 'c>,
     rounds: bool,
     marking: Vec<u32>,
@@ -44,13 +44,13 @@ pub(super) struct Saved<'c> {
 impl<'n, 'c> Session<'n, 'c> {
     /// A game that has not begun to be recorded.
     pub(super) fn new(
-        stage: &'n Stage,
+        numbered: &'n Numbered,
         net: &'n Net<'n>,
         game: Box<dyn Game<'c> + 'c>,
         rounds: bool,
     ) -> Self {
         let marking = net.places.iter().map(|place| place.initial).collect();
-        Self { net, stage, game, rounds, marking, steps: vec![], firings: 0 }
+        Self { net, numbered, game, rounds, marking, steps: vec![], firings: 0 }
     }
 
     /// Records what fired at the start, and lets fire what is due at time zero.
@@ -63,7 +63,7 @@ impl<'n, 'c> Session<'n, 'c> {
 
     /// Does what a step says.
     pub(super) fn apply(&mut self, step: &Step) -> Result<(), Endless> {
-        let done = match (self.rounds, self.stage.is_system()) {
+        let done = match (self.rounds, self.numbered.is_system()) {
             (true, false) => self.synchronous(step),
             (true, true) => self.round(step.at).and_then(|()| self.offer(step)),
             (false, _) => self.advance(step.at).and_then(|()| self.offer(step)),
@@ -106,7 +106,7 @@ impl<'n, 'c> Session<'n, 'c> {
     /// Time passes; a round follows as soon as something waits in a mailbox.
     fn advance(&mut self, to: Millis) -> Result<(), Endless> {
         for _ in 0..MOST_ROUNDS {
-            let woken = self.game.wake_at().filter(|_| self.stage.is_system());
+            let woken = self.game.wake_at().filter(|_| self.numbered.is_system());
             let next = woken.map_or(to, |it| it.min(to));
             self.pass(next)?;
             if self.game.round_is_due() {
@@ -126,7 +126,8 @@ impl<'n, 'c> Session<'n, 'c> {
             net.places.iter().zip(&mut self.marking).zip((0..).map(PlaceId))
         {
             let now = self.game.tokens(id);
-            if std::mem::replace(tokens, now) != now && (id.0 as usize) < self.stage.shown_places()
+            if std::mem::replace(tokens, now) != now
+                && (id.0 as usize) < self.numbered.shown_places()
             {
                 changed.push(TokensRow { place: place.name.to_owned(), tokens: now });
             }
@@ -229,7 +230,7 @@ impl<'n, 'c> Session<'n, 'c> {
         let changed = before.iter().filter_map(|(&place, &before)| {
             let tokens = *self.marking.get(place as usize)?;
             let name = net.places.get(place as usize)?.name;
-            let shown = (place as usize) < self.stage.shown_places();
+            let shown = (place as usize) < self.numbered.shown_places();
             (tokens != before && shown).then(|| TokensRow { place: name.to_owned(), tokens })
         });
         let outputs = transitions().flat_map(|it| it.emits);
@@ -300,7 +301,7 @@ impl<'n, 'c> Session<'n, 'c> {
                 Err(refusal) => unused.push(refusal),
             }
         }
-        let marked = self.net.places.iter().zip(&self.marking).take(self.stage.shown_places());
+        let marked = self.net.places.iter().zip(&self.marking).take(self.numbered.shown_places());
         SimulateAnswer {
             schema: "cotama/simulate/1",
             model: self.net.name.to_owned(),
@@ -321,7 +322,7 @@ impl<'n, 'c> Session<'n, 'c> {
     /// The transition that would use an event now, or why none would.
     fn prospect(&self, event: EventId) -> Result<String, RefusalRow> {
         let (now, mut game, mut fired) = (self.now(), self.game.fork(), vec![]);
-        if self.rounds && !self.stage.is_system() {
+        if self.rounds && !self.numbered.is_system() {
             let round = game.step(now, &[event], &mut fired);
             let user = fired.iter().find(|it| self.is_on(it, event));
             let user = user.ok_or_else(|| self.refused_round(&*self.game, now, round, event))?;

@@ -1,6 +1,6 @@
 //! What could have been recorded in place of what was.
 
-use crate::play::{Game, Stage, Unused};
+use crate::play::{Game, Numbered, Unused};
 use cotama_core::net::{EventId, TransitionId};
 use cotama_core::player::Why;
 use cotama_core::units::Millis;
@@ -36,17 +36,17 @@ pub struct MayTell {
 
 impl Allowed {
     /// What is allowed in a game.
-    pub(super) fn of(stage: &Stage, game: &dyn Game<'_>) -> Self {
-        let whole = stage.whole();
+    pub(super) fn of(numbered: &Numbered, game: &dyn Game<'_>) -> Self {
+        let whole = numbered.whole();
         let ids = (0..whole.transitions.len() as u32).map(TransitionId);
         let fired = ids.filter_map(|id| {
-            let (earliest, latest) = window(stage, game, id)?;
-            Some(MayFire { transition: stage.transition(id).to_owned(), earliest, latest })
+            let (earliest, latest) = window(numbered, game, id)?;
+            Some(MayFire { transition: numbered.transition(id).to_owned(), earliest, latest })
         });
-        let events = whole.events.iter().take(stage.told_events()).zip((0..).map(EventId));
+        let events = whole.events.iter().take(numbered.told_events()).zip((0..).map(EventId));
         let events = events.filter_map(|(event, id)| {
             let fired = game.fork().offer(game.now(), id, &mut Vec::new()).ok()?;
-            let transition = stage.transition(fired).to_owned();
+            let transition = numbered.transition(fired).to_owned();
             Some(MayTell { event: event.name.clone(), transition })
         });
         Self { fired: fired.collect(), events: events.collect() }
@@ -62,12 +62,12 @@ impl Allowed {
 
 /// From when on, and until when, a transition that is chosen can fire, if nothing else happens.
 pub(super) fn window(
-    stage: &Stage,
+    numbered: &Numbered,
     game: &dyn Game<'_>,
     id: TransitionId,
 ) -> Option<(Millis, Option<Millis>)> {
-    let choice = stage.choice(id)?;
-    let within = stage.whole().transitions.get(id.0 as usize)?.within;
+    let choice = numbered.choice(id)?;
+    let within = numbered.whole().transitions.get(id.0 as usize)?.within;
     let now = game.now().0;
     let at = |at: u64| offered(game, Millis(at), choice);
     let earliest = match at(now) {

@@ -4,7 +4,7 @@ use super::allowed::{Allowed, offered, window};
 use super::departure::{Departure, Refused, unused};
 use super::names::Names;
 use super::read::{Line, Recording, What};
-use crate::play::{Fired, Game, Stage, Unused};
+use crate::play::{Fired, Game, Numbered, Unused};
 use cotama_core::net::{EventId, TransitionId};
 use cotama_core::player::Why;
 use cotama_core::system::System;
@@ -75,25 +75,25 @@ pub fn conform(
     recording: &Recording,
     options: Options,
 ) -> Result<Verdict, Refused> {
-    let stage = Stage::of(system);
-    let nets = if stage.is_system() { stage.net_names() } else { &[] };
+    let numbered = Numbered::of(system);
+    let nets = if numbered.is_system() { numbered.net_names() } else { &[] };
     if let Some(name) = recording.silent.iter().find(|it| !nets.contains(it)) {
         let (at, known) = (None, nets.to_vec());
         return Err(Refused::Name { at, kind: "net", name: name.clone(), known });
     }
-    let plain = stage.is_plain();
-    let whole = stage.whole().clone();
+    let plain = numbered.is_plain();
+    let whole = numbered.whole().clone();
     let is_silent: Vec<_> = (0..whole.transitions.len() as u32)
-        .map(|id| recording.silent.iter().any(|it| it == stage.net_name(TransitionId(id))))
+        .map(|id| recording.silent.iter().any(|it| it == numbered.net_name(TransitionId(id))))
         .collect();
     let is_chosen = |TransitionId(id): TransitionId| {
         let timed = whole.transitions[id as usize].within.is_some();
         (plain || timed) && !is_silent[id as usize]
     };
-    let stage = stage.choosing(is_chosen, options.tolerance);
+    let numbered = numbered.choosing(is_chosen, options.tolerance);
     let mut result = Ok(Verdict::default());
-    let played = stage.play(recording.start, &mut |game, fired| {
-        let checked = Checked::new(&stage, &is_silent, game, recording, options);
+    let played = numbered.play(recording.start, &mut |game, fired| {
+        let checked = Checked::new(&numbered, &is_silent, game, recording, options);
         result = checked.all(recording, fired);
     });
     played.map_err(Refused::Model)?;
@@ -109,7 +109,7 @@ enum Stop {
 
 /// A game that follows a recording.
 struct Checked<'s, 'c> {
-    stage: &'s Stage,
+    numbered: &'s Numbered,
     is_silent: &'s [bool],
     game: Box<dyn Game<'c> + 'c>,
     /// What has fired and is not recorded yet.
@@ -129,23 +129,23 @@ struct Checked<'s, 'c> {
 
 impl<'s, 'c> Checked<'s, 'c> {
     fn new(
-        stage: &'s Stage,
+        numbered: &'s Numbered,
         is_silent: &'s [bool],
         game: Box<dyn Game<'c> + 'c>,
         recording: &Recording,
         options: Options,
     ) -> Self {
-        let transitions = stage.whole().transitions.iter().zip((0..).map(TransitionId));
+        let transitions = numbered.whole().transitions.iter().zip((0..).map(TransitionId));
         let forced = transitions.filter(|(it, id)| {
-            stage.choice(*id).is_some() && it.within.is_some_and(|it| it.latest.is_some())
+            numbered.choice(*id).is_some() && it.within.is_some_and(|it| it.latest.is_some())
         });
         let says_round = recording.lines.iter().any(|it| it.what == What::Round);
         Self {
-            stage,
+            numbered,
             is_silent,
             game,
             pending: VecDeque::new(),
-            names: Names::of(stage),
+            names: Names::of(numbered),
             forced: forced.map(|it| it.1).collect(),
             tolerance: options.tolerance.0,
             round_every: recording.round_every,
@@ -187,13 +187,13 @@ impl<'s, 'c> Checked<'s, 'c> {
     }
 
     fn departs(&self, reason: String) -> Stop {
-        Stop::Departs(reason, Allowed::of(self.stage, &*self.game))
+        Stop::Departs(reason, Allowed::of(self.numbered, &*self.game))
     }
 
     /// That what has fired is not recorded.
     fn missing(&self, first: Fired, before: &str) -> Stop {
-        let name = self.stage.transition(first.transition);
-        let on = self.stage.needs_event(first.transition);
+        let name = self.numbered.transition(first.transition);
+        let on = self.numbered.needs_event(first.transition);
         let on = on.map_or_else(String::new, |it| format!(" on `{it}`"));
         let reason = format!("{before}`{name}` had to fire{on} at {} ms", first.at.0);
         Stop::Departs(reason, self.must(first))
@@ -201,7 +201,7 @@ impl<'s, 'c> Checked<'s, 'c> {
 
     fn must(&self, first: Fired) -> Allowed {
         let latest = Millis(first.at.0.saturating_add(self.tolerance));
-        Allowed::only(self.stage.transition(first.transition), first.at, latest)
+        Allowed::only(self.numbered.transition(first.transition), first.at, latest)
     }
 
     fn line(&mut self, line: &Line) -> Result<(), Stop> {
@@ -233,14 +233,14 @@ impl<'s, 'c> Checked<'s, 'c> {
         let mut fired = Vec::new();
         match (self.game.offer(at, event, &mut fired), before) {
             (Ok(transition), Some(before)) => {
-                let by = self.stage.transition(transition);
+                let by = self.numbered.transition(transition);
                 let reason = format!("`{name}` is recorded as ignored, and `{by}` fires on it");
                 self.game = before;
                 return Err(self.departs(reason));
             }
             (Ok(_), None) => self.hear(fired),
             (Err(why), _) => {
-                let why = unused(self.stage, &*self.game, event, why);
+                let why = unused(self.numbered, &*self.game, event, why);
                 if ignored == Some(false) {
                     let reason = format!("`{name}` is told, and nothing fires on it: {why}");
                     return Err(self.departs(reason));
@@ -258,11 +258,11 @@ impl<'s, 'c> Checked<'s, 'c> {
             return Ok(());
         }
         if let Some(&first) = self.pending.front() {
-            if self.stage.transition(first.transition) != name {
+            if self.numbered.transition(first.transition) != name {
                 let before = format!("`{name}` fired, and before it ");
                 return Err(self.missing(first, &before));
             }
-        } else if let Some(choice) = self.stage.choice(id) {
+        } else if let Some(choice) = self.numbered.choice(id) {
             let mut fired = Vec::new();
             if let Err(why) = self.game.offer(at, choice, &mut fired) {
                 return Err(self.cannot(at, name, id, why));
@@ -279,21 +279,21 @@ impl<'s, 'c> Checked<'s, 'c> {
     /// That a transition was chosen that cannot fire.
     fn cannot(&self, at: Millis, name: &str, id: TransitionId, why: Unused) -> Stop {
         if let Unused::Ignored(Why::TooEarly(_)) = why
-            && let Some((earliest, _)) = window(self.stage, &*self.game, id)
+            && let Some((earliest, _)) = window(self.numbered, &*self.game, id)
         {
             return self.departs(format!(
                 "`{name}` fired at {} ms, too early: it could not fire before {} ms",
                 at.0, earliest.0
             ));
         }
-        let event = self.stage.choice(id).unwrap_or(EventId(u32::MAX));
-        let why = unused(self.stage, &*self.game, event, why);
+        let event = self.numbered.choice(id).unwrap_or(EventId(u32::MAX));
+        let why = unused(self.numbered, &*self.game, event, why);
         self.departs(format!("`{name}` fired, and could not: {why}"))
     }
 
     /// That a transition was recorded that nothing made fire.
     fn unasked(&self, name: &str, id: TransitionId) -> Stop {
-        let reason = match (self.stage.needs_event(id), &self.unused) {
+        let reason = match (self.numbered.needs_event(id), &self.unused) {
             (Some(event), Some((last, why))) if *last == event => {
                 format!("`{name}` fired, but the model does not use `{event}` here: {why}")
             }
@@ -338,7 +338,7 @@ impl<'s, 'c> Checked<'s, 'c> {
         if let Some(&first) = self.pending.front()
             && first.at.0.saturating_add(self.tolerance) < at.0
         {
-            let name = self.stage.transition(first.transition);
+            let name = self.numbered.transition(first.transition);
             if says(name) {
                 let reason = format!(
                     "`{name}` fired at {} ms, too late: it had to fire at {} ms",
@@ -351,7 +351,7 @@ impl<'s, 'c> Checked<'s, 'c> {
         if at > self.game.now()
             && let Some((latest, id)) = self.overdue(at)
         {
-            let name = self.stage.transition(id);
+            let name = self.numbered.transition(id);
             let had = format!("had to fire by {} ms", latest.0);
             return Err(self.departs(if says(name) {
                 format!("`{name}` fired at {} ms, too late: it {had}", at.0)
@@ -378,11 +378,11 @@ impl<'s, 'c> Checked<'s, 'c> {
             matches!(offered(&*self.game, at, event), Err(Unused::Ignored(Why::TooLate(_))))
         };
         let overdue = self.forced.iter().filter_map(|&id| {
-            let event = self.stage.choice(id)?;
+            let event = self.numbered.choice(id)?;
             if !late(at, event) || late(self.game.now(), event) {
                 return None;
             }
-            let (_, latest) = window(self.stage, &*self.game, id)?;
+            let (_, latest) = window(self.numbered, &*self.game, id)?;
             // What waits for room in a mailbox does not have to fire.
             offered(&*self.game, latest?, event).ok()?;
             Some((latest?, id))

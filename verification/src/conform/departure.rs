@@ -1,7 +1,7 @@
 //! Where a recording departs from the model, in words.
 
 use super::allowed::Allowed;
-use crate::play::{Game, NotPlayed, Stage, Unused, condition, not_enabled, overflowing};
+use crate::play::{Game, NotPlayed, Numbered, Unused, condition, not_enabled, overflowing};
 use cotama_core::net::{Arc, EventId, TransitionId, Within};
 use cotama_core::player::Why;
 use cotama_core::units::Millis;
@@ -40,8 +40,13 @@ pub enum Refused {
 }
 
 /// Why no transition uses an event now.
-pub(super) fn unused(stage: &Stage, game: &dyn Game<'_>, event: EventId, why: Unused) -> String {
-    let whole = stage.whole();
+pub(super) fn unused(
+    numbered: &Numbered,
+    game: &dyn Game<'_>,
+    event: EventId,
+    why: Unused,
+) -> String {
+    let whole = numbered.whole();
     let view = whole.view();
     let net = view.net();
     let tokens = |place| game.tokens(place);
@@ -63,14 +68,14 @@ pub(super) fn unused(stage: &Stage, game: &dyn Game<'_>, event: EventId, why: Un
         Unused::Ignored(Why::TooEarly(id)) => {
             format!(
                 "`{}` can fire {} after it is enabled, not before",
-                stage.transition(id),
+                numbered.transition(id),
                 within(id)
             )
         }
         Unused::Ignored(Why::TooLate(id)) => {
             format!(
                 "`{}` can fire {} after it is enabled, not later",
-                stage.transition(id),
+                numbered.transition(id),
                 within(id)
             )
         }
@@ -79,7 +84,7 @@ pub(super) fn unused(stage: &Stage, game: &dyn Game<'_>, event: EventId, why: Un
             let full = it.and_then(|it| overflowing(&net, &tokens, it));
             let (place, bound) =
                 full.map_or(("a place", String::new()), |it| (it.0, format!(" {}", it.1)));
-            format!("`{}` would put more than{bound} tokens into {place}", stage.transition(id))
+            format!("`{}` would put more than{bound} tokens into {place}", numbered.transition(id))
         }
         Unused::Ignored(_) => not_enabled(&net, &tokens, event),
     }

@@ -2,7 +2,7 @@
 
 use super::departure::Refused;
 use super::read::{Recording, What};
-use crate::play::Stage;
+use crate::play::Numbered;
 use cotama_core::net::{EventId, TransitionId};
 use std::collections::HashMap;
 
@@ -13,9 +13,9 @@ pub(super) struct Names<'s> {
 }
 
 impl<'s> Names<'s> {
-    pub(super) fn of(stage: &'s Stage) -> Self {
-        let whole = stage.whole();
-        let events = whole.events.iter().take(stage.told_events());
+    pub(super) fn of(numbered: &'s Numbered) -> Self {
+        let whole = numbered.whole();
+        let events = whole.events.iter().take(numbered.told_events());
         // Of several of one name, which a file can have, the first is meant.
         let mut it = Self { events: HashMap::new(), transitions: HashMap::new() };
         for (event, id) in events.zip((0..).map(EventId)) {

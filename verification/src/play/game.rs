@@ -1,6 +1,6 @@
 //! A player of any system, whatever its size.
 
-use super::stage::{Seat, Stage};
+use super::numbered::{Numbered, Seat};
 use cotama_core::net::{Defect, EventId, Place, PlaceId, TransitionId};
 use cotama_core::player::{
     Checked, Firing, Loaded, Outcome, Packed, Player, Stepped, Why, clocks, words,
@@ -16,7 +16,7 @@ const MOST_WORDS: usize = 256;
 const MOST_CLOCKS: usize = 256;
 const SLOTS: usize = u16::MAX as usize;
 
-/// A transition that fired, by its number on the [`Stage`].
+/// A transition that fired, by its number on the [`Numbered`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Fired {
     /// The transition.
@@ -34,12 +34,12 @@ pub enum Unused {
     Ignored(Why<TransitionId>),
     /// A mailbox on the way is full, and nothing has happened.
     Full {
-        /// The place on the [`Stage`] that counts what waits in it.
+        /// The place on the [`Numbered`] that counts what waits in it.
         mailbox: PlaceId,
     },
 }
 
-/// A net or a system in play. Numbers are those of its [`Stage`].
+/// A net or a system in play. Numbers are those of its [`Numbered`].
 pub trait Game<'c> {
     /// As [`Player::now`].
     fn now(&self) -> Millis;
@@ -75,13 +75,13 @@ type Played<'c, const W: usize, const C: usize> = Checked<Loaded<'c, W, C, SLOTS
 #[derive(Clone, Copy)]
 struct Playing<'c, const W: usize, const C: usize> {
     player: Player<Played<'c, W, C>, W, C, SLOTS>,
-    stage: &'c Stage,
+    numbered: &'c Numbered,
 }
 
 type Seen<'f, 'c, const W: usize, const C: usize> = Firing<'f, Played<'c, W, C>>;
 
-fn told<const W: usize, const C: usize>(stage: &Stage, it: &Seen<'_, '_, W, C>) -> Fired {
-    Fired { transition: stage.number(it.id), at: it.at, offered: it.event.is_some() }
+fn told<const W: usize, const C: usize>(numbered: &Numbered, it: &Seen<'_, '_, W, C>) -> Fired {
+    Fired { transition: numbered.number(it.id), at: it.at, offered: it.event.is_some() }
 }
 
 impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
@@ -98,7 +98,7 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
     }
 
     fn tokens(&self, place: PlaceId) -> u32 {
-        match self.stage.seat(place) {
+        match self.numbered.seat(place) {
             Some(Seat::Place(place)) => self.player.tokens(place),
             Some(Seat::Mailbox(event)) => self.player.waiting(&event),
             Some(Seat::Complement { of, bound }) => bound.saturating_sub(self.player.tokens(of)),
@@ -107,8 +107,8 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
     }
 
     fn advance(&mut self, to: Millis, fired: &mut Vec<Fired>) -> bool {
-        let stage = self.stage;
-        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        let numbered = self.numbered;
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(numbered, it));
         self.player.advance_with(to, &mut observer).behind
     }
 
@@ -118,28 +118,28 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
         event: EventId,
         fired: &mut Vec<Fired>,
     ) -> Result<TransitionId, Unused> {
-        let stage = self.stage;
-        let Some(event) = stage.event_of(event) else {
+        let numbered = self.numbered;
+        let Some(event) = numbered.event_of(event) else {
             return Err(Unused::Ignored(Why::NoSuchEvent));
         };
-        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
-        match self.player.offer_with(at, &event, &mut observer).map(|it| stage.number(it)) {
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(numbered, it));
+        match self.player.offer_with(at, &event, &mut observer).map(|it| numbered.number(it)) {
             Outcome::Fired { transition, .. } => Ok(transition),
             Outcome::Ignored { why } => Err(Unused::Ignored(why)),
-            Outcome::Refused { full } => Err(Unused::Full { mailbox: stage.mailbox(full) }),
+            Outcome::Refused { full } => Err(Unused::Full { mailbox: numbered.mailbox(full) }),
         }
     }
 
     fn round(&mut self, at: Millis, fired: &mut Vec<Fired>) -> bool {
-        let stage = self.stage;
-        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        let numbered = self.numbered;
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(numbered, it));
         self.player.round_with(at, &mut observer).behind
     }
 
     fn step(&mut self, at: Millis, events: &[EventId], fired: &mut Vec<Fired>) -> Stepped {
-        let stage = self.stage;
-        let events: Vec<_> = events.iter().filter_map(|&it| stage.event_of(it)).collect();
-        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(stage, it));
+        let numbered = self.numbered;
+        let events: Vec<_> = events.iter().filter_map(|&it| numbered.event_of(it)).collect();
+        let mut observer = |it: &Seen<'_, 'c, W, C>| fired.push(told(numbered, it));
         self.player.step_with(at, &events, &mut observer)
     }
 
@@ -151,7 +151,7 @@ impl<'c, const W: usize, const C: usize> Game<'c> for Playing<'c, W, C> {
 /// What is done with a game that has just begun, and with what fired at its start.
 type Then<'t> = dyn for<'c> FnMut(Box<dyn Game<'c> + 'c>, Vec<Fired>) + 't;
 
-impl Stage {
+impl Numbered {
     /// Plays it from its start, at this time.
     ///
     /// # Errors
@@ -195,7 +195,7 @@ impl Stage {
         let mut fired = Vec::new();
         let mut observer = |it: &Seen<'_, '_, W, C>| fired.push(told(self, it));
         let player = Player::<_, W, C, SLOTS>::start(program, start, &mut observer);
-        then(Box::new(Playing { player, stage: self }), fired);
+        then(Box::new(Playing { player, numbered: self }), fired);
         Ok(())
     }
 }

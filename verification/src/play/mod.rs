@@ -1,7 +1,7 @@
 //! Any net or system in play, whatever its size: events, rounds and time go in, what fired comes
 //! out.
 //!
-//! A [`Stage`] tells everything in a system by one number each, as if it were one net; a [`Game`]
+//! [`Numbered`] tells everything in a system by one number each, as if it were one net; a [`Game`]
 //! is a [`Player`](cotama_core::player::Player) behind these numbers.
 //!
 //! ```
@@ -9,7 +9,7 @@
 //! use cotama_core::net::EventId;
 //! use cotama_core::system::{Component, System};
 //! use cotama_core::units::Millis;
-//! use cotama_verification::play::Stage;
+//! use cotama_verification::play::Numbered;
 //!
 //! net! {
 //!     /// Goes out by itself.
@@ -19,14 +19,14 @@
 //!         transitions { on on press: Dark => Lit; off: Lit => Dark after 5_000 ms; }
 //!     }
 //! }
-//! let stage = Stage::of(&System::alone(&[Component::alone(&lamp::NET)]));
+//! let numbered = Numbered::of(&System::alone(&[Component::alone(&lamp::NET)]));
 //! let mut names = Vec::new();
-//! stage
+//! numbered
 //!     .play(Millis(0), &mut |mut game, _| {
 //!         let mut fired = Vec::new();
 //!         game.offer(Millis(0), EventId(0), &mut fired).unwrap();
 //!         game.advance(Millis(5_000), &mut fired);
-//!         names = fired.iter().map(|it| stage.transition(it.transition).to_owned()).collect();
+//!         names = fired.iter().map(|it| numbered.transition(it.transition).to_owned()).collect();
 //!     })
 //!     .unwrap();
 //! assert_eq!(names, ["on", "off"]);
@@ -34,8 +34,8 @@
 
 mod game;
 mod needs;
-mod stage;
+mod numbered;
 
 pub use game::{Fired, Game, NotPlayed, Unused};
 pub use needs::{condition, not_enabled, overflowing};
-pub use stage::Stage;
+pub use numbered::Numbered;

@@ -27,7 +27,7 @@ pub(super) enum Seat {
 /// `net.event.waiting`. Events that another net causes, and outputs that another net hears, are
 /// not listed.
 #[derive(Clone, Debug)]
-pub struct Stage {
+pub struct Numbered {
     whole: OwnedNet,
     nets: Vec<OwnedNet>,
     names: Vec<String>,
@@ -47,10 +47,10 @@ pub struct Stage {
     choices: Vec<Option<EventId>>,
 }
 
-impl Stage {
+impl Numbered {
     /// A system that fits together; what does not is found when it is played.
     pub fn of(system: &System<'_>) -> Self {
-        let mut stage = Self {
+        let mut numbered = Self {
             whole: OwnedNet::new(system.name, system.doc),
             nets: system.components.iter().map(|it| OwnedNet::from(it.net)).collect(),
             names: system.components.iter().map(|it| it.name.to_owned()).collect(),
@@ -65,8 +65,8 @@ impl Stage {
             first: Vec::new(),
             choices: Vec::new(),
         };
-        stage.lay_out(system);
-        stage
+        numbered.lay_out(system);
+        numbered
     }
 
     fn lay_out(&mut self, system: &System<'_>) {
