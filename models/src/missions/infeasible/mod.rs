@@ -28,7 +28,7 @@
 //! let why = explain(&mission, [600_000, 4_320_000], all).unwrap(); // 1.2 Wh instead of 2.4 Wh
 //! assert_eq!(why.reason, Reason::Limit { axis: 1, limit: 4_320_000, least: 4_675_896 });
 //! let relaxation = why.relaxations[0].wording(&mission);
-//! let raised = "raise the energy limit from 4320000 mJ to 4675896 mJ (+355896 mJ, 8.2 %)";
+//! let raised = "raise the energy limit from 4320 J to 4675.896 J (+355.896 J, 8.2 %)";
 //! assert_eq!(relaxation, raised);
 //! ```
 
