@@ -52,6 +52,7 @@ offers! {
 }
 
 /// An answer without a supervisor: what the call costs.
+// Of `no_mangle` see above: the name begins as those do.
 #[unsafe(no_mangle)]
 #[inline(never)]
 pub fn offer_nothing(fires: &mut bool, _: u64, _: Event) -> Outcome {
