@@ -58,6 +58,26 @@ use load::Aim;
 use rows::Rows;
 
 /// What a plan is chosen for.
+///
+/// ```
+/// use cotama_core::allocation::Allocator;
+/// use cotama_core::exact::{Exact, Item, Objective, Stage};
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// // Three ways: the best two are equal in quality, and differ in energy.
+/// let c = |energy, quality| Candidate { cost: [energy], quality, id: 0 };
+/// let ways = [c(3, 1), c(9, 5), c(7, 5)];
+/// let activities = [&ways[..]];
+/// let problem = Problem::new(&activities, [10], [0]).unwrap();
+/// let best = |objectives: &[Objective]| {
+///     let (mut items, mut stages, mut plan) = ([Item::EMPTY; 3], [Stage::EMPTY; 1], [0]);
+///     Exact::new(objectives, 100, &mut items, &mut stages).allocate(&problem, &mut plan).unwrap();
+///     plan[0]
+/// };
+/// assert_eq!(best(&[Objective::Least(0)]), 0);
+/// assert_eq!(best(&[Objective::Most(0)]), 1);
+/// assert_eq!(best(&[Objective::MostQuality, Objective::Least(0)]), 2);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Objective {
     /// The most total quality.
