@@ -122,6 +122,16 @@ pub enum Trigger {
 }
 
 /// Consumption so far against limits.
+///
+/// ```
+/// use cotama_core::monitor::Monitor;
+///
+/// let mut monitor = Monitor::new([600, 900], [0, 1]).unwrap();
+/// monitor.planned(&[500, 800]).unwrap();
+/// monitor.spend(&[200, 450]).unwrap();
+/// assert_eq!((monitor.used(), monitor.left()), ([200, 450], [400, 450]));
+/// assert_eq!(monitor.margins(&[300, 460]), Ok([100, -10])); // 10 mJ are short
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Monitor<const A: usize> {
     limits: [u64; A],

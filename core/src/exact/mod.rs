@@ -228,6 +228,23 @@ impl Budget {
 }
 
 /// The complete allocator, in memory from its caller.
+///
+/// ```
+/// use cotama_core::allocation::{Allocator, Answer};
+/// use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let c = |energy, quality| Candidate { cost: [energy], quality, id: 0 };
+/// let ways = [c(2, 1), c(4, 3), c(9, 4)];
+/// let activities = [&ways[..]; 3];
+/// let problem = Problem::new(&activities, [15], [0]).unwrap();
+/// let (mut items, mut stages) = ([Item::EMPTY; 9], [Stage::EMPTY; 3]);
+/// let (mut seen, mut plan) = ([Seen::EMPTY; 64], [0; 3]);
+/// let exact = Exact::new(&[Objective::MostQuality], 10_000, &mut items, &mut stages);
+/// let answer = exact.with_memory(&mut seen).allocate(&problem, &mut plan);
+/// let Ok(Answer::Planned(planned)) = answer else { panic!() };
+/// assert_eq!((plan, planned.quality, planned.optimal), ([1, 1, 1], 9, true));
+/// ```
 #[derive(Debug)]
 pub struct Exact<'m, const A: usize> {
     objectives: &'m [Objective],

@@ -209,6 +209,20 @@ pub struct Ignored {
 /// A net *rests* where nothing fires by itself now. On the way there it *passes* markings: those
 /// count as marked, but no event is offered in them. A *run* is what a player does from some
 /// instant on.
+///
+/// ```
+/// use cotama_core::{net, net::{Law, PlaceId}};
+/// net! {
+///     mod lamp {
+///         places { Off: 1, On }
+///         events { press }
+///         transitions { on on press: Off => On; off on press: On => Off; }
+///         laws { never_both(Off, On); always_can(Off); }
+///     }
+/// }
+/// let laws = [Law::NeverBoth(PlaceId(0), PlaceId(1)), Law::AlwaysCan(PlaceId(0))];
+/// assert_eq!(lamp::NET.laws, laws);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law<'n> {
     /// A weighted sum of tokens stays the same, also in passing: a place invariant.

@@ -4,6 +4,22 @@ use crate::net::data::EventId;
 use crate::system::data::Of;
 
 /// What became of an event.
+///
+/// ```
+/// use cotama_core::{net, player::{Outcome, Why}, units::Millis};
+/// net! {
+///     mod lamp {
+///         places { Off: 1, On, Warm }
+///         events { press }
+///         transitions { on on press: Off => On; heat: On => Warm; }
+///     }
+/// }
+/// let mut lamp = lamp::Player::new();
+/// let fired = Outcome::Fired { transition: lamp::Transition::on, settled: 1 }; // `heat` too
+/// assert_eq!(lamp.offer(Millis(0), &lamp::Event::press), fired);
+/// let ignored = Outcome::Ignored { why: Why::NotEnabled };
+/// assert_eq!(lamp.offer(Millis(1), &lamp::Event::press), ignored);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[must_use = "an event may have been ignored or refused"]
 pub enum Outcome<T> {

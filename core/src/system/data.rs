@@ -100,6 +100,36 @@ pub struct Link {
 }
 
 /// When an output causes an event.
+///
+/// ```
+/// use cotama_core::{net, player::Outcome, system, units::Millis};
+/// net! {
+///     mod bell {
+///         places { Here: 1 }
+///         events { press }
+///         outputs { ring }
+///         transitions { ring on press: Here => Here emit ring; }
+///     }
+/// }
+/// net! {
+///     mod dog {
+///         places { Asleep: 1, Awake }
+///         events { heard }
+///         transitions { wake on heard: Asleep => Awake; }
+///     }
+/// }
+/// system! { mod now { nets { bell: bell, dog: dog } links { bell.ring => dog.heard now; } } }
+/// system! { mod mail { nets { bell: bell, dog: dog } links { bell.ring => dog.heard mail 1; } } }
+/// # fn main() {
+/// let (mut now, mut mail) = (now::Player::new(), mail::Player::new());
+/// assert!(now.offer(Millis(0), &now::Event::bell(bell::Event::press)).fired());
+/// assert_eq!(now::state::dog(&now), dog::State::Awake);
+/// let press = mail::Event::bell(bell::Event::press);
+/// assert!(mail.offer(Millis(0), &press).fired());
+/// assert_eq!(mail::state::dog(&mail), dog::State::Asleep); // its mail waits for its turn
+/// assert!(matches!(mail.offer(Millis(1), &press), Outcome::Refused { .. })); // there is no room
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delivery {
     /// At once, in the step that emits it: a rendezvous. The receiver fires or ignores it.
