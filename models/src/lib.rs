@@ -32,6 +32,8 @@
 extern crate self as cotama_models;
 
 pub mod cotama;
+#[cfg(feature = "std")]
+pub mod fmeca;
 pub mod missions;
 pub mod nets;
 

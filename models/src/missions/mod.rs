@@ -22,7 +22,7 @@ mod mission;
 #[cfg(feature = "std")]
 pub mod mission_net;
 #[cfg(feature = "std")]
-mod reader;
+pub(crate) mod reader;
 #[cfg(feature = "std")]
 mod rust_source;
 #[cfg(feature = "std")]

@@ -4,6 +4,8 @@
 //! A method returns `None` when what it was asked for is absent or wrong, and has then reported it;
 //! the caller reads everything first and only then gives up.
 
+mod more;
+
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::names::{MAX_ID, nearest, quoted, unknown};
 use std::cell::RefCell;
@@ -80,6 +82,8 @@ pub(crate) struct Fields<'t> {
     entries: &'t DeTable<'t>,
     span: Range<usize>,
     what: String,
+    /// The most entries of a list.
+    most_entries: usize,
     /// What a file must say that its format is; nothing in tables below the root.
     format: &'static str,
     asked: Vec<&'static str>,
@@ -89,7 +93,8 @@ pub(crate) struct Fields<'t> {
 impl<'t> Fields<'t> {
     fn new(sink: &'t Sink, entries: &'t DeTable<'t>, span: Range<usize>, what: &str) -> Self {
         let (asked, missing) = (Vec::new(), Vec::new());
-        Self { sink, entries, span, what: what.into(), format: "", asked, missing }
+        let (what, most_entries) = (what.into(), MAX_ENTRIES);
+        Self { sink, entries, span, what, most_entries, format: "", asked, missing }
     }
 
     pub(crate) fn report(&self, diagnostic: Diagnostic) {
@@ -291,9 +296,10 @@ impl<'t> Fields<'t> {
             self.wrong_type(key, node, "an array");
             return None;
         };
-        if array.len() > MAX_ENTRIES {
+        let most = self.most_entries;
+        if array.len() > most {
             let message =
-                format!("`{key}` has {} entries; at most {MAX_ENTRIES} are allowed", array.len());
+                format!("`{key}` has {} entries; at most {most} are allowed", array.len());
             self.report(Diagnostic::new(node.span(), message, "too many").help("leave some out"));
             return None;
         }

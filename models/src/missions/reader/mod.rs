@@ -2,7 +2,7 @@
 
 mod entry;
 mod faults;
-mod fields;
+pub(crate) mod fields;
 mod incidents;
 mod mission;
 mod path;
