@@ -6,6 +6,8 @@ use std::io::{ErrorKind, Read};
 
 /// The most bytes of a mission or a file of faults.
 pub(crate) const MISSION_BYTES: u64 = 4 << 20;
+/// The most bytes of an FMECA.
+pub(crate) const FMECA_BYTES: u64 = 4 << 20;
 /// The most bytes of an allocation instance.
 pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
 /// The most bytes of a trace.

@@ -17,6 +17,7 @@ mod help;
 mod hints;
 mod models;
 mod new;
+mod own_fmeca;
 mod plan;
 mod questions;
 mod reference;

@@ -51,7 +51,7 @@ impl Analysis {
     /// let text = "id,function,component,failure,cause,effect,severity,mtbf_h
     /// GRP1,hold,gripper,slips,worn pads,it falls,hrad,500";
     /// let errors = Analysis::parse_csv("gripper.csv", text).unwrap_err().to_string();
-    /// let first = "gripper.csv:2:45: unknown severity `hrad`; did you mean `hard`?";
+    /// let first = "gripper.csv:2:44: unknown severity `hrad`; did you mean `hard`?";
     /// assert_eq!(errors.lines().next(), Some(first));
     /// ```
     pub fn parse_csv(source_name: &str, text: &str) -> Result<Self, MissionErrors> {

@@ -127,6 +127,12 @@ pub(super) fn words(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
+/// What a terminal or a page would obey: control characters, and those that turn the text around.
+fn is_obeyed(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{200e}'..='\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
 /// A text in one line; reports one that is empty, too long, or has what a terminal would obey.
 pub(super) fn checked(
     report: impl Fn(Diagnostic),
@@ -138,7 +144,7 @@ pub(super) fn checked(
         (format!("`{key}` is empty"), "write a few words".to_owned())
     } else if line.chars().count() > MAX_TEXT {
         (format!("`{key}` has more than {MAX_TEXT} characters"), "shorten it".to_owned())
-    } else if line.contains(char::is_control) {
+    } else if line.contains(is_obeyed) {
         (format!("`{key}` has a control character"), "leave it out".to_owned())
     } else {
         return Some(line);
