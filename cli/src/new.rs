@@ -202,7 +202,8 @@ const fn one_file(kind: NewKind) -> &'static str {
     }
 }
 
-/// A mission and an FMECA are called as their files; a crate as a module of Rust, where `-` becomes `_`.
+/// A mission and an FMECA are called as their files; a crate as a module of Rust, where `-` becomes
+/// `_`.
 fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
     let is_crate = is_crate(kind);
     let fits = |c: char| c.is_ascii_alphanumeric() && !(is_crate && c.is_ascii_uppercase());

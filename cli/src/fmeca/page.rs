@@ -9,7 +9,7 @@ use crate::render::fmeca::{
 };
 use cotama_models::fmeca::Analysis;
 use cotama_verification::export::svg::escape;
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.
 macro_rules! put {
@@ -81,8 +81,8 @@ fn severity(row: &FmecaRow<'_>) -> u64 {
 
 /// The class of criticality: 0 is intolerable, 3 is negligible.
 fn class(row: &FmecaRow<'_>) -> u64 {
-    let is_it = |it: &&str| *it == row.criticality.class;
-    CLASSES.iter().position(|it| is_it(&it)).unwrap_or(CLASSES.len()) as u64
+    let found = CLASSES.iter().position(|it| *it == row.criticality.class);
+    found.unwrap_or(CLASSES.len()) as u64
 }
 
 const SEVERITIES: [&str; 4] = ["fatal", "hard", "medium", "weak"];
@@ -159,7 +159,7 @@ fn columns(answer: &FmecaAnswer<'_>) -> Vec<Column> {
     columns
 }
 
-fn with(text: String, small: String) -> String {
+fn with(text: impl Display, small: impl Display) -> String {
     format!("{text} <small>{small}</small>")
 }
 

@@ -3,7 +3,7 @@
 use super::diagnosability;
 use super::names::modules;
 use crate::answers::fmeca::{CountsRow, CriticalityRow, DiagramRow, FmecaAnswer, FmecaRow, RibRow};
-use cotama_models::cotama::{FailureMode, Modules, Report, Resource};
+use cotama_models::cotama::{FailureMode, Modules, Persistence, Report, Resource, Severity};
 use cotama_models::fmeca::{Analysis, Mode};
 
 /// All that is known; of the robot, its typed rows say more.
@@ -56,9 +56,9 @@ fn row<'a>(analysis: &'a Analysis, it: &'a Mode, typed: Option<FailureMode>) -> 
         cause: &it.cause,
         effect: &it.effect,
         severity_autonomous: it.severity.name(),
-        severity_operator: it.severity_operator.map(|it| it.name()),
+        severity_operator: it.severity_operator.map(Severity::name),
         class: &it.event,
-        persistence: it.persistence.map(|it| it.name()),
+        persistence: it.persistence.map(Persistence::name),
         loss: &it.lost,
         modules_faulty: named(rule.map(|it| it.faulty)),
         any_one_module: rule.is_some_and(|it| it.one_module),
