@@ -3,6 +3,7 @@
 
 mod broken;
 mod criticality;
+mod groups;
 mod limits;
 mod robot;
 
