@@ -15,6 +15,7 @@ mod conform;
 mod exit;
 mod export;
 mod file_errors;
+mod file_schemas;
 mod fmeca;
 mod infeasible;
 mod input;

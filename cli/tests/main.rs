@@ -12,6 +12,7 @@ mod common;
 mod conform;
 mod errors;
 mod export;
+mod file_schemas;
 mod fmeca;
 mod help;
 mod hints;
