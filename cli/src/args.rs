@@ -7,6 +7,7 @@ mod fmeca;
 mod mission;
 mod model;
 mod new;
+mod number;
 mod schema;
 
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};

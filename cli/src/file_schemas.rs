@@ -6,7 +6,7 @@
 
 mod parts;
 
-use cotama_core::hardware::MAX_KINDS;
+use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::cotama::{Configuration, FailureMode};
 use cotama_models::missions::faults::{self, Answer};
 use cotama_models::missions::known::{
@@ -121,7 +121,7 @@ fn motion_power() -> Value {
 
 fn hardware() -> Value {
     let needs = [
-        ("units", integer(&UNITS, "how many there are, at most 15")),
+        ("units", integer(&UNITS, &format!("how many there are, at most {MAX_UNITS}"))),
         ("power_mw", integer(&AT_LEAST_ZERO, "what each takes while it is on, in mW")),
     ];
     let kind = table(&needs, &[], "a kind of hardware");

@@ -16,6 +16,7 @@ mod file_schemas;
 mod fmeca;
 mod help;
 mod hints;
+mod mistakes;
 mod models;
 mod new;
 mod plan;

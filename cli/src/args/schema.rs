@@ -5,7 +5,7 @@ use clap::{Args, ValueEnum};
 #[derive(Args, Debug)]
 pub(crate) struct SchemaArgs {
     /// The command, or the kind of file
-    #[arg(value_enum)]
+    #[arg(value_enum, value_name = "WHAT")]
     pub(crate) of: SchemaName,
 }
 

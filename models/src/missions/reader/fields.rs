@@ -125,6 +125,9 @@ impl<'t> Fields<'t> {
         let message = format!("`{key}` must be {expected}, not {found}");
         let help = match node.get_ref() {
             DeValue::Float(_) => "all quantities are whole numbers of mm, mm/s, ms, mW, mJ and g",
+            DeValue::String(_) if expected == "an integer" => {
+                "write a whole number, without quotes and without a unit"
+            }
             _ => "change the value",
         };
         self.report(
