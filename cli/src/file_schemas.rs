@@ -151,7 +151,7 @@ fn needs_fixed(task: &str, what: &str) -> Value {
     let options = json!({ "contains": says("task", &[task]) });
     let has = json!({ "properties": { "tio": options }, "required": ["tio"] });
     let keys = [format!("{what}_ms"), format!("{what}_power_mw")];
-    when(has, json!({ "properties": { "fixed": { "required": keys } }, "required": ["fixed"] }))
+    when(&has, &json!({ "properties": { "fixed": { "required": keys } }, "required": ["fixed"] }))
 }
 
 /// The tasks that say themselves what they take.
@@ -230,8 +230,8 @@ fn supervision() -> Value {
 /// Under supervision each objective says what it does and each option that moves which modules run;
 /// without, nothing does, and nothing happens that only supervisors can answer.
 fn supervised() -> Value {
-    let moves = when(says("task", &["MOV"]), json!({ "required": ["configuration"] }));
-    let event = both(json!({ "properties": { "kind": { "enum": EVENTS } } }), absent(&["mode"]));
+    let moves = when(&says("task", &["MOV"]), &json!({ "required": ["configuration"] }));
+    let event = both(&json!({ "properties": { "kind": { "enum": EVENTS } } }), &absent(&["mode"]));
     json!({
         "if": { "required": ["supervision"] },
         "then": { "properties": {
@@ -292,12 +292,12 @@ fn event() -> Value {
         (says("kind", &["obstacle"]), &["delay_ms"][..]),
         (says("kind", &["odometry"]), &["extra_mm"]),
         (says("kind", &["fault"]), &["hardware", "units_lost"]),
-        (both(repairs.clone(), absent(&["mode"])), &["hardware", "units_back"]),
-        (both(repairs, has_mode), &["mode"]),
+        (both(&repairs, &absent(&["mode"])), &["hardware", "units_back"]),
+        (both(&repairs, &has_mode), &["mode"]),
         (says("kind", &["failure"]), &["mode"]),
         (says("kind", &["operator"]), &["answers", "delay_ms"]),
     ];
-    let rules = rules.map(|(kind, needs)| when(kind, only(needs, &keys)));
+    let rules = rules.map(|(kind, needs)| when(&kind, &only(needs, &keys)));
     let rules = rules.into_iter().chain([obstacles_last()]).collect();
     with(table(&needs, &details, "something that happens once"), "allOf", rules)
 }
@@ -305,7 +305,7 @@ fn event() -> Value {
 /// An obstacle costs time, while an operator may answer at once.
 fn obstacles_last() -> Value {
     let delay = json!({ "properties": { "delay_ms": { "minimum": POSITIVE.start() } } });
-    when(says("kind", &["obstacle"]), delay)
+    when(&says("kind", &["obstacle"]), &delay)
 }
 
 fn random_event() -> Value {
@@ -317,7 +317,7 @@ fn random_event() -> Value {
     let keys = ["delay_ms", "extra_mm"];
     let details: Vec<_> = details().into_iter().filter(|it| keys.contains(&it.0)).collect();
     let rules = [("obstacle", "delay_ms"), ("odometry", "extra_mm")];
-    let rules = rules.map(|(kind, key)| when(says("kind", &[kind]), only(&[key], &keys)));
+    let rules = rules.map(|(kind, key)| when(&says("kind", &[kind]), &only(&[key], &keys)));
     let rules = rules.into_iter().chain([obstacles_last()]).collect();
     with(table(&needs, &details, "something that happens at random places"), "allOf", rules)
 }

@@ -151,7 +151,7 @@ fn what_is_wrong_by_its_shape_is_refused_by_the_reader_and_by_the_schema() {
         folder.write("wrong.toml", &text);
         let by_reader = folder.cotama(&["plan", "wrong.toml"]).code != Some(2);
         let by_schema = wrong(&mission, &text).is_empty();
-        taken.extend((by_reader || by_schema).then(|| (instead, by_reader, by_schema)));
+        taken.extend((by_reader || by_schema).then_some((instead, by_reader, by_schema)));
     }
     for (mission, script) in WRONG_FAULTS {
         let text = format!("format = \"panorama-faults/1\"\n{script}\n");
@@ -159,7 +159,7 @@ fn what_is_wrong_by_its_shape_is_refused_by_the_reader_and_by_the_schema() {
         let run = ["run", mission, "--no-report", "--faults", "wrong.toml"];
         let by_reader = folder.cotama(&run).code != Some(2);
         let by_schema = wrong(&faults, &text).is_empty();
-        taken.extend((by_reader || by_schema).then(|| (script, by_reader, by_schema)));
+        taken.extend((by_reader || by_schema).then_some((script, by_reader, by_schema)));
     }
     assert!(taken.is_empty(), "taken by the reader, by the schema: {taken:#?}");
 }

@@ -3,10 +3,10 @@
 use clap::builder::TypedValueParser;
 
 /// A unit in which people think, and how many of the unit that is read it has.
-type Unit = (&'static str, u64);
+type Unit = (&'static str, f64);
 
-const DURATIONS: [Unit; 4] = [("ms", 1), ("s", 1000), ("min", 60_000), ("h", 3_600_000)];
-const ENERGIES: [Unit; 4] = [("mJ", 1), ("J", 1000), ("kJ", 1_000_000), ("Wh", 3_600_000)];
+const DURATIONS: [Unit; 4] = [("ms", 1.0), ("s", 1e3), ("min", 6e4), ("h", 3.6e6)];
+const ENERGIES: [Unit; 4] = [("mJ", 1.0), ("J", 1e3), ("kJ", 1e6), ("Wh", 3.6e6)];
 
 /// A number from `least` to `most`.
 pub(super) fn whole(least: u64, most: u64) -> impl TypedValueParser<Value = u64> {
@@ -35,7 +35,7 @@ fn quantity(text: &str, units: [Unit; 4]) -> Result<u64, String> {
     let end = text.find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(text.len());
     let (number, said) = text.split_at(end);
     let factor = units.into_iter().find(|it| it.0 == said.trim()).map(|it| it.1);
-    let meant = factor.and_then(|factor| Some(number.parse::<f64>().ok()? * factor as f64));
+    let meant = factor.and_then(|factor| Some(number.parse::<f64>().ok()? * factor));
     let write = match meant.filter(|it| (1.0..1e15).contains(it)) {
         Some(meant) => format!(": write {meant:.0}"),
         None => String::new(),

@@ -92,17 +92,17 @@ pub(super) fn absent(keys: &[&str]) -> Value {
 }
 
 /// That both hold.
-pub(super) fn both(one: Value, other: Value) -> Value {
+pub(super) fn both(one: &Value, other: &Value) -> Value {
     json!({ "allOf": [one, other] })
 }
 
 /// That of these keys those and no others are there.
 pub(super) fn only(needs: &[&str], all: &[&str]) -> Value {
     let others: Vec<_> = all.iter().copied().filter(|key| !needs.contains(key)).collect();
-    both(json!({ "required": needs }), absent(&others))
+    both(&json!({ "required": needs }), &absent(&others))
 }
 
 /// What must hold where something else does.
-pub(super) fn when(condition: Value, then: Value) -> Value {
+pub(super) fn when(condition: &Value, then: &Value) -> Value {
     json!({ "if": condition, "then": then })
 }
