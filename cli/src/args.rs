@@ -196,8 +196,8 @@ Examples:
     Table(MissionArg),
     /// Prints the JSON schema of a command's answer, or of a file that you write
     ///
-    /// An editor that knows the schema of a mission completes its keys, explains them and marks what
-    /// is wrong while you write: let the first line be `#:schema ./mission.schema.json`.
+    /// An editor that knows the schema of a mission completes its keys, explains them and marks
+    /// what is wrong while you write: let the first line be `#:schema ./mission.schema.json`.
     #[command(after_long_help = "\
 Examples:
   $ cotama schema plan

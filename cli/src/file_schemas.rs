@@ -94,13 +94,13 @@ fn rounding() -> Value {
 }
 
 fn robot() -> Value {
-    let hurts = "so much energy of motion, in mJ, and more, would hurt somebody";
+    let hurts = "this energy of motion, in mJ, and more, would hurt somebody";
     let needs = [
         ("mass_g", integer(&POSITIVE, "its mass, in g")),
         ("speed_max_mm_s", integer(&SPEEDS, "its highest speed, in mm/s")),
         ("impact_energy_max_mj", integer(&POSITIVE, hurts)),
     ];
-    let harmless = "the speed that follows from the two, in mm/s; checked";
+    let harmless = "the speed that follows from both, in mm/s; checked";
     table(&needs, &[("speed_harmless_mm_s", integer(&SPEEDS, harmless))], "the robot's body")
 }
 
@@ -255,7 +255,7 @@ fn run() -> Value {
 /// The keys of a file of faults, and of `[run]`.
 fn happenings() -> [(&'static str, Value); 3] {
     let error = integer(&POWER_ERRORS, "difference in parts per thousand");
-    let error = named(&error, "zone by zone, real power against that of the model, in ‰");
+    let error = named(&error, "by zone, real power against that of the model, in ‰");
     let events = tables(&event(), 0, "what happens where");
     let random = tables(&random_event(), 0, "what happens at places drawn from `--seed`");
     [("power_error_permille", error), ("event", events), ("random", random)]

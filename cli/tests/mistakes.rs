@@ -1,8 +1,8 @@
 //! What users do wrong: each mistake is answered in a few lines that say what is wrong, where, and
 //! what to do; nothing is left half-written. All that the program says stands in one golden file.
 //!
-//! Missions, nets, traces and instances that are broken inside are in `bad_input`, `broken_pnml` and
-//! `conform`; what is given to the command of another kind, in `errors`.
+//! Missions, nets, traces and instances that are broken inside are in `bad_input`, `broken_pnml`
+//! and `conform`; what is given to the command of another kind, in `errors`.
 
 use crate::common::{Folder, golden, patrol};
 use std::fmt::Write;
@@ -74,7 +74,7 @@ fn folder() -> Folder {
     folder.write("walk.toml", patrol(&[]));
     folder.write(
         "typo.toml",
-        "format = \"panorama-faults/1\"\n[[event]]\nx_m = 12\nkind = \"obstacle\"\ndelay_ms = 3000\n",
+        "format = 'panorama-faults/1'\n[[event]]\nx_m = 12\nkind = 'obstacle'\ndelay_ms = 3000\n",
     );
     folder.write("joule.toml", patrol(&[("energy_mj = ", "energy_j = ")]));
     let duration = "duration_ms = 600000";
