@@ -16,7 +16,7 @@ use std::path::{Path, PathBuf};
 const ELSEWHERE: [&str; 6] = [
     "cargo run --release -- run patrol",
     "cargo test --workspace",
-    "cargo install --path cli",
+    "cargo install --path cli --profile dist",
     "cargo run",
     "cargo test",
     "cargo run --example model > watch.json",

@@ -56,6 +56,7 @@ fn cargo(folder: &Folder, package: &str, arguments: &[&str]) -> Ended {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn crates_run_are_checked_and_fail_with_a_counterexample_when_they_are_broken() {
     let folder = Folder::new("new_crates");
     let cases = [

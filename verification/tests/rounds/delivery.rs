@@ -117,6 +117,7 @@ fn all_known(of: impl Iterator<Item = &'static Requirement>, verified: bool) -> 
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn every_requirement_holds() {
     golden("requirements.txt", &all_known(REQUIREMENTS.iter(), false));
 }
