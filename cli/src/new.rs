@@ -5,7 +5,6 @@
 use crate::answers::new::NewAnswer;
 use crate::args::{NewArgs, NewKind};
 use crate::exit::{Exit, Failure};
-use crate::input::plain;
 use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
@@ -67,8 +66,13 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        let message = format!("{}: there is no such folder", folder.display());
-        return Err(Failure::new(message).help(format!("make it first, or say `{name}` alone")));
+        let (is, help) = if folder.exists() {
+            ("this is a file, and a folder is needed there", "choose another folder")
+        } else {
+            ("there is no such folder", "make it first")
+        };
+        let message = format!("{}: {is}", folder.display());
+        return Err(Failure::new(message).help(format!("{help}, or say `{name}` alone")));
     }
     let (files, next) = match args.kind {
         NewKind::Mission | NewKind::Fmeca => {
@@ -142,7 +146,7 @@ impl Template {
             .and_then(|()| fs::rename(&part, path));
         written.map_err(|error| {
             let _ = fs::remove_dir_all(&part);
-            Failure::new(format!("{}: it cannot be written: {}", path.display(), plain(&error)))
+            output::unwritten(path, &error)
         })?;
         Ok(self.files.iter().map(|(file, _)| path.join(file)).collect())
     }

@@ -18,6 +18,8 @@ pub mod faults;
 #[cfg(feature = "std")]
 pub mod infeasible;
 #[cfg(feature = "std")]
+pub mod known;
+#[cfg(feature = "std")]
 mod mission;
 #[cfg(feature = "std")]
 pub mod mission_net;

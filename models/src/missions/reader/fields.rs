@@ -7,6 +7,7 @@
 mod more;
 
 use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::known::{DOCUMENTATION, ID_LENGTHS, MAX_ENTRIES};
 use crate::names::{MAX_ID, nearest, quoted, unknown};
 use std::cell::RefCell;
 use std::ops::{Range, RangeInclusive};
@@ -16,10 +17,6 @@ type Node<'t> = toml::Spanned<DeValue<'t>>;
 
 /// The largest file that is read, in bytes.
 const MAX_BYTES: usize = 16 << 20;
-/// The most entries of one list or table.
-const MAX_ENTRIES: usize = 1000;
-/// Keys that are documentation: texts, accepted in every table and not read.
-const DOCUMENTATION: [&str; 2] = ["source", "power_source"];
 
 /// What is wrong was reported.
 pub(crate) struct Reported;
@@ -133,6 +130,9 @@ impl<'t> Fields<'t> {
         let message = format!("`{key}` must be {expected}, not {found}");
         let help = match node.get_ref() {
             DeValue::Float(_) => "all quantities are whole numbers of mm, mm/s, ms, mW, mJ and g",
+            DeValue::String(_) if expected == "an integer" => {
+                "write a whole number, without quotes and without a unit"
+            }
             _ => "change the value",
         };
         self.report(
@@ -223,7 +223,7 @@ impl<'t> Fields<'t> {
     /// Whether a text is an id; reports it if not.
     fn is_id(&self, id: &str, span: Range<usize>) -> bool {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-        let good = (1..=MAX_ID).contains(&id.len()) && id.chars().all(plain);
+        let good = ID_LENGTHS.contains(&id.len()) && id.chars().all(plain);
         if !good {
             let message = format!("{} is not an id", quoted(id));
             let help = format!("use 1 to {MAX_ID} ASCII letters, digits, `-`, `_` and `.`");

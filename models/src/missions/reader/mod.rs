@@ -6,7 +6,6 @@ pub(crate) mod fields;
 mod incidents;
 mod mission;
 mod path;
-mod quantities;
 mod supervision;
 
 pub(super) use fields::{Sink, document};
