@@ -82,8 +82,8 @@ fn probe(it: Probe) -> ProbeRow {
     }
 }
 
-/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI): avoidance drives the robot
-/// back along its path, in front of an obstacle that the map does not have.
+/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI.A.2): avoidance drives the
+/// robot back along its path, in front of an obstacle that the map does not have.
 fn ambiguous_case() -> AmbiguousCase {
     let raised = Flags::of(&[Flag::PoseGrowth, Flag::Backward]);
     let found = diagnose(raised, Modules::ALL);

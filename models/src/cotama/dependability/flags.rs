@@ -91,8 +91,8 @@ members! {
 
 impl Flag {
     /// The modules of which each one can raise it (stated for the observers, Durand et al., TAROS
-    /// 2010, Section III; who raises which flag is inferred); none for what a supervisor's timer or
-    /// the operator's side sees.
+    /// 2010, Section IV.B.3; who raises which flag is inferred); none for what a supervisor's timer
+    /// or the operator's side sees.
     #[must_use]
     pub const fn observers(self) -> Modules {
         Modules::of(match self {

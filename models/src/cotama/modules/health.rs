@@ -27,7 +27,7 @@ pub enum Status {
     Unavailable,
 }
 
-/// The status of every module (Durand et al., TAROS 2010, Section IV: the module status vector).
+/// The status of every module (Durand et al., TAROS 2010, Section V.A: the module status vector).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct StatusVector {
     suspect: Modules,

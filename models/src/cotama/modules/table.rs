@@ -105,9 +105,9 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         .data(&[Path, Pose, Ranges], &[Course])
         .events(&[GoalReached])
         .stands_on(&[], &[Ust, Nav], Stated),
-    module(Module::Dvz, Control, "deformable virtual zone: reactive avoidance", Inferred)
+    module(Module::Dvz, Control, "deformable virtual zone: reactive avoidance", Stated)
         .data(&[Ranges], &[Course])
-        .stands_on(&[], &[Ust], Stated),
+        .stands_on(&[], &[Ust], Inferred),
     module(Module::Lan, Functional, "WiFi to the operator's computer", Stated)
         .data(&[Image, Pose], &[LinkState, Course, Path])
         .events(&[Operator])
