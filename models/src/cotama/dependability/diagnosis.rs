@@ -230,9 +230,9 @@ impl Probe {
     #[must_use]
     pub const fn needs(self) -> Modules {
         Modules::of(match self {
-            Self::SpreadLimit => &[Module::OLoc],
+            Self::SpreadLimit => &[Module::OLoc, Module::Mcl],
             Self::UnmappedObstacle => &[Module::Ust],
-            Self::ObstacleAtStall => &[Module::OSen],
+            Self::ObstacleAtStall => &[Module::OSen, Module::Ust],
             Self::FrameTimeAtSource => &[Module::Cam],
             Self::ReckoningLimit => &[Module::Nav],
             Self::Gyroscope => &[],
