@@ -126,9 +126,8 @@ fn follow_page(path: &Path, folder: &Folder) -> usize {
 
 #[test]
 fn every_page_says_what_the_program_does() {
-    let folder = |path: &Path| {
-        Folder::new(&format!("book_{}", path.file_name().unwrap().to_str().unwrap()))
-    };
+    let folder =
+        |path: &Path| Folder::new(&format!("book_{}", path.file_name().unwrap().to_str().unwrap()));
     let quick = pages().into_iter().filter(|it| !it.ends_with(BUILDS_CRATES));
     let commands: usize = quick.map(|it| follow_page(&it, &folder(&it))).sum();
     assert!(commands > 10, "{commands}");

@@ -48,7 +48,8 @@ fn after<'a>(robot: &'a Analysis, name: &'static str, lost: Option<Resource>) ->
     let left = available(Modules::NONE, resources);
     let told = status(robot, &Status::of_the_robot(name, left), name, |mode| {
         let flags = FailureMode::named(&mode.id).map(|it| it.rule().signature.always);
-        flags.into_iter().flat_map(Flags::iter).map(blind).collect::<Vec<_>>().join("; ")
+        let why = |flag| blind(flag, left);
+        flags.into_iter().flat_map(Flags::iter).map(why).collect::<Vec<_>>().join("; ")
     });
     StatusRow {
         lost: lost.map(Resource::name),
@@ -57,9 +58,15 @@ fn after<'a>(robot: &'a Analysis, name: &'static str, lost: Option<Resource>) ->
     }
 }
 
-/// Why a flag is not raised.
-fn blind(flag: Flag) -> String {
-    let observers = flag.observers();
+/// Why a flag is not raised while these modules are left.
+fn blind(flag: Flag, left: Modules) -> String {
+    let (observers, missing) = (flag.observers(), flag.observed().without(left));
+    if !missing.is_empty() {
+        return format!(
+            "`{}` is a check of what {missing} tells, which is unavailable",
+            flag.name()
+        );
+    }
     let verb = if observers.len() == 1 { "is" } else { "are" };
     format!("`{}` is raised by {observers} alone, which {verb} unavailable", flag.name())
 }
@@ -122,8 +129,8 @@ fn probe_rows<'a>(
     analysis.probes().iter().enumerate().map(row).collect()
 }
 
-/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI): avoidance drives the robot
-/// back along its path, in front of an obstacle that the map does not have.
+/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI.A.2): avoidance drives the
+/// robot back along its path, in front of an obstacle that the map does not have.
 fn ambiguous_case() -> AmbiguousCase<'static> {
     let raised = Flags::of(&[Flag::PoseGrowth, Flag::Backward]);
     let found = diagnose(raised, Modules::ALL);

@@ -2,9 +2,10 @@
 //! how it shows, how severe it is, and what is done.
 //!
 //! The method is that of Durand, Godary-Dejean, Lapierre, Crestani, IROS 2010, and Durand et al.,
-//! TAROS 2010, Section IV. The rows are the project's own: those marked as seed rules follow TAROS
-//! 2010, the others fill the same form; rates are assumed but where [`Description::rate_label`]
-//! says otherwise. Firmware links [`RULES`] alone, the texts stand apart in [`TEXTS`].
+//! TAROS 2010, Section III.A. The rows are the project's own: those marked as seed rules follow
+//! TAROS 2010, the others fill the same form; rates are assumed but where
+//! [`Description::rate_label`] says otherwise. Firmware links [`RULES`] alone, the texts stand
+//! apart in [`TEXTS`].
 
 use super::rule::{Description, Rule};
 use super::table::{FailureMode, RULES, TEXTS};
