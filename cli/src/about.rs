@@ -10,6 +10,7 @@ use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAn
 use crate::args::{self, Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
 use crate::catalogue::{self, Kind};
 use crate::exit::{Exit, Failure};
+use crate::file_schemas;
 use crate::mission;
 use crate::output::Screen;
 use clap::CommandFactory;
@@ -20,6 +21,7 @@ use cotama_verification::conform::LINE_SCHEMA;
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::RecursiveTransform;
+use serde::Serialize;
 use serde_json::Value;
 
 /// `cotama table`: the tables of a mission as Rust source.
@@ -29,12 +31,12 @@ pub(crate) fn table(args: &MissionArg) -> Result<Exit, Failure> {
     Ok(Exit::Success)
 }
 
-/// `cotama schema`: the JSON schema of an answer.
+/// `cotama schema`: the JSON schema of an answer, or of a file that users write.
 pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
     // Of what is written, not of what could be read: a field that is always written is required.
     let settings = SchemaSettings::draft2020_12().for_serialize();
     let schemas = settings.with_transform(RecursiveTransform(in_one_line)).into_generator();
-    let schema = match args.command {
+    let schema = match args.of {
         SchemaName::List => schemas.into_root_schema_for::<ListAnswer>(),
         SchemaName::Plan => schemas.into_root_schema_for::<PlanAnswer>(),
         SchemaName::Run => schemas.into_root_schema_for::<RunAnswer>(),
@@ -53,8 +55,14 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         }
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
+        SchemaName::Mission => return print(&file_schemas::mission()),
+        SchemaName::Faults => return print(&file_schemas::faults()),
     };
-    Screen::json(&schema)?;
+    print(&schema)
+}
+
+fn print(schema: &impl Serialize) -> Result<Exit, Failure> {
+    Screen::json(schema)?;
     Ok(Exit::Success)
 }
 

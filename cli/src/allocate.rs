@@ -18,8 +18,8 @@ use instance::Instance;
 
 /// Solves one allocation problem.
 pub(crate) fn allocate(args: &AllocateArgs, screen: &Screen) -> Result<Exit, Failure> {
-    let text = input::text(&args.instance, "an instance", input::INSTANCE_BYTES)?;
-    kind::expect(&args.instance, text.as_bytes(), "an instance", &[Kind::Instance])?;
+    let (limit, wanted) = (input::INSTANCE_BYTES, [Kind::Instance]);
+    let text = kind::text(&args.instance, "an instance", limit, &wanted)?;
     let instance = Instance::parse(&args.instance, &text)?;
     drop(text);
     let slices: Vec<_> = instance.activities.iter().map(Vec::as_slice).collect();

@@ -7,6 +7,7 @@ mod fmeca;
 mod mission;
 mod model;
 mod new;
+mod number;
 mod schema;
 
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
@@ -193,11 +194,16 @@ Examples:
   $ cotama table patrol > patrol_tables.rs
   $ cotama table patrol | head -1")]
     Table(MissionArg),
-    /// Prints the JSON schema of a command's answer
+    /// Prints the JSON schema of a command's answer, or of a file that you write
+    ///
+    /// An editor that knows the schema of a mission completes its keys, explains them and marks
+    /// what is wrong while you write: let the first line be `#:schema ./mission.schema.json`.
     #[command(after_long_help = "\
 Examples:
   $ cotama schema plan
-  $ cotama schema run > run.schema.json")]
+  $ cotama schema run > run.schema.json
+  $ cotama schema mission > mission.schema.json
+  $ cotama schema faults > faults.schema.json")]
     Schema(SchemaArgs),
     /// Prints a completion script for a shell
     #[command(after_long_help = "\

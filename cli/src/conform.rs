@@ -6,7 +6,7 @@ use crate::exit::{Exit, Failure};
 use crate::file_errors::FileErrors;
 use crate::input;
 use crate::model;
-use crate::names::near;
+use crate::names::{near, quoted};
 use crate::output::Screen;
 use crate::render;
 use crate::simulate::not_played;
@@ -93,6 +93,13 @@ fn refused(refused: Refused, model: &str, trace: &str, text: &str) -> Failure {
         Refused::Endless(at) => {
             Failure::new(format!("`{model}` does not come to rest at {} ms", at.0))
                 .help("its transitions without event fire again and again; `settles` is a law")
+        }
+        Refused::Name { at: None, name, .. } if SILENT.contains(&name.as_str()) => {
+            let message = format!(
+                "this is the trace of a mission, and `{model}` is not the system of its supervisors"
+            );
+            let try_it = format!("try `cotama conform delivery {}`", quoted(trace));
+            Failure::of(trace, message).help(try_it)
         }
         Refused::Name { at, kind, name, known } => {
             const SHOWN: usize = 12;

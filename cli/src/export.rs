@@ -23,6 +23,9 @@ const MOST_ENTRIES: usize = 1 << 25;
 
 /// Writes a model.
 pub(crate) fn export(args: &ExportArgs, screen: &Screen) -> Result<Exit, Failure> {
+    if let Some(path) = &args.output {
+        output::place(path)?;
+    }
     let format = match (args.format, &args.output) {
         (Some(format), _) => format,
         (None, Some(output)) => by_name(output)?,

@@ -4,20 +4,23 @@ mod diagnosability;
 mod glossary;
 mod ishikawa;
 mod markdown;
+mod matrix;
 mod names;
 mod page;
 mod rows;
 mod scene;
 mod sheet;
 
+use crate::answers::fmeca::FmecaAnswer;
 use crate::args::{FmecaArgs, FmecaFormat};
 use crate::exit::{Exit, Failure};
-use crate::names::near;
+use crate::input;
+use crate::names::{near, quoted};
 use crate::output::{self, Screen};
 use crate::render;
 use crate::render::style::NAME;
 use clap::ValueEnum;
-use cotama_models::cotama::{FmecaCsv, functions};
+use cotama_models::fmeca::Analysis;
 use std::path::Path;
 
 /// Shows the analysis, or writes it in a format.
@@ -28,17 +31,19 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
         (None, Some(output)) => Some(by_name(output)?),
         (None, None) => None,
     };
-    let function = args.function.as_deref().map(known).transpose()?;
+    let analysis = args.file.as_deref().map_or_else(|| Ok(Analysis::of_the_robot()), read)?;
+    let function = args.function.as_deref().map(|it| known(&analysis, it)).transpose()?;
+    let answer = || rows::answer(&analysis, args.file.is_none());
     let Some(format) = format else {
-        return shown(args, screen);
+        return shown(args, &answer(), screen);
     };
     let text = match (format, function) {
-        (FmecaFormat::Svg, Some(function)) => sheet::one(function),
-        (FmecaFormat::Svg, None) => sheet::all(),
+        (FmecaFormat::Svg, Some(function)) => sheet::one(&analysis, function),
+        (FmecaFormat::Svg, None) => sheet::all(&analysis),
         (_, Some(_)) => return Err(only_drawings(name(format))),
-        (FmecaFormat::Csv, None) => FmecaCsv.to_string(),
-        (FmecaFormat::Md, None) => markdown::write(&rows::answer()),
-        (FmecaFormat::Html, None) => page::write(&rows::answer()),
+        (FmecaFormat::Csv, None) => analysis.to_csv(),
+        (FmecaFormat::Md, None) => markdown::write(&answer()),
+        (FmecaFormat::Html, None) => page::write(&analysis, &answer()),
     };
     match &args.output {
         None => Screen::raw(text.as_bytes())?,
@@ -50,17 +55,33 @@ pub(crate) fn fmeca(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> 
     Ok(Exit::Success)
 }
 
-fn shown(args: &FmecaArgs, screen: &Screen) -> Result<Exit, Failure> {
+/// The analysis in a file.
+fn read(path: &str) -> Result<Analysis, Failure> {
+    let end = Path::new(path).extension().map(|it| it.to_string_lossy().to_lowercase());
+    let parse = match end.as_deref() {
+        Some("toml") => Analysis::parse,
+        Some("csv") => Analysis::parse_csv,
+        _ => {
+            let message = "the end of this name says neither TOML nor CSV";
+            return Err(Failure::of(path, message)
+                .help("give FILE.toml or FILE.csv; `cotama new fmeca NAME` writes one to begin"));
+        }
+    };
+    let text = input::text(path, "an FMECA", input::FMECA_BYTES)?;
+    Ok(parse(path, &text)?)
+}
+
+fn shown(args: &FmecaArgs, answer: &FmecaAnswer<'_>, screen: &Screen) -> Result<Exit, Failure> {
     if args.function.is_some() {
         return Err(only_drawings("the screen"));
     }
-    let answer = rows::answer();
     if args.json.json {
-        Screen::json(&answer)?;
+        Screen::json(answer)?;
     } else if args.diagnosability {
         screen.print(&render::fmeca::diagnosability(&answer.diagnosability, screen.width()))?;
     } else {
-        screen.print(&render::fmeca::screen(&answer, screen.width()))?;
+        let file = args.file.as_deref().map(quoted);
+        screen.print(&render::fmeca::screen(answer, file.as_deref(), screen.width()))?;
     }
     Ok(Exit::Success)
 }
@@ -71,12 +92,13 @@ fn only_drawings(what: &str) -> Failure {
 }
 
 /// The function of this name.
-fn known(name: &str) -> Result<&'static str, Failure> {
-    functions().find(|&it| it == name).ok_or_else(|| {
-        let guess = near(name, functions())
+fn known<'a>(analysis: &'a Analysis, name: &str) -> Result<&'a str, Failure> {
+    let functions = analysis.functions();
+    functions.iter().copied().find(|&it| it == name).ok_or_else(|| {
+        let guess = near(name, functions.iter().copied())
             .map_or_else(String::new, |it| format!("; did you mean `{it}`?"));
         Failure::new(format!("there is no function `{name}`{guess}"))
-            .help(format!("functions: {}", functions().collect::<Vec<_>>().join(", ")))
+            .help(format!("functions: {}", functions.join(", ")))
     })
 }
 

@@ -1,11 +1,15 @@
 //! Reading files, never more than a limit of them.
 
 use crate::exit::Failure;
+use crate::names::near;
 use std::fs::File;
 use std::io::{ErrorKind, Read};
+use std::path::Path;
 
 /// The most bytes of a mission or a file of faults.
 pub(crate) const MISSION_BYTES: u64 = 4 << 20;
+/// The most bytes of an FMECA.
+pub(crate) const FMECA_BYTES: u64 = 4 << 20;
 /// The most bytes of an allocation instance.
 pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
 /// The most bytes of a trace.
@@ -68,13 +72,44 @@ pub(crate) fn utf8(path: &str, what: &str, bytes: Vec<u8>) -> Result<String, Fai
 
 fn unreadable(name: &str, what: &str, error: &std::io::Error) -> Failure {
     match error.kind() {
-        ErrorKind::NotFound => {
-            Failure::of(name, "there is no such file").help(format!("give the path of {what}"))
-        }
+        ErrorKind::NotFound => absent(name, what),
         ErrorKind::IsADirectory => Failure::of(name, "this is a directory, not a file")
             .help(format!("give the path of {what} in it")),
-        _ => Failure::of(name, format!("it cannot be read: {}", plain(error))),
+        kind => {
+            let failure = Failure::of(name, format!("it cannot be read: {}", plain(error)));
+            match kind {
+                ErrorKind::PermissionDenied => failure.help("its owner can allow it, by chmod"),
+                _ => failure,
+            }
+        }
     }
+}
+
+/// Says that a file is not there, and which one was probably meant.
+fn absent(name: &str, what: &str) -> Failure {
+    /// So many files of a folder are looked at.
+    const LOOKED_AT: usize = 1000;
+    let path = Path::new(name);
+    let folder = folder_of(path);
+    let file = path.file_name().and_then(|it| it.to_str()).unwrap_or_default();
+    let failure = Failure::of(name, "there is no such file");
+    let Ok(entries) = std::fs::read_dir(folder) else {
+        return failure.help(format!("there is no folder `{}` either", folder.display()));
+    };
+    let entries = entries.take(LOOKED_AT).filter_map(|it| it.ok()?.file_name().into_string().ok());
+    let entries: Vec<_> = entries.collect();
+    match near(file, entries.iter().map(String::as_str)) {
+        Some(near) => {
+            let near = path.with_file_name(near);
+            failure.help(format!("did you mean `{}`?", near.display()))
+        }
+        None => failure.help(format!("give the path of {what}")),
+    }
+}
+
+/// The folder of a file.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
 /// What the system says, without its error number.

@@ -82,6 +82,21 @@ impl Kind {
         }
     }
 
+    /// Where one comes from.
+    const fn origin(self) -> &'static str {
+        match self {
+            Self::Mission => "`cotama new mission NAME` begins one",
+            Self::Faults => "one in which nothing goes wrong is `format = \"panorama-faults/1\"`",
+            Self::Pnml | Self::JsonNet | Self::Tina => {
+                "`cotama models` lists those that come with the program"
+            }
+            Self::Properties => "a property a line, as `name: AG !(a & b)`",
+            Self::Certificate => "`cotama check MODEL --certificate FILE` writes one",
+            Self::Trace => "`cotama run MISSION --trace FILE` writes one",
+            Self::Instance => "`cotama help allocate` shows one",
+        }
+    }
+
     /// The command that reads it.
     fn command(self, file: &str) -> String {
         match self {
@@ -96,8 +111,39 @@ impl Kind {
     }
 }
 
-/// Refuses a file that is clearly of a kind that is not read here; `what` says what is.
+/// How files of some kinds begin that no command reads, and what they are.
+const PAGES: [(&[u8], &str); 3] = [
+    (b"\x89PNG", "a picture (PNG)"),
+    (b"\xff\xd8\xff", "a picture (JPEG)"),
+    (b"%PDF", "a page (PDF)"),
+];
+/// The same of what the readers of models refuse themselves, with its place.
+const BINARIES: [(&[u8], &str); 3] = [
+    (b"PK\x03\x04", "an archive (ZIP)"),
+    (b"\x1f\x8b", "an archive (gzip)"),
+    (b"\x7fELF", "a program (ELF)"),
+];
+
+/// The text of a file of one of these kinds, or of standard input for `-`; `what` says what it
+/// should be.
+pub(crate) fn text(path: &str, what: &str, limit: u64, wanted: &[Kind]) -> Result<String, Failure> {
+    let bytes = input::bytes(path, what, limit)?;
+    expect(path, &bytes, what, wanted)?;
+    input::utf8(path, what, bytes)
+}
+
+/// Refuses a file that is empty, or clearly of a kind that is not read here; `what` says what is.
 pub(crate) fn expect(path: &str, bytes: &[u8], what: &str, wanted: &[Kind]) -> Result<(), Failure> {
+    let begins = |it: &&(&[u8], &'static str)| bytes.starts_with(it.0);
+    let page = PAGES.iter().find(begins).map(|it| it.1);
+    let binary = || BINARIES.iter().find(begins).map(|it| it.1);
+    let empty = || bytes.trim_ascii().is_empty().then_some("empty");
+    let other = || if wanted == MODELS { None } else { binary().or_else(empty) };
+    if let Some(is) = page.or_else(other) {
+        let message = format!("this is {is}, and {what} is needed here");
+        let failure = Failure::of(input::name(path), message);
+        return Err(failure.help(wanted.first().map_or("", |it| it.origin())));
+    }
     match Kind::of(bytes).filter(|it| !wanted.contains(it)) {
         None => Ok(()),
         Some(kind) => {

@@ -15,6 +15,7 @@ mod conform;
 mod exit;
 mod export;
 mod file_errors;
+mod file_schemas;
 mod fmeca;
 mod infeasible;
 mod input;
@@ -42,6 +43,7 @@ mod words;
 use answers::error::ErrorAnswer;
 use args::{Cli, Command};
 use clap::FromArgMatches;
+use clap::error::ContextKind;
 use exit::{Exit, Failure};
 use output::Screen;
 use std::ffi::OsString;
@@ -73,7 +75,13 @@ fn read(words: &[OsString]) -> Result<Cli, clap::Error> {
     command
         .try_get_matches_from_mut(words)
         .and_then(|mut matches| Cli::from_arg_matches_mut(&mut matches))
-        .map_err(|error| error.format(&mut command))
+        .map_err(|mut error| {
+            // Who mistypes an option does not want its name as a value.
+            if error.get(ContextKind::SuggestedArg).is_none() {
+                error.remove(ContextKind::Suggested);
+            }
+            error.format(&mut command)
+        })
 }
 
 fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {

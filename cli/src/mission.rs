@@ -29,11 +29,7 @@ pub(crate) fn load(name: &str) -> Result<Loaded, Failure> {
         None if is_name(name) && !Path::new(name).exists() => {
             return Err(kind::model_for_mission(name).unwrap_or_else(|| unknown(name)));
         }
-        None => {
-            let text = input::text(name, "a mission file", input::MISSION_BYTES)?;
-            kind::expect(name, text.as_bytes(), "a mission file", &[Kind::Mission])?;
-            text
-        }
+        None => kind::text(name, "a mission file", input::MISSION_BYTES, &[Kind::Mission])?,
     };
     let source = if name == "-" { "standard input" } else { name };
     let mission = Mission::parse(source, &text)?;

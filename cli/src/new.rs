@@ -1,11 +1,10 @@
-//! `cotama new`: a mission file, or a crate with a net or a system, that works as it is.
+//! `cotama new`: a mission file, an FMECA, or a crate with a net or a system, that works as it is.
 //!
 //! The texts are the files in `templates/`, in which the name stands for the one that is wanted.
 
 use crate::answers::new::NewAnswer;
 use crate::args::{NewArgs, NewKind};
 use crate::exit::{Exit, Failure};
-use crate::input::plain;
 use crate::names::quoted;
 use crate::output::{self, Screen};
 use crate::render::style::NAME;
@@ -40,8 +39,9 @@ macro_rules! template {
     };
 }
 
-const MISSION: &str = include_str!("../templates/mission.toml");
-const MISSION_NAME: &str = "my-mission";
+/// Templates of one file: its text and the name in it.
+const MISSION: (&str, &str) = (include_str!("../templates/mission.toml"), "my-mission");
+const FMECA: (&str, &str) = (include_str!("../templates/fmeca.toml"), "my-fmeca");
 static NET: Template = template!("my-net" in "net", taken: &["net"]);
 static SYSTEM: Template =
     template!("my-system" in "system", taken: &["net", "system", "link", "drive", "state"]);
@@ -66,21 +66,35 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
         _ => Path::new("."),
     };
     if !folder.is_dir() {
-        let message = format!("{}: there is no such folder", folder.display());
-        return Err(Failure::new(message).help(format!("make it first, or say `{name}` alone")));
+        let (is, help) = if folder.exists() {
+            ("this is a file, and a folder is needed there", "choose another folder")
+        } else {
+            ("there is no such folder", "make it first")
+        };
+        let message = format!("{}: {is}", folder.display());
+        return Err(Failure::new(message).help(format!("{help}, or say `{name}` alone")));
     }
     let (files, next) = match args.kind {
-        NewKind::Mission => {
+        NewKind::Mission | NewKind::Fmeca => {
+            let what = one_file(args.kind);
             if args.sources.is_some() {
-                return Err(Failure::new("--sources is for crates: a mission is one file")
-                    .help("leave it out"));
+                let message = format!("--sources is for crates: {what} is one file");
+                return Err(Failure::new(message).help("leave it out"));
             }
             let file = path.with_file_name(format!("{name}.toml"));
             refuse_to_replace(&file)?;
-            output::file(&file, MISSION.replace(MISSION_NAME, name).as_bytes())?;
+            let is_mission = args.kind == NewKind::Mission;
+            let (text, own) = if is_mission { MISSION } else { FMECA };
+            output::file(&file, text.replace(own, name).as_bytes())?;
             let shown = quoted(&file.display().to_string());
-            let next =
-                format!("{NAME}cotama plan {shown}{NAME:#}, {NAME}cotama run {shown}{NAME:#}");
+            let next = if is_mission {
+                format!("{NAME}cotama plan {shown}{NAME:#}, {NAME}cotama run {shown}{NAME:#}")
+            } else {
+                format!(
+                    "{NAME}cotama fmeca {shown}{NAME:#}, \
+                     {NAME}cotama fmeca {shown} --diagnosability{NAME:#}"
+                )
+            };
             (vec![file], next)
         }
         NewKind::Net | NewKind::System => {
@@ -132,7 +146,7 @@ impl Template {
             .and_then(|()| fs::rename(&part, path));
         written.map_err(|error| {
             let _ = fs::remove_dir_all(&part);
-            Failure::new(format!("{}: it cannot be written: {}", path.display(), plain(&error)))
+            output::unwritten(path, &error)
         })?;
         Ok(self.files.iter().map(|(file, _)| path.join(file)).collect())
     }
@@ -180,14 +194,27 @@ fn sources(folder: &Path, wanted: Option<&Path>, screen: &Screen) -> Result<Stri
     Ok(SOURCES.to_owned())
 }
 
-/// A mission is called as its file; a crate as a module of Rust, where `-` becomes `_`.
+fn is_crate(kind: NewKind) -> bool {
+    matches!(kind, NewKind::Net | NewKind::System)
+}
+
+/// What a kind that is one file is called.
+const fn one_file(kind: NewKind) -> &'static str {
+    match kind {
+        NewKind::Fmeca => "an FMECA",
+        _ => "a mission",
+    }
+}
+
+/// A mission and an FMECA are called as their files; a crate as a module of Rust, where `-` becomes
+/// `_`.
 fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
-    let is_crate = kind != NewKind::Mission;
+    let is_crate = is_crate(kind);
     let fits = |c: char| c.is_ascii_alphanumeric() && !(is_crate && c.is_ascii_uppercase());
     let begins = |c: char| c.is_ascii_alphabetic() && fits(c);
     let all = name.chars().all(|c| fits(c) || c == '-' || c == '_');
     if name.len() > 64 || !name.starts_with(begins) || !all {
-        let what = if is_crate { "a crate" } else { "a mission" };
+        let what = if is_crate { "a crate" } else { one_file(kind) };
         let letters = if is_crate { "lower-case letters" } else { "letters" };
         let message = format!(
             "`{}` is no name for {what}: it is made of {letters} from a to z, digits, `-` and `_`, \
@@ -198,7 +225,7 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
     }
     let module = name.replace('-', "_");
     let taken = match kind {
-        NewKind::Mission => return Ok(()),
+        NewKind::Mission | NewKind::Fmeca => return Ok(()),
         NewKind::Net => NET.taken,
         NewKind::System => SYSTEM.taken,
     };
@@ -216,7 +243,7 @@ fn advised(failure: Failure, kind: NewKind, name: &str) -> Failure {
     let near = name.strip_suffix(".toml").unwrap_or(name);
     let near: String = near
         .chars()
-        .map(|c| if kind == NewKind::Mission { c } else { c.to_ascii_lowercase() })
+        .map(|c| if is_crate(kind) { c.to_ascii_lowercase() } else { c })
         .map(|c| if c.is_ascii_alphanumeric() || c == '_' { c } else { '-' })
         .collect();
     let near = near.trim_matches(|c: char| !c.is_ascii_alphanumeric());

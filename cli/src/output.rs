@@ -3,7 +3,7 @@
 use crate::answers::error::ErrorAnswer;
 use crate::args::Color;
 use crate::exit::Failure;
-use crate::input::plain;
+use crate::input::{folder_of, plain};
 use crate::names::quoted;
 use crate::render::fold::folded;
 use crate::render::snippet;
@@ -105,7 +105,7 @@ fn written(result: io::Result<()>) -> Result<(), Failure> {
 /// be written.
 pub(crate) fn place(path: &Path) -> Result<(), Failure> {
     if path.is_dir() {
-        return Err(wrong(path, "this is a directory, a file was to be written there"));
+        return Err(is_folder(path).help("give the name of a file in it"));
     }
     if path.file_name().is_none() {
         return Err(wrong(path, "this is not the name of a file"));
@@ -116,12 +116,17 @@ pub(crate) fn place(path: &Path) -> Result<(), Failure> {
 /// A place for the folder of a report, which is made if it is not there.
 pub(crate) fn report(folder: &Path) -> Result<(), Failure> {
     if folder.is_dir() {
-        return place(&folder.join("index.html"));
+        let page = folder.join("index.html");
+        return if page.is_dir() { Err(is_folder(&page)) } else { Ok(()) };
     }
     if folder.exists() {
         return Err(wrong(folder, "this is a file, and the report is a folder"));
     }
     there(folder_of(folder))
+}
+
+fn is_folder(path: &Path) -> Failure {
+    wrong(path, "this is a directory, a file was to be written there")
 }
 
 fn there(folder: &Path) -> Result<(), Failure> {
@@ -135,10 +140,6 @@ fn there(folder: &Path) -> Result<(), Failure> {
     Err(wrong(folder, "there is no such folder").help(format!("make it: mkdir -p {make}")))
 }
 
-fn folder_of(path: &Path) -> &Path {
-    path.parent().filter(|it| !it.as_os_str().is_empty()).unwrap_or(Path::new("."))
-}
-
 fn wrong(path: &Path, message: impl Into<String>) -> Failure {
     Failure::of(path.display().to_string(), message)
 }
@@ -147,11 +148,9 @@ fn wrong(path: &Path, message: impl Into<String>) -> Failure {
 /// the old file. When it fails, whatever stood there before still does.
 pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     place(path)?;
-    let refused =
-        |error: &io::Error| wrong(path, format!("it cannot be written: {}", plain(error)));
     // A device or a pipe cannot be replaced; it is written to.
     if path.metadata().is_ok_and(|there| !there.is_file()) {
-        return fs::write(path, bytes).map_err(|error| refused(&error));
+        return fs::write(path, bytes).map_err(|error| unwritten(path, &error));
     }
     let mut temporary = std::ffi::OsString::from(".");
     temporary.push(path.file_name().unwrap_or_default());
@@ -162,12 +161,22 @@ pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         .and_then(|()| fs::rename(&temporary, path));
     whole.map_err(|error| {
         let _ = fs::remove_file(&temporary);
-        refused(&error)
+        unwritten(path, &error)
     })
 }
 
 /// Makes a folder, and those that it is in.
 pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
-    fs::create_dir_all(path)
-        .map_err(|error| wrong(path, format!("this folder cannot be made: {}", plain(&error))))
+    fs::create_dir_all(path).map_err(|error| unwritten(path, &error))
+}
+
+/// Says why something cannot be written.
+pub(crate) fn unwritten(path: &Path, error: &io::Error) -> Failure {
+    let failure = wrong(path, format!("it cannot be written: {}", plain(error)));
+    match error.kind() {
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            failure.help("choose a folder in which you may write")
+        }
+        _ => failure,
+    }
 }

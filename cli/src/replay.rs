@@ -26,8 +26,8 @@ pub(crate) fn replay(args: &ReplayArgs, screen: &Screen) -> Result<Exit, Failure
     if let Some(folder) = &args.report {
         output::report(folder)?;
     }
-    let text = input::text(&args.file, "a trace", input::TRACE_BYTES)?;
-    kind::expect(&args.file, text.as_bytes(), "a trace", &[Kind::Trace, Kind::Faults])?;
+    let wanted = [Kind::Trace, Kind::Faults];
+    let text = kind::text(&args.file, "a trace", input::TRACE_BYTES, &wanted)?;
     let (loaded, trace, run, identical) = if text.trim_start().starts_with('{') {
         again(&args.file, &text)?
     } else {

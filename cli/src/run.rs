@@ -176,8 +176,8 @@ fn faults(named: &str, lost: &[Lost], mission: &Mission) -> Result<FaultChoice, 
         "script" => FaultChoice::Script,
         "none" => FaultChoice::None,
         path => {
-            let text = input::text(path, "a file of faults", input::MISSION_BYTES)?;
-            kind::expect(path, text.as_bytes(), "a file of faults", &[Kind::Faults])?;
+            let (limit, wanted) = (input::MISSION_BYTES, [Kind::Faults]);
+            let text = kind::text(path, "a file of faults", limit, &wanted)?;
             FaultChoice::Given { source: path.into(), faults: Faults::parse(path, &text, mission)? }
         }
     };

@@ -12,9 +12,8 @@ use cotama_verification::certificate::{VerifyError, verify as verify_text};
 /// Checks a certificate again.
 pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure> {
     const WHAT: &str = "a certificate";
-    let bytes = input::bytes(&args.certificate, WHAT, input::CERTIFICATE_BYTES)?;
-    kind::expect(&args.certificate, &bytes, WHAT, &[Kind::Certificate])?;
-    let text = input::utf8(&args.certificate, WHAT, bytes)?;
+    let (limit, wanted) = (input::CERTIFICATE_BYTES, [Kind::Certificate]);
+    let text = kind::text(&args.certificate, WHAT, limit, &wanted)?;
     let nothing = VerifyAnswer {
         schema: "cotama/verify/1",
         verified: false,

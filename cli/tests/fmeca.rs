@@ -47,7 +47,7 @@ fn every_format_is_written_by_its_name_and_by_the_end_of_the_files_name() {
 #[test]
 fn the_values_separated_by_commas_are_those_of_the_models() {
     let printed = Folder::new("fmeca_csv").cotama(&["fmeca", "--format", "csv"]).stdout;
-    assert_eq!(printed, cotama_models::cotama::FmecaCsv.to_string());
+    assert_eq!(printed, cotama_models::fmeca::Analysis::of_the_robot().to_csv());
 }
 
 #[test]
@@ -80,13 +80,13 @@ fn each_row_can_be_sorted_by_each_order_and_each_cell_of_a_card_says_its_column(
         .skip(1)
         .map(|it| it.split_once('"').unwrap().0)
         .collect();
-    assert_eq!(orders, ["place", "severity", "interval", "latency"]);
+    assert_eq!(orders, ["place", "rpn", "critical", "severity", "interval", "latency"]);
     let table = page.split_once("<tbody>").unwrap().1.split_once("</tbody>").unwrap().0;
     let rows: Vec<&str> = table.split("<tr ").skip(1).collect();
     assert_eq!(rows.len(), 40);
     for row in &rows {
-        assert_eq!(row.matches("<td").count(), 8, "{row}");
-        assert_eq!(row.matches(" data-column=\"").count(), 8, "{row}");
+        assert_eq!(row.matches("<td").count(), 10, "{row}");
+        assert_eq!(row.matches(" data-column=\"").count(), 10, "{row}");
         for order in &orders {
             let key = row.split_once(&format!(" data-{order}=\"")).unwrap().1;
             let key: u64 = key.split_once('"').unwrap().0.parse().unwrap();
@@ -103,6 +103,15 @@ fn each_row_can_be_sorted_by_each_order_and_each_cell_of_a_card_says_its_column(
     assert!(of("BAT2", "severity") < of("SON1", "severity"));
     assert!(of("SON4", "interval") < of("SON1", "interval"));
     assert!(of("SON1", "latency") < of("SON2", "latency"));
+    // 384 before 360; both are intolerable.
+    assert!(
+        of("OPR1", "rpn") < of("COM1", "rpn") && of("OPR1", "critical") < of("COM1", "critical")
+    );
+    // Intolerable with 80 before undesirable with 224; the filter knows the class alone.
+    assert!(
+        of("COL1", "critical") < of("ODO1", "critical") && of("ODO1", "rpn") < of("COL1", "rpn")
+    );
+    assert_eq!([of("COL1", "class"), of("ODO1", "class"), of("SON1", "class")], [0, 1, 2]);
 }
 
 #[test]
@@ -155,7 +164,7 @@ fn the_answer_in_json_has_every_row_and_what_cannot_be_told_apart() {
     golden("fmeca.json", &folder.cotama(&["fmeca", "--json"]).stdout);
     let counts = json!({
         "rows": 40, "functions": 15, "detected": 38,
-        "reported": 28, "recorded": 10, "undetectable": 2
+        "reported": 28, "recorded": 10, "undetectable": 2, "unexplained": 0
     });
     assert_eq!(answer["counts"], counts);
     let rows = answer["rows"].as_array().unwrap();

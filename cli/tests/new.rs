@@ -128,7 +128,7 @@ fn what_is_there_is_not_replaced_and_nothing_half_written() {
     refused(&["system", "loop"], &["`loop` is a name that Rust", "`my-loop`"]);
     refused(&["system", "link"], &["`link` is a name that Rust or the crate itself needs"]);
     refused(&["net", "none/gate"], &["none: there is no such folder", "`gate` alone"]);
-    refused(&["mission", "gate/hall"], &["gate: there is no such folder"]);
+    refused(&["mission", "gate/hall"], &["gate: this is a file, and a folder is needed there"]);
     refused(&["net", "lift", "--sources", "."], &["--sources .: there is no cotama"]);
     refused(&["mission", "lift", "--sources", "."], &["--sources is for crates"]);
     assert_eq!(folder.files("."), ["gate", "hall.toml"]);

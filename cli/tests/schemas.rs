@@ -4,7 +4,7 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 15] = [
+const COMMANDS: [&str; 17] = [
     "list",
     "plan",
     "run",
@@ -20,6 +20,8 @@ const COMMANDS: [&str; 15] = [
     "fmeca",
     "new",
     "error",
+    "mission",
+    "faults",
 ];
 
 fn stored(command: &str) -> PathBuf {

@@ -8,9 +8,10 @@
 //! and reports every error at once; what it returns is complete, so that nothing after it can fail
 //! on the mission's account.
 //!
-//! The crate has two more rooms. [`nets`] are ready supervisors, checked while compiling, and
+//! The crate has three more rooms. [`nets`] are ready supervisors, checked while compiling, and
 //! families of nets. [`cotama`] is COTAMA's decisional level: its supervisors, the modules that
-//! they switch, what can fail and how it is seen, and the requirements.
+//! they switch, what can fail and how it is seen, and the requirements. `fmeca` (feature `std`)
+//! reads such an analysis of any robot from a file, and says how critical each row is.
 //!
 //! Without the feature `std` only [`cotama`], the tables of missions ([`missions::tables`]) and the
 //! ready [`nets`] remain, without heap, for firmware.
@@ -32,6 +33,8 @@
 extern crate self as cotama_models;
 
 pub mod cotama;
+#[cfg(feature = "std")]
+pub mod fmeca;
 pub mod missions;
 pub mod nets;
 

@@ -4,6 +4,9 @@
 //! warning; the others are refused, as `golden.txt` says. After a change of the words:
 //! `UPDATE_GOLDEN=1 cargo test -p cotama-tests --test refused`, and read the difference as a
 //! stranger would.
+//!
+//! Two more cases are the supervisor of the README: as it stands there, and without its `ignore`,
+//! which is refused in the words that the README shows.
 
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -13,6 +16,11 @@ use std::process::Command;
 
 /// Nets that are refused when they are used, which only generating code finds out.
 const WHEN_USED: [&str; 2] = ["state_of_33_places", "state_of_two_tokens"];
+
+/// The supervisor of the README, and the same without its `ignore`.
+const README_CASES: [&str; 2] = ["readme", "readme_without_ignore"];
+/// What stands before the words of `net!`.
+const OURS: &str = "evaluation panicked: ";
 
 /// What the compiler says of one case.
 #[derive(Default)]
@@ -37,7 +45,8 @@ fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
     let here = Path::new(env!("CARGO_MANIFEST_DIR")).join("refused");
     let names = case_names(&here);
     let package = package(&here, &names);
-    let said = compile(&package);
+    let mut said = compile(&package);
+    let readme = README_CASES.map(|name| said.remove(name).unwrap_or_default());
     assert!(
         said.keys().all(|name| names.contains(name)),
         "the library itself does not compile or is warned of"
@@ -58,6 +67,21 @@ fn every_refusal_reads_as_agreed_and_every_twin_compiles() {
     }
     cotama_golden::compare("refused/golden.txt", &refused.concat());
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    let [whole, without_ignore] = &readme;
+    assert!(whole.errors().is_empty() && whole.warnings.is_empty(), "README: {:?}", whole.errors());
+    let words = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
+    let shown = block("text").split_once(OURS).expect("the README shows a refusal").1;
+    assert_eq!(
+        without_ignore.errors().iter().map(|it| words(it)).collect::<Vec<_>>(),
+        [words(shown)]
+    );
+}
+
+/// The first block of the README in a language.
+fn block(language: &str) -> &'static str {
+    const README: &str = include_str!("../../README.md");
+    let (_, rest) = README.split_once(&format!("```{language}\n")).expect("the README has it");
+    rest.split_once("```").expect("it ends").0
 }
 
 fn case_names(here: &Path) -> Vec<String> {
@@ -79,13 +103,22 @@ fn package(here: &Path, names: &[String]) -> PathBuf {
          autoexamples = false\n\
          [lib]\npath = \"lib.rs\"\n[dev-dependencies]\ncotama-core = {{ path = '{core}' }}\n"
     )];
-    for name in names {
-        let path = here.join("cases").join(name).with_extension("rs");
+    let example = |name: &str, path: &Path| {
         let path = path.display();
-        manifest
-            .push(format!("[[example]]\nname = '{name}'\npath = '{path}'\ncrate-type = ['lib']\n"));
+        format!("[[example]]\nname = '{name}'\npath = '{path}'\ncrate-type = ['lib']\n")
+    };
+    for name in names {
+        manifest.push(example(name, &here.join("cases").join(name).with_extension("rs")));
     }
     fs::create_dir_all(&package).expect("the directory for tests can be written");
+    let whole = format!("//! The README.\nuse cotama_core::net;\n{}", block("rust"));
+    let less =
+        whole.lines().filter(|it| !it.trim_start().starts_with("ignore")).collect::<Vec<_>>();
+    for (name, text) in README_CASES.into_iter().zip([whole.clone(), less.join("\n")]) {
+        let path = package.join(name).with_extension("rs");
+        fs::write(&path, text).expect("a case can be written");
+        manifest.push(example(name, &path));
+    }
     fs::write(package.join("Cargo.toml"), manifest.concat()).expect("the manifest can be written");
     fs::write(package.join("lib.rs"), "").expect("the library can be written");
     package
@@ -130,7 +163,7 @@ fn hear(said: &mut Said, message: &Value) {
         }
         return;
     }
-    let ours = text.strip_prefix("evaluation panicked: ");
+    let ours = text.strip_prefix(OURS);
     // `compile_error!` has no code, as errors of syntax, but a net or system.
     let names = text.starts_with("net `") || text.starts_with("system `");
     let ours = ours.or_else(|| (message["code"].is_null() && names).then_some(text));

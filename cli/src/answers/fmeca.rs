@@ -3,143 +3,189 @@
 use schemars::JsonSchema;
 use serde::Serialize;
 
-/// The failure modes of the delivery robot, what reacts to them, and which of them look alike.
+/// The failure modes of an analysis, what reacts to them, how critical they are, and which of them
+/// look alike. Without a file it is that of the delivery robot.
 #[derive(Debug, JsonSchema, Serialize)]
-pub(crate) struct FmecaAnswer {
+pub(crate) struct FmecaAnswer<'a> {
     #[schemars(extend("const" = "cotama/fmeca/1"))]
     pub(crate) schema: &'static str,
+    /// What it is about.
+    pub(crate) title: &'a str,
+    /// The time of operation for which occurrence classes count failures, in hours.
+    pub(crate) period_h: u32,
+    /// Whether it is the robot's, whose words say more than those of a file.
+    #[serde(skip)]
+    pub(crate) is_robot: bool,
     pub(crate) counts: CountsRow,
     /// One row a failure mode.
-    pub(crate) rows: Vec<FmecaRow>,
+    pub(crate) rows: Vec<FmecaRow<'a>>,
     /// One cause-effect diagram a function.
-    pub(crate) diagrams: Vec<DiagramRow>,
-    pub(crate) diagnosability: Diagnosability,
+    pub(crate) diagrams: Vec<DiagramRow<'a>>,
+    pub(crate) diagnosability: Diagnosability<'a>,
 }
 
-/// How many failure modes are seen and answered; every one of them is in `detected` or in
-/// `undetectable`.
+/// How many failure modes are seen and answered; every one of them is in `detected`, in
+/// `undetectable` or in `unexplained`.
 #[derive(Clone, Copy, Debug, JsonSchema, PartialEq, Eq, Serialize)]
 pub(crate) struct CountsRow {
     pub(crate) rows: usize,
     pub(crate) functions: usize,
     /// Rows that always raise a flag.
     pub(crate) detected: usize,
-    /// Those of them that are reported to the contextual supervisor.
+    /// Those of them that are reported to the contextual supervisor, of the delivery robot.
     pub(crate) reported: usize,
-    /// Those of them that are recorded, with a reaction of their own.
+    /// Those of them that are not, with a reaction of their own.
     pub(crate) recorded: usize,
     /// Rows that nothing of the architecture sees, declared as such with a reason.
     pub(crate) undetectable: usize,
+    /// Rows that always raise no flag, and no reason is stated.
+    pub(crate) unexplained: usize,
 }
 
 /// A failure mode.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct FmecaRow {
-    pub(crate) id: &'static str,
+pub(crate) struct FmecaRow<'a> {
+    pub(crate) id: &'a str,
     /// The function that suffers.
-    pub(crate) function: &'static str,
-    pub(crate) component: &'static str,
-    pub(crate) failure: &'static str,
-    pub(crate) cause: &'static str,
-    pub(crate) effect: &'static str,
+    pub(crate) function: &'a str,
+    pub(crate) component: &'a str,
+    pub(crate) failure: &'a str,
+    pub(crate) cause: &'a str,
+    pub(crate) effect: &'a str,
     /// While the robot drives itself: `weak`, `medium`, `hard` or `fatal`.
-    pub(crate) severity_autonomous: &'static str,
-    /// While the operator drives.
-    pub(crate) severity_operator: &'static str,
-    /// Who gets its event while the robot drives itself: `adapter`, `local` or `global`.
-    pub(crate) class: &'static str,
-    /// `permanent`, `transient` or `intermittent`.
-    pub(crate) persistence: &'static str,
-    /// Modules lost, in words.
-    pub(crate) loss: &'static str,
-    /// Modules that are faulty with it.
-    pub(crate) modules_faulty: Vec<&'static str>,
+    pub(crate) severity_autonomous: &'a str,
+    /// While the operator drives; null if the file makes no difference.
+    pub(crate) severity_operator: Option<&'a str>,
+    /// Who gets its event while the robot drives itself; of the delivery robot: `adapter`, `local`
+    /// or `global`.
+    pub(crate) class: &'a str,
+    /// `permanent`, `transient` or `intermittent`; null if the file does not say.
+    pub(crate) persistence: Option<&'a str>,
+    /// What is lost, in words.
+    pub(crate) loss: &'a str,
+    /// Modules that are faulty with it; this and what else is about modules is of the delivery
+    /// robot only.
+    pub(crate) modules_faulty: Vec<&'a str>,
     /// Whether it is a fault of one module, whichever it is.
     pub(crate) any_one_module: bool,
     /// Hardware, and the map, that is lost with it.
-    pub(crate) resources_lost: Vec<&'static str>,
+    pub(crate) resources_lost: Vec<&'a str>,
     /// Modules that are unavailable after it, those that need faulty or lost ones among them.
-    pub(crate) modules_unavailable: Vec<&'static str>,
+    pub(crate) modules_unavailable: Vec<&'a str>,
     /// Who sees it, in words.
-    pub(crate) observer: &'static str,
+    pub(crate) observer: &'a str,
     /// How it is seen, in words.
-    pub(crate) detection: &'static str,
+    pub(crate) detection: &'a str,
     pub(crate) detection_latency_ms: u32,
     /// Flags that it always raises.
-    pub(crate) flags_always: Vec<&'static str>,
+    pub(crate) flags_always: Vec<&'a str>,
     /// Flags that it may raise too.
-    pub(crate) flags_sometimes: Vec<&'static str>,
+    pub(crate) flags_sometimes: Vec<&'a str>,
     /// It can only happen, or only matters, while these modules are available.
-    pub(crate) only_with_modules: Vec<&'static str>,
+    pub(crate) only_with_modules: Vec<&'a str>,
     /// It can only happen while these modules are not.
-    pub(crate) only_without_modules: Vec<&'static str>,
-    /// Why nothing of the architecture sees it; null if something does.
-    pub(crate) undetectable_reason: Option<&'static str>,
+    pub(crate) only_without_modules: Vec<&'a str>,
+    /// Why nothing sees it; null if something does, or no reason is stated.
+    pub(crate) undetectable_reason: Option<&'a str>,
     /// The report to the contextual supervisor; null if it is recorded only.
-    pub(crate) report: Option<&'static str>,
-    pub(crate) reaction: &'static str,
+    pub(crate) report: Option<&'a str>,
+    pub(crate) reaction: &'a str,
     /// The mean time between failures, in thousandths of an hour.
-    pub(crate) mtbf_mh: u32,
+    pub(crate) mtbf_mh: u64,
     /// How well the rate is known: `stated`, `inferred` or `assumed`.
-    pub(crate) rate_label: &'static str,
-    pub(crate) rate_source: &'static str,
+    pub(crate) rate_label: &'a str,
+    pub(crate) rate_source: &'a str,
     /// How the fault is injected in simulation.
-    pub(crate) injection: &'static str,
+    pub(crate) injection: &'a str,
+    pub(crate) criticality: CriticalityRow,
+    /// What becomes of it in the decisional level of the robot, or who gets its event, in words.
+    #[serde(skip)]
+    pub(crate) event: String,
+}
+
+/// How critical a failure mode is: ranks with their product, and its field of the criticality
+/// matrix.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub(crate) struct CriticalityRow {
+    /// From 1 to 10; of the worse severity.
+    pub(crate) severity: u8,
+    /// From 1 to 10.
+    pub(crate) occurrence: u8,
+    /// From 1, seen for sure and at once, to 10, never seen.
+    pub(crate) detection: u8,
+    /// The risk priority number: the product of the three ranks.
+    pub(crate) rpn: u16,
+    /// `insignificant`, `marginal`, `critical` or `catastrophic`.
+    pub(crate) severity_class: &'static str,
+    /// `improbable`, `remote`, `occasional`, `probable` or `frequent`.
+    pub(crate) occurrence_class: &'static str,
+    /// `negligible`, `tolerable`, `undesirable` or `intolerable`.
+    pub(crate) class: &'static str,
+    /// The criticality number of MIL-STD-1629A in thousand millionths, where the file gives α and
+    /// β.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) number_e9: Option<u64>,
 }
 
 /// A cause-effect diagram: what takes a function away.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct DiagramRow {
-    pub(crate) function: &'static str,
-    pub(crate) ribs: Vec<RibRow>,
+pub(crate) struct DiagramRow<'a> {
+    pub(crate) function: &'a str,
+    pub(crate) ribs: Vec<RibRow<'a>>,
 }
 
 /// The failure modes of one component, for one function.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct RibRow {
-    pub(crate) component: &'static str,
-    pub(crate) modes: Vec<&'static str>,
+pub(crate) struct RibRow<'a> {
+    pub(crate) component: &'a str,
+    pub(crate) modes: Vec<&'a str>,
 }
 
 /// Which failure modes cannot be told apart, and what would help.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct Diagnosability {
+pub(crate) struct Diagnosability<'a> {
     /// The sound robot, then each single loss that leaves it running.
-    pub(crate) statuses: Vec<StatusRow>,
+    pub(crate) statuses: Vec<StatusRow<'a>>,
     /// Observations that the architecture does not make.
-    pub(crate) probes: Vec<ProbeRow>,
-    pub(crate) ambiguous_case: AmbiguousCase,
+    pub(crate) probes: Vec<ProbeRow<'a>>,
+    /// Of the delivery robot only.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) ambiguous_case: Option<AmbiguousCase<'a>>,
 }
 
 /// What can be told in one status of the robot.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct StatusRow {
-    /// As `sonar lost`.
-    pub(crate) status: &'static str,
+pub(crate) struct StatusRow<'a> {
+    /// As `sonar lost`; of a file there is one, `sound`.
+    pub(crate) status: &'a str,
     /// The resource that is lost.
-    pub(crate) lost: Option<&'static str>,
-    pub(crate) modules_unavailable: Vec<&'static str>,
+    pub(crate) lost: Option<&'a str>,
+    pub(crate) modules_unavailable: Vec<&'a str>,
     /// How many failure modes can happen and always raise a flag.
     pub(crate) detectable: usize,
     /// Failure modes that can happen and that no available observer is sure to see.
-    pub(crate) undetectable: Vec<UndetectableRow>,
+    pub(crate) undetectable: Vec<UndetectableRow<'a>>,
     /// Failure modes that cannot happen, or do not matter, any more or yet.
-    pub(crate) impossible: Vec<&'static str>,
+    pub(crate) impossible: Vec<&'a str>,
     /// The largest sets of failure modes that some flags leave open.
-    pub(crate) groups: Vec<GroupRow>,
+    pub(crate) groups: Vec<GroupRow<'a>>,
+    /// Whether these are all groups; there can be too many to tell.
+    pub(crate) groups_complete: bool,
     /// Every two that some flags leave open, with the probes of which each one would tell them
     /// apart.
-    pub(crate) pairs: Vec<PairRow>,
+    pub(crate) pairs: Vec<PairRow<'a>>,
+    /// How many further pairs there are.
+    pub(crate) pairs_left_out: usize,
     /// Whether probes could tell all pairs apart.
     pub(crate) separable: bool,
     /// The fewest probes that tell all pairs apart that any probe can.
-    pub(crate) least_probes: Vec<&'static str>,
+    pub(crate) least_probes: Vec<&'a str>,
 }
 
 /// A failure mode that is not detected.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct UndetectableRow {
-    pub(crate) id: &'static str,
+pub(crate) struct UndetectableRow<'a> {
+    pub(crate) id: &'a str,
     /// Whether the FMECA declares it so; otherwise its observers are unavailable.
     pub(crate) declared: bool,
     pub(crate) reason: String,
@@ -147,47 +193,47 @@ pub(crate) struct UndetectableRow {
 
 /// Failure modes with flags in common.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct GroupRow {
-    pub(crate) modes: Vec<&'static str>,
+pub(crate) struct GroupRow<'a> {
+    pub(crate) modes: Vec<&'a str>,
     /// The flags with which all of them are possible.
-    pub(crate) flags: Vec<&'static str>,
+    pub(crate) flags: Vec<&'a str>,
     /// Flags that may be raised too and still rule none out.
-    pub(crate) flags_optional: Vec<&'static str>,
+    pub(crate) flags_optional: Vec<&'a str>,
 }
 
 /// Two failure modes with flags in common.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct PairRow {
+pub(crate) struct PairRow<'a> {
     #[serde(flatten)]
-    pub(crate) shared: GroupRow,
+    pub(crate) shared: GroupRow<'a>,
     /// Each one of them would tell the two apart; none can if it is empty.
-    pub(crate) probes: Vec<&'static str>,
+    pub(crate) probes: Vec<&'a str>,
 }
 
 /// An observation that could be added.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct ProbeRow {
-    pub(crate) name: &'static str,
+pub(crate) struct ProbeRow<'a> {
+    pub(crate) name: &'a str,
     /// Who would observe what.
-    pub(crate) doc: &'static str,
+    pub(crate) doc: &'a str,
     /// The failure modes that it would show.
-    pub(crate) shows: Vec<&'static str>,
+    pub(crate) shows: Vec<&'a str>,
     /// The modules without which it would see nothing.
-    pub(crate) needs: Vec<&'static str>,
+    pub(crate) needs: Vec<&'a str>,
 }
 
 /// Point 3 of the published run.
 #[derive(Clone, Debug, JsonSchema, Serialize)]
-pub(crate) struct AmbiguousCase {
-    pub(crate) flags: Vec<&'static str>,
-    pub(crate) candidates: Vec<&'static str>,
-    pub(crate) modules_suspect: Vec<&'static str>,
+pub(crate) struct AmbiguousCase<'a> {
+    pub(crate) flags: Vec<&'a str>,
+    pub(crate) candidates: Vec<&'a str>,
+    pub(crate) modules_suspect: Vec<&'a str>,
     /// The class of the decision while a path is followed.
-    pub(crate) decision: &'static str,
+    pub(crate) decision: &'a str,
     /// The same when the operator cannot be reached.
-    pub(crate) decision_without_operator: &'static str,
+    pub(crate) decision_without_operator: &'a str,
     /// The probes of the least set that would settle it.
-    pub(crate) probes: Vec<&'static str>,
+    pub(crate) probes: Vec<&'a str>,
     /// The case in words, one paragraph each.
     pub(crate) text: Vec<String>,
 }

@@ -1,6 +1,7 @@
 //! The command line of the commands that check.
 
 use super::Json;
+use super::number::whole;
 use clap::{Args, ValueEnum};
 use schemars::JsonSchema;
 use serde::Serialize;
@@ -93,14 +94,14 @@ Examples:
 pub(crate) struct BudgetArgs {
     /// On how many threads
     #[arg(long, value_name = "N", default_value_t = 1)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=1024))]
+    #[arg(value_parser = whole(1, 1024))]
     pub(crate) jobs: u64,
     /// The most markings, or state classes of a time net [default: no limit]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "N", value_parser = whole(1, u64::MAX))]
     pub(crate) max_states: Option<u64>,
     /// The most memory of a search, in MiB
     #[arg(long, value_name = "MiB", default_value_t = 4096)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    #[arg(value_parser = whole(1, 1 << 40))]
     pub(crate) max_memory: u64,
     /// The most time of all work together, in seconds [default: no limit]
     #[arg(long, value_name = "s", value_parser = seconds)]

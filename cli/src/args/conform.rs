@@ -2,6 +2,7 @@
 
 use super::Json;
 use super::model::ModelArg;
+use super::number::whole;
 use clap::Args;
 
 pub(crate) const CONFORM_EXAMPLES: &str = "\
@@ -41,7 +42,7 @@ pub(crate) struct ConformArgs {
     pub(crate) trace: String,
     /// How far recorded dates may be from those of the model, in ms
     #[arg(long, value_name = "MS", default_value_t = 0)]
-    #[arg(value_parser = clap::value_parser!(u64).range(..=1_000_000))]
+    #[arg(value_parser = whole(0, 1_000_000))]
     pub(crate) tolerance: u64,
     #[command(flatten)]
     pub(crate) json: Json,

@@ -11,6 +11,9 @@ use std::fmt::Write;
 /// The widest help, however wide the screen is.
 const WIDEST: usize = 100;
 
+/// What the values are called that are numbers.
+const NUMBERS: [&str; 5] = ["N", "ms", "mJ", "s", "MiB"];
+
 /// The command line, with help for a screen so wide.
 pub(crate) fn command(width: usize) -> clap::Command {
     let width = width.min(WIDEST);
@@ -20,6 +23,12 @@ pub(crate) fn command(width: usize) -> clap::Command {
         None => command,
     };
     let program = Cli::command();
+    // `-5` is a wrong number, not an unknown option.
+    let number = |arg: clap::Arg| {
+        let is_number = arg.get_value_names().is_some_and(|it| NUMBERS.contains(&it[0].as_str()));
+        if is_number { arg.allow_negative_numbers(true) } else { arg }
+    };
+    let fit = |command: clap::Command| fit(command).mut_args(number);
     let names: Vec<_> = program.get_subcommands().map(|it| it.get_name().to_owned()).collect();
     let program = fit(program).term_width(width);
     names.iter().fold(program, |program, name| program.mut_subcommand(name, fit))

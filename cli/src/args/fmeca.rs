@@ -7,6 +7,9 @@ use std::path::PathBuf;
 pub(crate) const FMECA_EXAMPLES: &str = "\
 Severities: weak, medium, hard, fatal; the first while the robot drives itself, the second while \
 the operator drives.
+Criticality: the risk priority number (RPN) is severity rank x occurrence rank x detection rank, \
+each from 1 to 10; the class (intolerable, undesirable, tolerable, negligible) is the field of \
+severity against occurrence. The tables: docs/dependability.md.
 
 Examples:
   $ cotama fmeca
@@ -14,10 +17,16 @@ Examples:
   $ cotama fmeca --format csv | head -1
   $ cotama fmeca --output fmeca.html                        # the format by the name of the file
   $ cotama fmeca --function localise --output localise.svg
-  $ cotama fmeca --json";
+  $ cotama fmeca --json
+  $ cotama new fmeca gripper && cotama fmeca gripper.toml   # your own
+  $ cotama fmeca gripper.toml --diagnosability
+  $ cotama fmeca gripper.toml --output gripper.csv && cotama fmeca gripper.csv";
 
 #[derive(Args, Debug)]
 pub(crate) struct FmecaArgs {
+    /// An analysis of your own, in TOML or CSV [default: that of the delivery robot]
+    #[arg(value_name = "FILE")]
+    pub(crate) file: Option<String>,
     /// Writes it in this format [default: by the end of the name of the output]
     #[arg(long, value_enum, conflicts_with_all = ["json", "diagnosability"])]
     pub(crate) format: Option<FmecaFormat>,

@@ -1,5 +1,6 @@
 //! The command line of the commands about missions and plans.
 
+use super::number::{duration, energy, whole};
 use super::{Json, MissionArg};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
@@ -17,16 +18,16 @@ pub(crate) struct Planning {
     pub(crate) allocator: Option<AllocatorName>,
     /// The most steps of a complete search
     #[arg(long, value_name = "N", default_value_t = STEPS)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(value_parser = whole(1, u64::MAX))]
     pub(crate) steps: u64,
     /// Hardware lost from the start, as `laser:1`; all units of the kind when no number is given
     #[arg(long, value_name = "KIND[:UNITS]", value_parser = lost)]
     pub(crate) lost: Vec<Lost>,
     /// A duration limit in place of the mission's own, in ms
-    #[arg(long, value_name = "ms", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "ms", value_parser = duration)]
     pub(crate) duration_limit: Option<u64>,
     /// An energy limit in place of the mission's own, in mJ
-    #[arg(long, value_name = "mJ", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "mJ", value_parser = energy)]
     pub(crate) energy_limit: Option<u64>,
     /// How closely the robot is modelled
     // Hidden while it has one value.
@@ -62,14 +63,14 @@ pub(crate) struct RunArgs {
     #[command(flatten)]
     pub(crate) planning: Planning,
     /// The seed of all random numbers; under supervisors nothing is random yet
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
     pub(crate) seed: u64,
     /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of
     /// faults
     #[arg(long, value_name = "none|script|FILE", default_value = "script")]
     pub(crate) faults: String,
     /// How often margins are checked, in ms [default: as the mission file says]
-    #[arg(long, value_name = "ms", value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(long, value_name = "ms", value_parser = duration)]
     pub(crate) monitor_period: Option<u64>,
     /// Also looks for better plans when the margins have grown
     #[arg(long)]
@@ -100,7 +101,7 @@ pub(crate) struct AllocateArgs {
     pub(crate) allocator: AllocatorName,
     /// The most steps of a complete search
     #[arg(long, value_name = "N", default_value_t = STEPS)]
-    #[arg(value_parser = clap::value_parser!(u64).range(1..))]
+    #[arg(value_parser = whole(1, u64::MAX))]
     pub(crate) steps: u64,
     #[command(flatten)]
     pub(crate) json: Json,
@@ -114,7 +115,7 @@ pub(crate) struct ReplayArgs {
     #[arg(long)]
     pub(crate) mission: Option<String>,
     /// The seed for a file of faults
-    #[arg(long, value_name = "N", requires = "mission")]
+    #[arg(long, value_name = "N", requires = "mission", value_parser = whole(0, u64::MAX))]
     pub(crate) seed: Option<u64>,
     /// Writes a report of the run made again, `index.html`, to this folder
     #[arg(long, value_name = "DIR")]

@@ -7,12 +7,14 @@ use std::path::PathBuf;
 pub(crate) const NEW_EXAMPLES: &str = "\
 What is written:
   mission  NAME.toml, with every section explained; `plan` and `run` take it as it is
+  fmeca    NAME.toml, failure modes of a small robot with every key; `fmeca` takes it as it is
   net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
 what it promises, and an example that writes it as JSON for `check` and `simulate`
   system   the same with two supervisors that work together
 
 Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
+  $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
   $ cotama new system robot --json";
 
@@ -21,6 +23,8 @@ Examples:
 pub(crate) enum NewKind {
     /// A mission file
     Mission,
+    /// A file of failure modes, their effects and criticality
+    Fmeca,
     /// A crate with a supervisor
     Net,
     /// A crate with supervisors that work together

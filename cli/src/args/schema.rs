@@ -4,12 +4,12 @@ use clap::{Args, ValueEnum};
 
 #[derive(Args, Debug)]
 pub(crate) struct SchemaArgs {
-    /// The command
-    #[arg(value_enum)]
-    pub(crate) command: SchemaName,
+    /// The command, or the kind of file
+    #[arg(value_enum, value_name = "WHAT")]
+    pub(crate) of: SchemaName,
 }
 
-/// Commands that answer in JSON.
+/// Commands that answer in JSON, and files that users write.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum SchemaName {
     List,
@@ -29,4 +29,8 @@ pub(crate) enum SchemaName {
     Recording,
     /// What stands in place of an answer when there is none
     Error,
+    /// A mission file, in TOML
+    Mission,
+    /// A file of faults, in TOML
+    Faults,
 }

@@ -6,9 +6,9 @@ use crate::answers::fmeca::{
 };
 use cotama_models::cotama::{
     Class, Diagnosis, FailureMode, FailureModes, Flag, Flags, Loss, Losses, Modules, Probe, Probes,
-    Report, Resource, Resources, Situation, ambiguity_groups, available, confusable_pairs, decide,
-    diagnose, is_detectable, local, path_following, shared_flags, undetectable,
+    Report, Resource, Resources, Situation, available, decide, diagnose, local, path_following,
 };
+use cotama_models::fmeca::{Analysis, Mode, Status};
 
 /// The statuses that are looked at: the sound robot, and each single loss that leaves it running.
 const STATUSES: [(&str, Option<Resource>); 5] = [
@@ -20,71 +20,118 @@ const STATUSES: [(&str, Option<Resource>); 5] = [
 ];
 
 /// Every status, every probe, and point 3 of the published run.
-pub(crate) fn of_all() -> Diagnosability {
+pub(crate) fn of_the_robot(robot: &Analysis) -> Diagnosability<'_> {
+    let needs = |at: usize| Probe::ALL.get(at).map_or_else(Vec::new, |it| modules(it.needs()));
     Diagnosability {
-        statuses: STATUSES.iter().map(|&(name, lost)| status(name, lost)).collect(),
-        probes: Probe::ALL.iter().map(|&it| probe(it)).collect(),
-        ambiguous_case: ambiguous_case(),
+        statuses: STATUSES.iter().map(|&(name, lost)| after(robot, name, lost)).collect(),
+        probes: probe_rows(robot, needs),
+        ambiguous_case: Some(ambiguous_case()),
     }
 }
 
-fn status(name: &'static str, lost: Option<Resource>) -> StatusRow {
+/// What can be told as the file says.
+pub(crate) fn of_a_file(analysis: &Analysis) -> Diagnosability<'_> {
+    let unseen = |mode: &Mode| match analysis.names(&mode.sometimes).as_slice() {
+        [] => "it raises no flag, and no reason is stated".to_owned(),
+        flags => format!("it raises {} only sometimes", or(flags)),
+    };
+    Diagnosability {
+        statuses: vec![status(analysis, &analysis.sound(), "sound", unseen)],
+        probes: probe_rows(analysis, |_| Vec::new()),
+        ambiguous_case: None,
+    }
+}
+
+/// The robot after a loss, or without.
+fn after<'a>(robot: &'a Analysis, name: &'static str, lost: Option<Resource>) -> StatusRow<'a> {
     let resources = lost.map_or(Resources::NONE, |it| Resources::of(&[it]));
-    let status = available(Modules::NONE, resources);
-    let all = || FailureMode::ALL.iter().copied();
-    let unseen = undetectable(status);
-    let impossible = all().filter(|&it| !is_detectable(it, status) && !unseen.has(it));
-    let separating = |(a, b)| Probes::that_separate(a, b, status);
+    let left = available(Modules::NONE, resources);
+    let told = status(robot, &Status::of_the_robot(name, left), name, |mode| {
+        let flags = FailureMode::named(&mode.id).map(|it| it.rule().signature.always);
+        let why = |flag| blind(flag, left);
+        flags.into_iter().flat_map(Flags::iter).map(why).collect::<Vec<_>>().join("; ")
+    });
+    StatusRow {
+        lost: lost.map(Resource::name),
+        modules_unavailable: modules(Modules::ALL.without(left)),
+        ..told
+    }
+}
+
+/// Why a flag is not raised while these modules are left.
+fn blind(flag: Flag, left: Modules) -> String {
+    let (observers, missing) = (flag.observers(), flag.observed().without(left));
+    if !missing.is_empty() {
+        return format!(
+            "`{}` is a check of what {missing} tells, which is unavailable",
+            flag.name()
+        );
+    }
+    let verb = if observers.len() == 1 { "is" } else { "are" };
+    format!("`{}` is raised by {observers} alone, which {verb} unavailable", flag.name())
+}
+
+fn status<'a>(
+    analysis: &'a Analysis,
+    status: &Status,
+    name: &'static str,
+    unseen: impl Fn(&Mode) -> String,
+) -> StatusRow<'a> {
+    let told = analysis.diagnose(status);
+    let unseen = |at: usize| {
+        let mode = &analysis.modes()[at];
+        let reason = mode.silent.clone().unwrap_or_else(|| unseen(mode));
+        UndetectableRow { id: &mode.id, declared: mode.silent.is_some(), reason }
+    };
+    let group = |modes: &[usize]| {
+        let shared = analysis.shared(modes, status);
+        let (least, most) = shared.unwrap_or_else(|| (status.flags.clone(), status.flags.clone()));
+        GroupRow {
+            modes: analysis.ids(modes.iter().copied()),
+            flags: analysis.names(&least),
+            flags_optional: analysis.names(&most.without(&least)),
+        }
+    };
+    let probes = |places: &[usize]| -> Vec<&str> {
+        let named = places.iter().filter_map(|&at| analysis.probes().get(at));
+        named.map(|it| it.name.as_str()).collect()
+    };
     StatusRow {
         status: name,
-        lost: lost.map(Resource::name),
-        modules_unavailable: modules(Modules::ALL.without(status)),
-        detectable: all().filter(|&it| is_detectable(it, status)).count(),
-        undetectable: unseen.iter().map(unseen_row).collect(),
-        impossible: impossible.map(FailureMode::name).collect(),
-        groups: ambiguity_groups(status).map(|it| group(it, status)).collect(),
-        pairs: confusable_pairs(status)
-            .map(|(a, b)| PairRow {
-                shared: group(FailureModes::of(&[a, b]), status),
-                probes: probes(separating((a, b))),
-            })
+        lost: None,
+        modules_unavailable: Vec::new(),
+        detectable: told.detectable.len(),
+        undetectable: told.undetectable.iter().map(|&at| unseen(at)).collect(),
+        impossible: analysis.ids(told.impossible),
+        groups: told.groups.list.iter().map(|it| group(it)).collect(),
+        groups_complete: told.groups.complete,
+        pairs: told
+            .pairs
+            .iter()
+            .map(|it| PairRow { shared: group(&it.modes), probes: probes(&it.probes) })
             .collect(),
-        separable: confusable_pairs(status).all(|pair| !separating(pair).is_empty()),
-        least_probes: probes(Probes::least_that_help(status)),
+        pairs_left_out: told.pairs_left_out,
+        separable: told.separable,
+        least_probes: probes(&told.least_probes),
     }
 }
 
-fn unseen_row(mode: FailureMode) -> UndetectableRow {
-    let blind = |flag: Flag| {
-        let observers = flag.observers();
-        let verb = if observers.len() == 1 { "is" } else { "are" };
-        format!("`{}` is raised by {observers} alone, which {verb} unavailable", flag.name())
+fn probe_rows<'a>(
+    analysis: &'a Analysis,
+    needs: impl Fn(usize) -> Vec<&'static str>,
+) -> Vec<ProbeRow<'a>> {
+    let row = |(at, it): (usize, &'a cotama_models::fmeca::Probe)| ProbeRow {
+        name: &it.name,
+        doc: &it.doc,
+        shows: analysis.ids(it.shows.iter()),
+        needs: needs(at),
     };
-    let silent = mode.description().silent;
-    let reason = silent.map_or_else(
-        || mode.rule().signature.always.iter().map(blind).collect::<Vec<_>>().join("; "),
-        str::to_owned,
-    );
-    UndetectableRow { id: mode.name(), declared: silent.is_some(), reason }
+    analysis.probes().iter().enumerate().map(row).collect()
 }
 
-fn group(set: FailureModes, status: Modules) -> GroupRow {
-    let (least, most) = shared_flags(set, status).unwrap_or_default();
-    GroupRow { modes: modes(set), flags: flags(least), flags_optional: flags(most.without(least)) }
-}
-
-fn probe(it: Probe) -> ProbeRow {
-    ProbeRow {
-        name: it.name(),
-        doc: it.doc(),
-        shows: modes(it.shows()),
-        needs: modules(it.needs()),
-    }
-}
-
-/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI): avoidance drives the robot
-/// back along its path, in front of an obstacle that the map does not have.
-fn ambiguous_case() -> AmbiguousCase {
+/// Point 3 of the published run (Durand et al., TAROS 2010, Section VI.A.2): avoidance drives the
+/// robot back along its path, in front of an obstacle that the map does not have.
+fn ambiguous_case() -> AmbiguousCase<'static> {
     let raised = Flags::of(&[Flag::PoseGrowth, Flag::Backward]);
     let found = diagnose(raised, Modules::ALL);
     let candidates = match found {
@@ -176,12 +223,20 @@ fn explanation(mode: FailureMode, raised: Flags) -> String {
 
 /// A list in words.
 fn and(items: &[impl AsRef<str>]) -> String {
+    listed(items, "and")
+}
+
+fn or(items: &[impl AsRef<str>]) -> String {
+    listed(items, "or")
+}
+
+fn listed(items: &[impl AsRef<str>], word: &str) -> String {
     match items {
         [] => "nothing".to_owned(),
         [one] => one.as_ref().to_owned(),
         [first @ .., last] => {
             let first: Vec<_> = first.iter().map(AsRef::as_ref).collect();
-            format!("{} and {}", first.join(", "), last.as_ref())
+            format!("{} {word} {}", first.join(", "), last.as_ref())
         }
     }
 }

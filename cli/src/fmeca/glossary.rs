@@ -6,10 +6,11 @@ use std::collections::HashSet;
 use std::fmt::Write;
 
 /// Abbreviations that are no module's name; failure modes stand in the table.
-const WORDS: [(&str, &str); 9] = [
+const WORDS: [(&str, &str); 10] = [
     ("FMECA", "failure modes, effects and criticality analysis"),
-    ("COTAMA", "the control architecture of Durand et al., TAROS 2010"),
     ("MTBF", "mean time between failures"),
+    ("RPN", "risk priority number: severity × occurrence × detection"),
+    ("COTAMA", "the control architecture of Durand et al., TAROS 2010"),
     ("CS", "the contextual supervisor: who must react"),
     ("CPU", "the processor of the laptop"),
     ("NaN", "a value that is not a number"),
@@ -18,17 +19,22 @@ const WORDS: [(&str, &str); 9] = [
     ("WiFi", "the wireless network"),
 ];
 
+/// How many of them any analysis may use; the others are the robot's.
+const COMMON: usize = 3;
+
 /// The section of the page; `page` is what stands before it.
-pub(super) fn section(page: &str) -> String {
+pub(super) fn section(page: &str, is_robot: bool) -> String {
     let texts = page.split('<').filter_map(|it| it.split_once('>')).map(|it| it.1);
     let words: HashSet<&str> =
         texts.flat_map(|it| it.split(|it: char| !(it.is_alphanumeric() || it == '-'))).collect();
     let modules = Module::ALL.iter().map(|it| (it.name(), it.doc()));
     let mut html = String::from(
         "<section id=\"abbreviations\">\n<h2>Abbreviations on this page</h2>\n<p class=\"note\">\
-         Ids of failure modes, as SON1, lead to their rows.</p>\n<dl>\n",
+         Ids of failure modes lead to their rows.</p>\n<dl>\n",
     );
-    for (name, meaning) in WORDS.into_iter().chain(modules).filter(|it| words.contains(it.0)) {
+    let own = if is_robot { usize::MAX } else { COMMON };
+    let known = WORDS.into_iter().chain(modules).take(own);
+    for (name, meaning) in known.filter(|it| words.contains(it.0)) {
         let meaning = escape(meaning.trim().trim_end_matches('.'));
         let _ = writeln!(html, "<div><dt>{name}</dt><dd>{meaning}</dd></div>");
     }

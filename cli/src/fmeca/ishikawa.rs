@@ -3,7 +3,8 @@
 //! 2010).
 
 use super::scene::{Face, Group, Place, Scene};
-use cotama_models::cotama::{FailureMode, Rib, Severity, ribs};
+use cotama_models::cotama::Severity;
+use cotama_models::fmeca::{Analysis, Mode, Rib};
 
 /// The space around a diagram, and between things that must not touch.
 const MARGIN: i64 = 14;
@@ -20,8 +21,8 @@ const LETTER: i64 = 15;
 const NAME: i64 = 22;
 
 /// A branch: a failure mode, as it is drawn.
-struct Branch {
-    mode: FailureMode,
+struct Branch<'a> {
+    mode: &'a Mode,
     failure: Vec<String>,
     cause: Vec<String>,
     /// The text stands this far from its left end, behind the badges.
@@ -30,11 +31,10 @@ struct Branch {
     height: i64,
 }
 
-impl Branch {
-    fn new(mode: FailureMode) -> Self {
-        let text = mode.description();
-        let failure = Face::Failure.lines(text.failure, WRAP);
-        let cause = Face::Quiet.lines(text.cause, WRAP);
+impl<'a> Branch<'a> {
+    fn new(mode: &'a Mode) -> Self {
+        let failure = Face::Failure.lines(&mode.failure, WRAP);
+        let cause = Face::Quiet.lines(&mode.cause, WRAP);
         let indent = badges_width(mode) + 6;
         let widths = failure.iter().map(|it| Face::Failure.width(it));
         let widest = widths.chain(cause.iter().map(|it| Face::Quiet.width(it))).max().unwrap_or(0);
@@ -44,14 +44,15 @@ impl Branch {
 }
 
 /// A rib with its branches, as it is drawn.
-struct Bone {
-    component: &'static str,
-    branches: Vec<Branch>,
+struct Bone<'a> {
+    component: &'a str,
+    branches: Vec<Branch<'a>>,
 }
 
-impl Bone {
-    fn new(rib: &Rib) -> Self {
-        Self { component: rib.component, branches: rib.modes.iter().map(Branch::new).collect() }
+impl<'a> Bone<'a> {
+    fn new(rib: Rib<'a>) -> Self {
+        let branches = rib.modes.into_iter().map(Branch::new).collect();
+        Self { component: rib.component, branches }
     }
 
     fn name_width(&self) -> i64 {
@@ -76,8 +77,8 @@ const fn slope(distance: i64) -> i64 {
 }
 
 /// The diagram of a function; an empty one of what is no function.
-pub(crate) fn diagram(function: &str) -> Scene {
-    let bones: Vec<Bone> = ribs(function).map(|rib| Bone::new(&rib)).collect();
+pub(crate) fn diagram(analysis: &Analysis, function: &str) -> Scene {
+    let bones: Vec<Bone<'_>> = analysis.ribs(function).into_iter().map(Bone::new).collect();
     // Ribs stand above and below in turn, two at each foot.
     let reach =
         |side: usize| bones.iter().skip(side).step_by(2).map(Bone::height).max().unwrap_or(0);
@@ -85,9 +86,9 @@ pub(crate) fn diagram(function: &str) -> Scene {
     let head = Head::new(function);
     let spine = MARGIN + above.max(head.height / 2);
     let mut feet: Vec<i64> = Vec::new();
-    let mut before: Option<&[Bone]> = None;
+    let mut before: Option<&[Bone<'_>]> = None;
     for pair in bones.chunks(2) {
-        let room = |(side, bone): (usize, &Bone)| {
+        let room = |(side, bone): (usize, &Bone<'_>)| {
             let Some((before, foot)) = before.zip(feet.last()) else {
                 return MARGIN
                     + slope([above, below][side])
@@ -118,7 +119,7 @@ pub(crate) fn diagram(function: &str) -> Scene {
 }
 
 /// A rib that reaches so far to one side of the spine: -1 is above, 1 is below.
-fn draw(scene: &mut Scene, bone: &Bone, (foot, spine): Place, side: i64, reach: i64) {
+fn draw(scene: &mut Scene, bone: &Bone<'_>, (foot, spine): Place, side: i64, reach: i64) {
     let rib = |y: i64| foot - slope((y - spine).abs());
     let end = spine + side * (reach - NAME);
     let mut group = Group::default();
@@ -142,18 +143,12 @@ fn draw(scene: &mut Scene, bone: &Bone, (foot, spine): Place, side: i64, reach: 
 }
 
 /// A branch with its left upper corner, and the rib where it ends.
-fn drawn(branch: &Branch, (left, top): Place, rib: i64) -> Group {
+fn drawn(branch: &Branch<'_>, (left, top): Place, rib: i64) -> Group {
     let mode = branch.mode;
-    let (rule, text) = (mode.rule(), mode.description());
-    let title = format!(
-        "{}: {}. Cause: {}. Effect: {}",
-        mode.name(),
-        text.failure,
-        text.cause,
-        text.effect
-    );
+    let title =
+        format!("{}: {}. Cause: {}. Effect: {}", mode.id, mode.failure, mode.cause, mode.effect);
     let mut group = Group { title, items: Vec::new() };
-    badges(&mut group, mode.name(), (rule.autonomous, rule.operator), (left, top));
+    badges(&mut group, mode, (left, top));
     let mut y = top;
     for (face, lines) in [(Face::Failure, &branch.failure), (Face::Quiet, &branch.cause)] {
         for line in lines {
@@ -161,7 +156,7 @@ fn drawn(branch: &Branch, (left, top): Place, rib: i64) -> Group {
             group.text(face, (left + branch.indent, y - 3), line);
         }
     }
-    let class = if text.silent.is_some() { "unseen" } else { "branch" };
+    let class = if mode.is_detected() { "branch" } else { "unseen" };
     group.line(class, (left, top + branch.height), (rib, top + branch.height));
     group
 }
@@ -197,25 +192,17 @@ fn id_width(id: &str) -> i64 {
     Face::Badge.width(id) + 10
 }
 
-fn badges_width(mode: FailureMode) -> i64 {
-    id_width(mode.name()) + 2 * LETTER
+fn badges_width(mode: &Mode) -> i64 {
+    id_width(&mode.id) + LETTER + mode.severity_operator.map_or(0, |_| LETTER)
 }
 
-/// A name on the colour of the first severity, and the first letters of both severities on theirs.
-pub(crate) fn badges(
-    group: &mut Group,
-    name: &str,
-    (first, second): (Severity, Severity),
-    (left, top): Place,
-) {
+/// An id on the colour of the first severity, and the first letter of each severity on its own.
+fn badges(group: &mut Group, mode: &Mode, (left, top): Place) {
     let mut x = left;
-    let letter = |severity: Severity| severity.name()[..1].to_uppercase();
-    let parts = [
-        (name.to_owned(), first, id_width(name)),
-        (letter(first), first, LETTER),
-        (letter(second), second, LETTER),
-    ];
-    for (text, severity, wide) in parts {
+    let letter = |it: Severity| (it.name()[..1].to_uppercase(), it, LETTER);
+    let id = (mode.id.clone(), mode.severity, id_width(&mode.id));
+    let letters = [Some(mode.severity), mode.severity_operator].into_iter().flatten().map(letter);
+    for (text, severity, wide) in std::iter::once(id).chain(letters) {
         group.rect(severity.name(), (x, top), (wide, BADGE), 0);
         let face = if severity == Severity::Fatal { Face::DarkBadge } else { Face::Badge };
         group.text(face, (x + wide / 2, top + 12), text);
@@ -224,7 +211,7 @@ pub(crate) fn badges(
 }
 
 /// What the colours, letters and lines mean, in lines no wider than `most`.
-pub(crate) fn legend(most: i64) -> Scene {
+pub(crate) fn legend(analysis: &Analysis, most: i64) -> Scene {
     let mut scene = Scene { width: 0, height: MARGIN, groups: Vec::new() };
     let mut group = Group::default();
     let mut x = MARGIN;
@@ -246,10 +233,15 @@ pub(crate) fn legend(most: i64) -> Scene {
         group.text(face, (left + LETTER / 2, top + 12), severity.name()[..1].to_uppercase());
         group.text(Face::Quiet, (left + LETTER + 5, top + 12), severity.name());
     }
-    let words = "first letter: the robot drives itself; second: the operator drives";
-    let (left, top) = place(Face::Quiet.width(words));
-    group.text(Face::Quiet, (left, top + 12), words);
-    let lines = [("branch", "some observer sees it"), ("unseen", "declared unseen, with a reason")];
+    if analysis.modes().iter().any(|it| it.severity_operator.is_some()) {
+        let words = "first letter: the robot drives itself; second: the operator drives";
+        let (left, top) = place(Face::Quiet.width(words));
+        group.text(Face::Quiet, (left, top + 12), words);
+    }
+    let declared = analysis.modes().iter().all(|it| it.is_detected() || it.silent.is_some());
+    let unseen =
+        if declared { "declared unseen, with a reason" } else { "nothing is sure to see it" };
+    let lines = [("branch", "some observer sees it"), ("unseen", unseen)];
     for (class, words) in lines {
         let (left, top) = place(33 + Face::Quiet.width(words));
         group.line(class, (left, top + 8), (left + 28, top + 8));
@@ -262,7 +254,6 @@ pub(crate) fn legend(most: i64) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cotama_models::cotama::functions;
 
     fn apart(one: [i64; 4], other: [i64; 4]) -> bool {
         one[2] <= other[0] || other[2] <= one[0] || one[3] <= other[1] || other[3] <= one[1]
@@ -278,7 +269,9 @@ mod tests {
     }
 
     fn scenes() -> Vec<Scene> {
-        functions().map(diagram).chain([legend(200), legend(900)]).collect()
+        let robot = Analysis::of_the_robot();
+        let diagrams = robot.functions().into_iter().map(|it| diagram(&robot, it));
+        diagrams.chain([legend(&robot, 200), legend(&robot, 900)]).collect()
     }
 
     #[test]
@@ -309,14 +302,11 @@ mod tests {
 
     #[test]
     fn every_failure_mode_is_drawn_once() {
-        let scenes: Vec<_> = functions().map(diagram).collect();
-        for mode in FailureMode::ALL {
-            let drawn = scenes
-                .iter()
-                .flat_map(Scene::texts)
-                .filter(|(text, _)| *text == mode.name())
-                .count();
-            assert_eq!(drawn, 1, "{}", mode.name());
+        let scenes = scenes();
+        for mode in Analysis::of_the_robot().modes() {
+            let drawn =
+                scenes.iter().flat_map(Scene::texts).filter(|(text, _)| *text == mode.id).count();
+            assert_eq!(drawn, 1, "{}", mode.id);
         }
     }
 

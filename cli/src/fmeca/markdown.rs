@@ -1,10 +1,10 @@
 //! The FMECA as a table in Markdown.
 
 use crate::answers::fmeca::{FmecaAnswer, FmecaRow};
-use crate::render::fmeca::{event, hours, seconds, summary};
+use crate::render::fmeca::{heading, hours, seconds, summary, worst};
 use std::fmt::Write;
 
-const COLUMNS: [&str; 15] = [
+const COLUMNS: [&str; 20] = [
     "id",
     "function",
     "component",
@@ -20,21 +20,48 @@ const COLUMNS: [&str; 15] = [
     "event",
     "reaction",
     "MTBF",
+    "S",
+    "O",
+    "D",
+    "RPN",
+    "criticality",
 ];
 
-/// A heading, the counts and the table.
-pub(crate) fn write(answer: &FmecaAnswer) -> String {
-    let mut text = format!("# FMECA of the delivery robot\n\n{}.\n\n", summary(&answer.counts));
-    line(&mut text, &COLUMNS.map(str::to_owned));
-    line(&mut text, &COLUMNS.map(|_| "---".to_owned()));
-    for row in &answer.rows {
-        line(&mut text, &cells(row));
+/// A heading, the counts and the table; without columns in which nothing stands.
+pub(crate) fn write(answer: &FmecaAnswer<'_>) -> String {
+    let mut text = format!(
+        "# {}\n\n{}. {}\n\n",
+        plain(&heading(answer)),
+        summary(answer),
+        worst(&answer.rows)
+    );
+    let rows: Vec<_> = answer.rows.iter().map(cells).collect();
+    let used: Vec<_> =
+        (0..COLUMNS.len()).filter(|&at| rows.iter().any(|it| !it[at].is_empty())).collect();
+    let both = answer.rows.iter().any(|it| it.severity_operator.is_some());
+    line(&mut text, used.iter().map(|&at| name(COLUMNS[at], both, answer.is_robot)));
+    line(&mut text, used.iter().map(|_| "---"));
+    for row in &rows {
+        line(&mut text, used.iter().map(|&at| row[at].as_str()));
     }
     text
 }
 
-fn cells(row: &FmecaRow) -> [String; 15] {
+/// What a column is called: without an operator there is one severity, and only the robot has
+/// modules.
+fn name(column: &'static str, both: bool, is_robot: bool) -> &'static str {
+    match column {
+        "severity, robot drives" if !both => "severity",
+        "modules lost" if !is_robot => "lost",
+        _ => column,
+    }
+}
+
+fn cells(row: &FmecaRow<'_>) -> [String; 20] {
     let rate = format!("{} ({})", hours(row.mtbf_mh), row.rate_label);
+    let seen = !row.flags_always.is_empty() || row.detection_latency_ms > 0;
+    let within = if seen { seconds(row.detection_latency_ms) } else { String::new() };
+    let criticality = row.criticality;
     [
         row.id,
         row.function,
@@ -43,29 +70,38 @@ fn cells(row: &FmecaRow) -> [String; 15] {
         row.cause,
         row.effect,
         row.severity_autonomous,
-        row.severity_operator,
+        row.severity_operator.unwrap_or_default(),
         row.loss,
         row.observer,
         row.detection,
-        &seconds(row.detection_latency_ms),
-        &event(row),
+        &within,
+        &row.event,
         row.reaction,
         &rate,
+        &criticality.severity.to_string(),
+        &criticality.occurrence.to_string(),
+        &criticality.detection.to_string(),
+        &criticality.rpn.to_string(),
+        criticality.class,
     ]
     .map(str::to_owned)
 }
 
-fn line(text: &mut String, cells: &[String]) {
+fn line<'a>(text: &mut String, cells: impl Iterator<Item = &'a str>) {
     for cell in cells {
-        // A bar would end the cell, and these begin HTML, links and emphasis.
-        let mut safe = String::with_capacity(cell.len());
-        for c in cell.chars() {
-            if matches!(c, '|' | '<' | '>' | '[' | ']' | '*' | '_' | '`' | '\\') {
-                safe.push('\\');
-            }
-            safe.push(c);
-        }
-        let _ = write!(text, "| {safe} ");
+        let _ = write!(text, "| {} ", plain(cell));
     }
     text.push_str("|\n");
+}
+
+/// A text in which a bar would end the cell, and others begin HTML, links and emphasis.
+fn plain(text: &str) -> String {
+    let mut safe = String::with_capacity(text.len());
+    for c in text.chars() {
+        if matches!(c, '|' | '<' | '>' | '[' | ']' | '*' | '_' | '`' | '\\') {
+            safe.push('\\');
+        }
+        safe.push(c);
+    }
+    safe
 }

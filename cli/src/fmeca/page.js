@@ -7,12 +7,13 @@
   var texts = rows.map(function (row) { return row.textContent.toLowerCase(); });
   function show() {
     var words = pick.elements.words.value.toLowerCase().split(/\s+/);
-    var least = Number(pick.elements.severity.value);
     var key = "data-" + pick.elements.order.value;
     var shown = 0;
     rows.forEach(function (row, at) {
       var has = words.every(function (word) { return texts[at].indexOf(word) !== -1; });
-      row.hidden = !has || Number(row.getAttribute("data-severity")) > 4 - least;
+      row.hidden = !has || ["severity", "class"].some(function (name) {
+        return Number(row.getAttribute("data-" + name)) > 4 - Number(pick.elements[name].value);
+      });
       shown += row.hidden ? 0 : 1;
     });
     rows.slice().sort(function (a, b) {

@@ -1,11 +1,15 @@
 //! The FMECA as a page of its own: table, diagrams, diagnosability. Nothing comes from the network;
 //! a small script sorts and filters the rows, and without it all are there.
 
+use super::matrix::{anchor, links, matrix};
 use super::{glossary, sheet};
 use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
-use crate::render::fmeca::{against, event, hours, seconds, shared, summary};
+use crate::render::fmeca::{
+    against, detected, heading, hours, left_out, seconds, sentence, shared, summary, worst,
+};
+use cotama_models::fmeca::Analysis;
 use cotama_verification::export::svg::escape;
-use std::fmt::Write;
+use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.
 macro_rules! put {
@@ -15,107 +19,204 @@ macro_rules! put {
 }
 
 /// The page.
-pub(crate) fn write(answer: &FmecaAnswer) -> String {
+pub(crate) fn write(analysis: &Analysis, answer: &FmecaAnswer<'_>) -> String {
+    let (title, about) = if answer.is_robot {
+        let about = "Failure modes, effects and criticality of the delivery robot (COTAMA on a \
+                     Pioneer 3-DX).";
+        ("What can fail, and what is done".to_owned(), about)
+    } else {
+        (sentence(answer.title), "Failure modes, effects and criticality.")
+    };
     let mut page = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-         <meta name=\"color-scheme\" content=\"light dark\">\n<title>FMECA of the delivery robot\
-         </title>\n\
-         <style>\n{}{}</style>\n</head>\n<body>\n<main>\n<h1>What can fail, and what is done</h1>\n\
-         <p>Failure modes, effects and criticality of the delivery robot (COTAMA on a Pioneer \
-         3-DX). {}.</p>\n\
-         <nav><a href=\"#table\">Table</a> <a href=\"#diagrams\">Cause-effect diagrams</a> \
+         <meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n\
+         <style>\n{}{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n\
+         <p>{about} {}.</p>\n<p>{}</p>\n\
+         <nav><a href=\"#table\">Table</a> <a href=\"#matrix\">Criticality matrix</a> \
+         <a href=\"#diagrams\">Cause-effect diagrams</a> \
          <a href=\"#diagnosability\">What cannot be told apart</a> \
          <a href=\"#abbreviations\">Abbreviations</a></nav>\n",
+        escape(&heading(answer)),
         include_str!("page.css"),
         sheet::STYLE,
-        escape(&summary(&answer.counts)),
+        escape(title.trim_end_matches('.')),
+        escape(&summary(answer)),
+        escape(&worst(&answer.rows)),
     );
-    table(&mut page, &answer.rows);
-    diagrams(&mut page, answer);
+    table(&mut page, answer);
+    page.push_str(&matrix(&answer.rows, answer.period_h));
+    diagrams(&mut page, analysis, answer);
     diagnosability(&mut page, &answer.diagnosability);
     let body = page.find("<body>").unwrap_or_default();
-    let glossary = glossary::section(&page[body..]);
+    let glossary = glossary::section(&page[body..], answer.is_robot);
     page.push_str(&glossary);
     put!(page, "</main>\n<script>\n{}</script>\n</body>\n</html>", include_str!("page.js"));
     page
 }
 
 /// An order of the rows: its name as an attribute, in words, and the number to sort by.
-type Order = (&'static str, &'static str, fn(usize, &FmecaRow) -> u64);
+type Order = (&'static str, &'static str, fn(usize, &FmecaRow<'_>) -> u64);
 
 /// The orders to choose from. The script sorts by any that stands here.
-const ORDERS: [Order; 4] = [
+const ORDERS: [Order; 6] = [
     ("place", "as the functions follow", |at, _| at as u64),
+    ("rpn", "the highest RPN first", |_, row| 1000 - u64::from(row.criticality.rpn)),
+    ("critical", "the most critical class first", |_, row| {
+        class(row) * 1000 + 1000 - u64::from(row.criticality.rpn)
+    }),
     ("severity", "the most severe first", |_, row| severity(row)),
-    ("interval", "the most frequent first", |_, row| row.mtbf_mh.into()),
+    ("interval", "the most frequent first", |_, row| row.mtbf_mh),
     ("latency", "the slowest to be seen first", |_, row| {
         (u32::MAX - row.detection_latency_ms).into()
     }),
 ];
 
 /// The worse of both severities: 0 is fatal, 3 is weak.
-fn severity(row: &FmecaRow) -> u64 {
-    let both = [row.severity_autonomous, row.severity_operator];
+fn severity(row: &FmecaRow<'_>) -> u64 {
+    let both = [Some(row.severity_autonomous), row.severity_operator];
     let rank = |it| SEVERITIES.iter().position(|severity| *severity == it);
-    both.into_iter().filter_map(rank).min().unwrap_or(SEVERITIES.len()) as u64
+    both.into_iter().flatten().filter_map(rank).min().unwrap_or(SEVERITIES.len()) as u64
+}
+
+/// The class of criticality: 0 is intolerable, 3 is negligible.
+fn class(row: &FmecaRow<'_>) -> u64 {
+    let found = CLASSES.iter().position(|it| *it == row.criticality.class);
+    found.unwrap_or(CLASSES.len()) as u64
 }
 
 const SEVERITIES: [&str; 4] = ["fatal", "hard", "medium", "weak"];
+const CLASSES: [&str; 4] = ["intolerable", "undesirable", "tolerable", "negligible"];
 
 /// The form that the script acts on; it stays hidden without.
-fn pick(page: &mut String) {
-    page.push_str(
+fn pick(page: &mut String, example: &str) {
+    put!(
+        page,
         "<form id=\"pick\" hidden><label>Filter <input name=\"words\" type=\"search\" \
-         placeholder=\"as: sonar, global event\"></label>\n<label>Severity \
-         <select name=\"severity\">",
+         placeholder=\"as: {example}\"></label>"
     );
-    for (least, name) in SEVERITIES.iter().rev().enumerate() {
-        let words = if *name == "weak" { "any" } else { name };
-        let more = if least == 0 || *name == "fatal" { "" } else { " or worse" };
-        let _ = write!(page, "<option value=\"{}\">{words}{more}</option>", least + 1);
+    for (label, name, words) in
+        [("Severity", "severity", SEVERITIES), ("Criticality", "class", CLASSES)]
+    {
+        let _ = write!(page, "<label>{label} <select name=\"{name}\">");
+        for (least, name) in words.iter().rev().enumerate() {
+            let words = if least == 0 { "any" } else { name };
+            let more = if least == 0 || least == 3 { "" } else { " or worse" };
+            let _ = write!(page, "<option value=\"{}\">{words}{more}</option>", least + 1);
+        }
+        page.push_str("</select></label>\n");
     }
-    page.push_str("</select></label>\n<label>Order <select name=\"order\">");
+    page.push_str("<label>Order <select name=\"order\">");
     for (name, words, _) in ORDERS {
         let _ = write!(page, "<option value=\"{name}\">{words}</option>");
     }
     page.push_str("</select></label>\n<output></output></form>\n");
 }
 
-/// The columns behind the id. On a narrow screen a row is a card, and each cell says its column.
-const COLUMNS: [&str; 8] = [
-    "What fails",
-    "Cause and effect",
-    "Robot drives",
-    "Operator drives",
-    "Seen by",
-    "Modules lost",
-    "Reaction",
-    "MTBF",
-];
+/// A column behind the id: its name, its class, and what stands in it. On a narrow screen a row is
+/// a card, and each cell says its column.
+type Column = (&'static str, &'static str, fn(&FmecaRow<'_>) -> String);
 
-fn table(page: &mut String, rows: &[FmecaRow]) {
-    page.push_str(
-        "<section id=\"table\">\n<h2>Failure modes</h2>\n<p class=\"note\">Severity while the \
-         robot drives itself, and while the operator drives. Rates are assumed unless they are \
-         marked as stated.</p>\n",
+/// The columns; what no row says has none.
+fn columns(answer: &FmecaAnswer<'_>) -> Vec<Column> {
+    let both = answer.rows.iter().any(|it| it.severity_operator.is_some());
+    let lost = answer.rows.iter().any(|it| !it.loss.is_empty());
+    let mut columns: Vec<Column> = vec![
+        ("What fails", "wide", |row| {
+            let stays = row.persistence.map_or_else(String::new, |it| format!("; {it}"));
+            with(
+                format!("{}: {}", escape(row.component), escape(row.failure)),
+                format!("{}{stays}", escape(row.function)),
+            )
+        }),
+        ("Cause and effect", "wide", |row| with(escape(row.cause), escape(row.effect))),
+        (if both { "Robot drives" } else { "Severity" }, "", |row| pill(row.severity_autonomous)),
+    ];
+    if both {
+        columns.push(("Operator drives", "", |row| {
+            row.severity_operator.map_or_else(String::new, pill)
+        }));
+    }
+    columns.push(("Seen by", "wide", seen));
+    if lost {
+        let name = if answer.is_robot { "Modules lost" } else { "Lost" };
+        columns.push((name, "", |row| escape(row.loss)));
+    }
+    columns.push(("Reaction", "wide", |row| with(escape(row.reaction), escape(&row.event))));
+    columns.push(("MTBF", "n", |row| {
+        let stated = if row.rate_label == "assumed" { "" } else { row.rate_label };
+        with(hours(row.mtbf_mh), stated.to_owned())
+    }));
+    columns.push(("RPN", "n", |row| {
+        let it = row.criticality;
+        let ranks = format!("{} · {} · {}", it.severity, it.occurrence, it.detection);
+        with(format!("<b>{}</b>", it.rpn), ranks)
+    }));
+    columns.push(("Criticality", "", |row| {
+        let it = row.criticality;
+        with(pill(it.class), format!("{}, {}", it.severity_class, it.occurrence_class))
+    }));
+    columns
+}
+
+fn with(text: impl Display, small: impl Display) -> String {
+    format!("{text} <small>{small}</small>")
+}
+
+fn pill(name: &str) -> String {
+    format!("<b class=\"pill {name}\">{name}</b>")
+}
+
+fn seen(row: &FmecaRow<'_>) -> String {
+    match row.undetectable_reason {
+        Some(reason) => format!("<b>undetectable</b>: {}", escape(reason)),
+        None if row.flags_always.is_empty() => match row.flags_sometimes.as_slice() {
+            [] => "<b>not detected</b>, and no reason is stated".to_owned(),
+            flags => format!("<b>not always</b>: {}", escape(&flags.join(", "))),
+        },
+        None => {
+            let flags = row.flags_always.join(", ");
+            let by = if row.observer.is_empty() { &flags } else { row.observer };
+            let how = if row.detection.is_empty() { &flags } else { row.detection };
+            let within = format!("within {}: {}", seconds(row.detection_latency_ms), escape(how));
+            with(escape(by), within)
+        }
+    }
+}
+
+fn table(page: &mut String, answer: &FmecaAnswer<'_>) {
+    let columns = columns(answer);
+    let both = if columns.iter().any(|it| it.0 == "Operator drives") {
+        "Severity while the robot drives itself, and while the operator drives. "
+    } else {
+        ""
+    };
+    put!(
+        page,
+        "<section id=\"table\">\n<h2>Failure modes</h2>\n<p class=\"note\">{both}Rates are \
+         assumed unless they are marked as stated. The RPN is the product of three ranks from 1 \
+         to 10, which stand below it: severity (S, the worse where there are two), occurrence (O) \
+         and detection (D).</p>"
     );
-    pick(page);
+    pick(page, if answer.is_robot { "sonar, global event" } else { "a component or a cause" });
     page.push_str("<div class=\"scroll\"><table>\n<thead><tr><th>Id");
-    for column in COLUMNS {
-        let class = if column == "MTBF" { " class=\"n\"" } else { "" };
-        let _ = write!(page, "<th{class}>{column}");
+    let attribute = |class: &str| {
+        if class.is_empty() { class.to_owned() } else { format!(" class=\"{class}\"") }
+    };
+    for (column, class, _) in &columns {
+        let _ = write!(page, "<th{}>{column}", attribute(class));
     }
     page.push_str("</tr></thead>\n<tbody>\n");
-    for (at, row) in rows.iter().enumerate() {
-        let mut keys = String::new();
+    for (at, row) in answer.rows.iter().enumerate() {
+        let mut keys = format!(" data-class=\"{}\"", class(row));
         for (name, _, key) in ORDERS {
             // Writing to a string cannot fail.
             let _ = write!(keys, " data-{name}=\"{}\"", key(at, row));
         }
-        let _ = write!(page, "<tr id=\"{id}\"{keys}><th scope=\"row\">{id}", id = row.id);
-        for (column, cell) in COLUMNS.iter().zip(cells(row)) {
-            let class = if *column == "MTBF" { " class=\"n\"" } else { "" };
+        let (anchor, id) = (anchor(row.id), row.id);
+        let _ = write!(page, "<tr id=\"{anchor}\"{keys}><th scope=\"row\">{id}");
+        for (column, class, cell) in &columns {
+            let (class, cell) = (attribute(class), cell(row));
             let _ = write!(page, "<td{class} data-column=\"{column}\"><span>{cell}</span>");
         }
         page.push_str("</tr>\n");
@@ -123,112 +224,107 @@ fn table(page: &mut String, rows: &[FmecaRow]) {
     page.push_str("</tbody>\n</table></div>\n</section>\n");
 }
 
-/// The cells of a row, in the order of [`COLUMNS`].
-fn cells(row: &FmecaRow) -> [String; 8] {
-    let seen = match row.undetectable_reason {
-        Some(reason) => format!("<b>undetectable</b>: {}", escape(reason)),
-        None => format!(
-            "{} <small>within {}: {}</small>",
-            escape(row.observer),
-            seconds(row.detection_latency_ms),
-            escape(row.detection)
-        ),
-    };
-    let pill = |name: &str| format!("<b class=\"pill {name}\">{name}</b>");
-    let with = |text: String, small: String| format!("{text} <small>{small}</small>");
-    let stated = if row.rate_label == "assumed" { "" } else { row.rate_label };
-    [
-        with(
-            format!("{}: {}", escape(row.component), escape(row.failure)),
-            format!("{}; {}", escape(row.function), row.persistence),
-        ),
-        with(escape(row.cause), escape(row.effect)),
-        pill(row.severity_autonomous),
-        pill(row.severity_operator),
-        seen,
-        escape(row.loss),
-        with(escape(row.reaction), event(row)),
-        with(hours(row.mtbf_mh), stated.to_owned()),
-    ]
-}
-
-fn diagrams(page: &mut String, answer: &FmecaAnswer) {
+fn diagrams(page: &mut String, analysis: &Analysis, answer: &FmecaAnswer<'_>) {
     page.push_str(
         "<section id=\"diagrams\">\n<h2>Cause-effect diagrams</h2>\n<p class=\"note\">One a \
          function: which component takes it away, how, and why.</p>\n",
     );
-    put!(page, "<figure>{}</figure>", sheet::legend_element());
+    put!(page, "<figure>{}</figure>", sheet::legend_element(analysis));
     for diagram in &answer.diagrams {
-        put!(page, "<figure>{}</figure>", sheet::element(diagram.function));
+        put!(page, "<figure>{}</figure>", sheet::element(analysis, diagram.function));
     }
     page.push_str("</section>\n");
 }
 
-fn diagnosability(page: &mut String, it: &Diagnosability) {
-    page.push_str(
-        "<section id=\"diagnosability\">\n<h2>What cannot be told apart</h2>\n<p class=\"note\">A \
-         failure mode is a candidate when it explains the raised flags exactly. Where some flags \
-         leave several candidates, the robot asks. A probe is an observation that could be added.\
-         </p>\n",
+fn diagnosability(page: &mut String, it: &Diagnosability<'_>) {
+    let asks = if it.ambiguous_case.is_some() { " the robot asks" } else { " somebody must look" };
+    put!(
+        page,
+        "<section id=\"diagnosability\">\n<h2>What cannot be told apart</h2>\n\
+         <p class=\"note\">A failure mode is a candidate when it explains the raised flags \
+         exactly. Where some flags leave several candidates,{asks}. A probe is an observation that \
+         could be added.</p>"
     );
     for row in &it.statuses {
-        status(page, row);
+        status(page, row, it.statuses.len() > 1);
     }
-    page.push_str(
+    probes(page, it);
+    if let Some(case) = &it.ambiguous_case {
+        page.push_str("<h3>The ambiguous case: point 3 of the published run</h3>\n");
+        for paragraph in &case.text {
+            put!(page, "<p>{}</p>", code(paragraph));
+        }
+    }
+    page.push_str("</section>\n");
+}
+
+fn probes(page: &mut String, it: &Diagnosability<'_>) {
+    if it.probes.is_empty() {
+        return;
+    }
+    // Only the robot's probes say what they need.
+    let needs = it.ambiguous_case.is_some();
+    put!(
+        page,
         "<h3>Probes</h3>\n<div class=\"scroll\"><table>\n<thead><tr><th>Probe<th>Who \
-        would observe what<th>Shows<th>Needs</tr></thead>\n<tbody>\n",
+         would observe what<th>Shows{}</tr></thead>\n<tbody>",
+        if needs { "<th>Needs" } else { "" }
     );
     for probe in &it.probes {
-        let needs =
-            if probe.needs.is_empty() { "itself".to_owned() } else { probe.needs.join(" ") };
+        let needs = match probe.needs.as_slice() {
+            _ if !needs => String::new(),
+            [] => "<td>itself".to_owned(),
+            modules => format!("<td>{}", modules.join(" ")),
+        };
         put!(
             page,
-            "<tr><th scope=\"row\">{}<td>{}<td>{}<td>{needs}</tr>",
-            probe.name,
+            "<tr><th scope=\"row\">{}<td>{}<td>{}{needs}</tr>",
+            escape(probe.name),
             escape(probe.doc),
             links(&probe.shows)
         );
     }
-    page.push_str(
-        "</tbody>\n</table></div>\n<h3>The ambiguous case: point 3 of the published run</h3>\n",
-    );
-    for paragraph in &it.ambiguous_case.text {
-        put!(page, "<p>{}</p>", code(paragraph));
-    }
-    page.push_str("</section>\n");
+    page.push_str("</tbody>\n</table></div>\n");
 }
 
-fn status(page: &mut String, row: &StatusRow) {
-    put!(page, "<h3>Status: {}</h3>", row.status);
-    let without = match row.modules_unavailable.as_slice() {
-        [] => "All modules are available.".to_owned(),
-        modules => format!("Unavailable: {}.", modules.join(" ")),
-    };
+fn status(page: &mut String, row: &StatusRow<'_>, several: bool) {
+    let mut said = String::new();
+    if several {
+        put!(page, "<h3>Status: {}</h3>", row.status);
+        said = match row.modules_unavailable.as_slice() {
+            [] => "All modules are available. ".to_owned(),
+            modules => format!("Unavailable: {}. ", modules.join(" ")),
+        };
+    }
     let impossible = match row.impossible.as_slice() {
         [] => String::new(),
         modes => format!(" Cannot happen then: {}.", links(modes)),
     };
-    put!(
-        page,
-        "<p>{without} {} failure modes are detected, {} are not.{impossible}</p>",
-        row.detectable,
-        row.undetectable.len()
-    );
-    page.push_str(
-        "<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags\
-        <th>Separated by</tr></thead>\n<tbody>\n",
-    );
-    for pair in &row.pairs {
-        let probes =
-            if pair.probes.is_empty() { "no probe".to_owned() } else { pair.probes.join(", or ") };
-        put!(
-            page,
-            "<tr><th scope=\"row\">{}<td>{}<td>{probes}</tr>",
-            links(&pair.shared.modes),
-            shared(&pair.shared.flags, &pair.shared.flags_optional)
+    put!(page, "<p>{said}{}.{impossible}</p>", detected(row));
+    if !row.pairs.is_empty() {
+        page.push_str(
+            "<div class=\"scroll\"><table>\n<thead><tr><th>Alike<th>Shared flags\
+            <th>Separated by</tr></thead>\n<tbody>\n",
         );
+        for pair in &row.pairs {
+            let probes = match pair.probes.as_slice() {
+                [] => "no probe".to_owned(),
+                probes => probes.join(", or "),
+            };
+            put!(
+                page,
+                "<tr><th scope=\"row\">{}<td>{}<td>{}</tr>",
+                links(&pair.shared.modes),
+                escape(&shared(&pair.shared.flags, &pair.shared.flags_optional)),
+                escape(&probes)
+            );
+        }
+        page.push_str("</tbody>\n</table></div>\n");
     }
-    put!(page, "</tbody>\n</table></div>\n<p>Least set: {}.</p>\n<dl>", against(row));
+    if let Some(more) = left_out(row) {
+        put!(page, "<p>{}.</p>", more);
+    }
+    put!(page, "<p>Least set: {}.</p>\n<dl>", escape(&against(row)));
     for unseen in &row.undetectable {
         put!(
             page,
@@ -238,10 +334,6 @@ fn status(page: &mut String, row: &StatusRow) {
         );
     }
     page.push_str("</dl>\n");
-}
-
-fn links(ids: &[&str]) -> String {
-    ids.iter().map(|id| format!("<a href=\"#{id}\">{id}</a>")).collect::<Vec<_>>().join(" ")
 }
 
 /// A text in which names stand between backquotes.

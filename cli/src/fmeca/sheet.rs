@@ -2,7 +2,7 @@
 
 use super::ishikawa::{diagram, legend};
 use super::scene::Scene;
-use cotama_models::cotama::functions;
+use cotama_models::fmeca::Analysis;
 use cotama_verification::export::svg::escape;
 
 /// The style of diagrams, in files and in the page.
@@ -12,26 +12,29 @@ pub(crate) const STYLE: &str = include_str!("diagram.css");
 const WIDE: i64 = 1440;
 
 /// All diagrams on one sheet.
-pub(crate) fn all() -> String {
-    let diagrams: Vec<Scene> = functions().map(diagram).collect();
-    file("Cause-effect diagrams: what takes a function of the delivery robot away", &diagrams)
+pub(crate) fn all(analysis: &Analysis) -> String {
+    let diagrams: Vec<Scene> =
+        analysis.functions().into_iter().map(|it| diagram(analysis, it)).collect();
+    let title = format!("Cause-effect diagrams, {}: what takes a function away", analysis.title());
+    file(&title, analysis, &diagrams)
 }
 
 /// The diagram of one function.
-pub(crate) fn one(function: &str) -> String {
-    file(&format!("Cause-effect diagram: cannot {function}"), &[diagram(function)])
+pub(crate) fn one(analysis: &Analysis, function: &str) -> String {
+    let title = format!("Cause-effect diagram: cannot {function}");
+    file(&title, analysis, &[diagram(analysis, function)])
 }
 
 /// The diagram of one function as an element of a page that has the style.
-pub(crate) fn element(function: &str) -> String {
-    let scene = diagram(function);
+pub(crate) fn element(analysis: &Analysis, function: &str) -> String {
+    let scene = diagram(analysis, function);
     let label = format!("Cause-effect diagram: cannot {function}");
     inline(&label, &scene)
 }
 
 /// The legend as an element of a page that has the style.
-pub(crate) fn legend_element() -> String {
-    inline("What colours, letters and lines mean", &legend(900))
+pub(crate) fn legend_element(analysis: &Analysis) -> String {
+    inline("What colours, letters and lines mean", &legend(analysis, 900))
 }
 
 fn inline(label: &str, scene: &Scene) -> String {
@@ -45,10 +48,10 @@ fn inline(label: &str, scene: &Scene) -> String {
 }
 
 /// Diagrams in rows under their legend.
-fn file(title: &str, diagrams: &[Scene]) -> String {
+fn file(title: &str, analysis: &Analysis, diagrams: &[Scene]) -> String {
     let widest = diagrams.iter().map(|it| it.width).max().unwrap_or(0);
     let most = if diagrams.len() > 1 { widest.max(WIDE) } else { widest };
-    let legend = legend(most);
+    let legend = legend(analysis, most);
     let mut body = legend.elements((0, 0));
     let (mut x, mut y, mut row) = (0, legend.height, 0);
     let mut width = legend.width;

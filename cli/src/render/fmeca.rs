@@ -3,7 +3,7 @@
 use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN};
 use super::table::{Cell, Table};
 use super::{described, wrapped};
-use crate::answers::fmeca::{CountsRow, Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
+use crate::answers::fmeca::{Diagnosability, FmecaAnswer, FmecaRow, StatusRow};
 use anstyle::Style;
 use std::fmt::Write;
 
@@ -15,49 +15,80 @@ const LEAST: usize = 90;
 const WORDS: [(&str, usize, usize); 4] =
     [("component", 9, 15), ("failure", 12, 27), ("seen by", 10, 18), ("reaction", 14, 40)];
 
-/// The width of everything beside the columns with words: identifiers, severities, spaces.
-const FIXED: usize = 2 + 4 + 2 + 6 + 2 + 8 + 4 * 2;
+/// The width of everything beside the columns with words and the ids: severities, numbers, spaces.
+const FIXED: usize = 2 + 2 + 6 + 2 + 8 + 2 + 4 + 4 * 2;
+/// Longer ids leave no place for words beside them.
+const LONGEST_ID: usize = 12;
+
+/// What the analysis is.
+pub(crate) fn heading(answer: &FmecaAnswer<'_>) -> String {
+    let link = if answer.is_robot { " of " } else { ": " };
+    format!("FMECA{link}{}", answer.title)
+}
 
 /// How many rows are detected and answered.
-pub(crate) fn summary(counts: &CountsRow) -> String {
-    format!(
-        "{} failure modes of {} functions: {} are detected ({} reported to the contextual \
-         supervisor, {} recorded with a reaction of their own), {} are declared undetectable with \
-         a reason; none is left out, which is checked while compiling",
+pub(crate) fn summary(answer: &FmecaAnswer<'_>) -> String {
+    let counts = answer.counts;
+    let modes = |number: usize| if number == 1 { "mode" } else { "modes" };
+    let functions = if counts.functions == 1 { "function" } else { "functions" };
+    let total = format!(
+        "{} failure {} of {} {functions}",
         counts.rows,
-        counts.functions,
-        counts.detected,
-        counts.reported,
-        counts.recorded,
-        counts.undetectable
+        modes(counts.rows),
+        counts.functions
+    );
+    if answer.is_robot {
+        return format!(
+            "{total}: {} are detected ({} reported to the contextual supervisor, {} recorded with \
+             a reaction of their own), {} are declared undetectable with a reason; none is left \
+             out, which is checked while compiling",
+            counts.detected, counts.reported, counts.recorded, counts.undetectable
+        );
+    }
+    let unexplained = match counts.unexplained {
+        0 => String::new(),
+        number => format!(", {number} not detected and without a reason"),
+    };
+    format!(
+        "{total}: {} detected, {} declared undetectable with a reason{unexplained}",
+        counts.detected, counts.undetectable
     )
 }
 
-/// What becomes of a failure mode in the decisional level, while the robot drives itself.
-pub(crate) fn event(row: &FmecaRow) -> String {
-    match (row.report, row.undetectable_reason) {
-        (Some(report), _) => format!("report {report}, {} event", row.class),
-        (None, Some(_)) => "no event".to_owned(),
-        (None, None) => "recorded".to_owned(),
-    }
+/// How many rows are in each class of criticality, and the highest numbers.
+pub(crate) fn worst(rows: &[FmecaRow<'_>]) -> String {
+    let count = |class| rows.iter().filter(|it| it.criticality.class == class).count();
+    let classes = ["intolerable", "undesirable", "tolerable", "negligible"]
+        .map(|class| (count(class), class))
+        .into_iter()
+        .filter(|it| it.0 > 0)
+        .map(|(count, class)| format!("{count} {class}"));
+    let mut highest: Vec<_> = rows.iter().map(|it| (it.criticality.rpn, it.id)).collect();
+    highest.sort_by_key(|it| std::cmp::Reverse(it.0));
+    let highest = highest.iter().take(3).map(|(rpn, id)| format!("{id} {rpn}"));
+    format!(
+        "Criticality: {}; highest risk priority numbers (RPN): {}.",
+        classes.collect::<Vec<_>>().join(", "),
+        highest.collect::<Vec<_>>().join(", ")
+    )
 }
 
 /// A time in seconds.
 pub(crate) fn seconds(ms: u32) -> String {
-    thousandths(ms, "s")
+    thousandths(ms.into(), "s")
 }
 
 /// A time in hours.
-pub(crate) fn hours(mh: u32) -> String {
+pub(crate) fn hours(mh: u64) -> String {
     thousandths(mh, "h")
 }
 
-fn thousandths(number: u32, unit: &str) -> String {
+fn thousandths(number: u64, unit: &str) -> String {
     let text = format!("{}.{:03}", number / 1000, number % 1000);
     format!("{}\u{a0}{unit}", text.trim_end_matches('0').trim_end_matches('.'))
 }
 
-fn severity(name: &'static str) -> Style {
+fn severity(name: &str) -> Style {
     match name {
         "fatal" => BAD,
         "hard" => NOTICE,
@@ -66,38 +97,65 @@ fn severity(name: &'static str) -> Style {
     }
 }
 
+fn class(name: &str) -> Style {
+    match name {
+        "intolerable" => BAD,
+        "undesirable" => NOTICE,
+        "negligible" => GOOD,
+        _ => PLAIN,
+    }
+}
+
 /// The table, and the counts.
-pub(crate) fn screen(answer: &FmecaAnswer, width: usize) -> String {
-    let mut text =
-        if width < LEAST { list(&answer.rows, width) } else { table(&answer.rows, width) };
+pub(crate) fn screen(answer: &FmecaAnswer<'_>, file: Option<&str>, width: usize) -> String {
+    let longest = answer.rows.iter().map(|it| it.id.len()).max().unwrap_or(0);
+    let mut text = if width < LEAST || longest > LONGEST_ID {
+        list(&answer.rows, longest.min(LONGEST_ID), width)
+    } else {
+        table(&answer.rows, longest, width)
+    };
     text.push('\n');
-    text += &wrapped(&summary(&answer.counts), width, "");
+    text += &wrapped(&summary(answer), width, "");
+    text += &wrapped(&worst(&answer.rows), width, "");
+    let file = file.map_or_else(String::new, |it| format!(" {it}"));
     let _ = writeln!(
         text,
-        "\nnext: {NAME}cotama fmeca --diagnosability{NAME:#}, {NAME}cotama fmeca --output \
-         fmeca.html{NAME:#}"
+        "\nnext: {NAME}cotama fmeca{file} --diagnosability{NAME:#}, {NAME}cotama fmeca{file} \
+         --output fmeca.html{NAME:#}"
     );
     text
 }
 
-fn seen(row: &FmecaRow) -> String {
+fn seen(row: &FmecaRow<'_>) -> String {
+    let by = |words: String| if row.observer.is_empty() { words } else { row.observer.to_owned() };
     match row.undetectable_reason {
+        Some(_) if row.observer.is_empty() => "undetectable".to_owned(),
         Some(_) => format!("undetectable; {}", row.observer),
-        None => format!("{}, {}", row.observer, seconds(row.detection_latency_ms)),
+        None if row.flags_always.is_empty() => "not detected".to_owned(),
+        None => {
+            let flags = row.flags_always.join(", ");
+            format!("{}, {}", by(flags), seconds(row.detection_latency_ms))
+        }
     }
 }
 
-fn table(rows: &[FmecaRow], width: usize) -> String {
+fn table(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
     let least: usize = WORDS.iter().map(|(_, least, _)| least).sum();
-    let spare = width.saturating_sub(FIXED + least);
+    let spare = width.saturating_sub(FIXED + longest + least);
     let widths = WORDS.map(|(_, least, part)| least + spare * part / 100);
     let [component, failure, seen_by, reaction] = WORDS.map(|(title, ..)| title);
-    let head = |cells: [&str; 7]| cells.map(Cell::faint).to_vec();
-    let mut table = Table::new(vec![
-        head(["", "", "", "robot", "operator", "", ""]),
-        head(["id", component, failure, "drives", "drives", seen_by, reaction]),
-    ]);
-    for column in 1..7 {
+    let head = |cells: [&str; 8]| cells.map(Cell::faint).to_vec();
+    let both = rows.iter().any(|it| it.severity_operator.is_some());
+    let heads = if both {
+        vec![
+            head(["", "", "", "robot", "operator", "", "", ""]),
+            head(["id", component, failure, "drives", "drives", "RPN", seen_by, reaction]),
+        ]
+    } else {
+        vec![head(["id", component, failure, "severity", "", "RPN", seen_by, reaction])]
+    };
+    let mut table = Table::new(heads.into_iter().map(|it| without(it, both)).collect());
+    for column in if both { [1, 2, 3, 4, 6, 7] } else { [1, 2, 3, 5, 6, 6] } {
         table = table.left(column);
     }
     for row in rows {
@@ -106,24 +164,35 @@ fn table(rows: &[FmecaRow], width: usize) -> String {
         let columns: Vec<Vec<String>> =
             words.iter().zip(widths).map(|(text, width)| lines(text, width)).collect();
         let most = columns.iter().map(Vec::len).max().unwrap_or(1);
+        let rpn = row.criticality.rpn.to_string();
+        let operator = row.severity_operator.unwrap_or_default();
         for at in 0..most {
             let word = |column: usize, style| {
                 Cell::new(columns[column].get(at).cloned().unwrap_or_default(), style)
             };
-            let first =
-                |text: &'static str, style| Cell::new(if at == 0 { text } else { "" }, style);
-            table.row(vec![
+            let first = |text: &str, style| Cell::new(if at == 0 { text } else { "" }, style);
+            let cells = vec![
                 first(row.id, HEADING),
                 word(0, PLAIN),
                 word(1, PLAIN),
                 first(row.severity_autonomous, severity(row.severity_autonomous)),
-                first(row.severity_operator, severity(row.severity_operator)),
+                first(operator, severity(operator)),
+                first(&rpn, class(row.criticality.class)),
                 word(2, FAINT),
                 word(3, PLAIN),
-            ]);
+            ];
+            table.row(without(cells, both));
         }
     }
     table.render(width)
+}
+
+/// The cells of a row, without the second severity where no row has one.
+fn without(mut cells: Vec<Cell>, both: bool) -> Vec<Cell> {
+    if !both {
+        cells.remove(4);
+    }
+    cells
 }
 
 /// A text in lines of at most `width`; a longer word is cut.
@@ -157,44 +226,60 @@ fn lines(text: &str, width: usize) -> Vec<String> {
     lines
 }
 
-fn list(rows: &[FmecaRow], width: usize) -> String {
+fn list(rows: &[FmecaRow<'_>], longest: usize, width: usize) -> String {
     let mut text = String::new();
+    let indent = " ".repeat(longest + 4);
     for row in rows {
-        let (one, other) = (severity(row.severity_autonomous), severity(row.severity_operator));
+        let one = severity(row.severity_autonomous);
         let head = format!("{}: {}", row.component, row.failure);
-        text += &described(row.id, 4, HEADING, &head, width);
-        let _ = writeln!(
-            text,
-            "        {one}{}{one:#}, operator drives: {other}{}{other:#}",
-            row.severity_autonomous, row.severity_operator
-        );
-        text += &wrapped(&format!("seen by {}", seen(row)), width, "        ");
-        text += &wrapped(row.reaction, width, "        ");
+        text += &described(row.id, longest, HEADING, &head, width);
+        let _ = write!(text, "{indent}{one}{}{one:#}", row.severity_autonomous);
+        if let Some(operator) = row.severity_operator {
+            let other = severity(operator);
+            let _ = write!(text, ", operator drives: {other}{operator}{other:#}");
+        }
+        let (it, style) = (row.criticality, class(row.criticality.class));
+        let _ = writeln!(text, "; RPN {style}{}{style:#}", it.rpn);
+        let by = if row.flags_always.is_empty() { "" } else { "seen by " };
+        text += &wrapped(&format!("{by}{}", seen(row)), width, &indent);
+        if !row.reaction.is_empty() {
+            text += &wrapped(row.reaction, width, &indent);
+        }
     }
     text
 }
 
 /// What cannot be told apart, status by status, and what would help.
-pub(crate) fn diagnosability(it: &Diagnosability, width: usize) -> String {
+pub(crate) fn diagnosability(it: &Diagnosability<'_>, width: usize) -> String {
     let mut text = String::new();
     for row in &it.statuses {
         text += &status(row, width);
         text.push('\n');
     }
-    let _ = writeln!(text, "{HEADING}probes{HEADING:#}: observations that could be added");
-    let longest = it.probes.iter().map(|it| it.name.len()).max().unwrap_or(0);
+    if !it.probes.is_empty() {
+        let _ = writeln!(text, "{HEADING}probes{HEADING:#}: observations that could be added");
+    }
+    let longest = it.probes.iter().map(|it| it.name.chars().count()).max().unwrap_or(0).min(24);
     for probe in &it.probes {
-        let what = format!("{} Shows {}.", probe.doc, probe.shows.join(" "));
+        let shows = format!("Shows {}.", probe.shows.join(" "));
+        let what =
+            if probe.doc.is_empty() { shows } else { format!("{} {shows}", sentence(probe.doc)) };
         text += &described(probe.name, longest, NAME, &what, width);
     }
-    let case = &it.ambiguous_case;
-    let _ = writeln!(text, "\n{HEADING}the ambiguous case{HEADING:#}");
-    let which = format!("Point 3 of the published run: {}.", case.candidates.join(", "));
-    text += &wrapped(&which, width, "  ");
-    for paragraph in &case.text {
-        text += &wrapped(paragraph, width, "  ");
+    if let Some(case) = &it.ambiguous_case {
+        let _ = writeln!(text, "\n{HEADING}the ambiguous case{HEADING:#}");
+        let which = format!("Point 3 of the published run: {}.", case.candidates.join(", "));
+        text += &wrapped(&which, width, "  ");
+        for paragraph in &case.text {
+            text += &wrapped(paragraph, width, "  ");
+        }
     }
     text
+}
+
+/// Words with a full stop behind them.
+pub(crate) fn sentence(words: &str) -> String {
+    format!("{}.", words.trim_end_matches('.'))
 }
 
 /// Flags that leave something open, in words.
@@ -208,7 +293,7 @@ pub(crate) fn shared(flags: &[&str], optional: &[&str]) -> String {
 }
 
 /// What probes there are against all that is alike, in words.
-pub(crate) fn against(row: &StatusRow) -> String {
+pub(crate) fn against(row: &StatusRow<'_>) -> String {
     let open: Vec<_> = row
         .pairs
         .iter()
@@ -220,11 +305,33 @@ pub(crate) fn against(row: &StatusRow) -> String {
         (0, []) => "nothing is alike".to_owned(),
         (1, []) => format!("one probe tells all apart: {probes}"),
         (number, []) => format!("{number} probes tell all apart, and no fewer: {probes}"),
+        (0, [open]) => format!("no probe separates {open}"),
+        (0, open) => format!("no probe separates any of the {} pairs", open.len()),
         (_, open) => format!("no probe separates {}; the rest needs: {probes}", open.join(", ")),
     }
 }
 
-fn status(row: &StatusRow, width: usize) -> String {
+/// How many failure modes are detected, and how many not.
+pub(crate) fn detected(row: &StatusRow<'_>) -> String {
+    let seen = if row.detectable == 1 { "failure mode is" } else { "failure modes are" };
+    let not = if row.undetectable.len() == 1 { "is" } else { "are" };
+    format!("{} {seen} detected, {} {not} not", row.detectable, row.undetectable.len())
+}
+
+/// What a limit keeps back, in words.
+pub(crate) fn left_out(row: &StatusRow<'_>) -> Option<String> {
+    let pairs = match row.pairs_left_out {
+        0 => None,
+        number => Some(format!("{number} further pairs are alike and not listed")),
+    };
+    let groups = (!row.groups_complete).then(|| {
+        format!("more groups are alike than the {} that are told: a limit", row.groups.len())
+    });
+    let said: Vec<_> = pairs.into_iter().chain(groups).collect();
+    (!said.is_empty()).then(|| said.join("; "))
+}
+
+fn status(row: &StatusRow<'_>, width: usize) -> String {
     let mut text = format!("{HEADING}{}{HEADING:#}\n", row.status);
     if !row.modules_unavailable.is_empty() {
         text += &wrapped(&format!("without {}", row.modules_unavailable.join(" ")), width, "  ");
@@ -233,15 +340,7 @@ fn status(row: &StatusRow, width: usize) -> String {
         [] => String::new(),
         modes => format!("; {} cannot happen then: {}", modes.len(), modes.join(" ")),
     };
-    text += &wrapped(
-        &format!(
-            "{} failure modes are detected, {} are not{impossible}",
-            row.detectable,
-            row.undetectable.len()
-        ),
-        width,
-        "  ",
-    );
+    text += &wrapped(&format!("{}{impossible}", detected(row)), width, "  ");
     for pair in &row.pairs {
         let shared = shared(&pair.shared.flags, &pair.shared.flags_optional);
         let probes = match pair.probes.as_slice() {
@@ -251,6 +350,9 @@ fn status(row: &StatusRow, width: usize) -> String {
         let both = pair.shared.modes.join(" ");
         text +=
             &described(&format!("alike {both}"), 15, NOTICE, &format!("{shared}: {probes}"), width);
+    }
+    if let Some(more) = left_out(row) {
+        text += &described("", 15, NOTICE, &more, width);
     }
     text += &described("probes", 15, GOOD, &against(row), width);
     for unseen in &row.undetectable {

@@ -70,7 +70,7 @@ impl Supervision {
     pub const NAMES: [&str; 1] = ["cotama"];
 }
 
-/// What an objective is to its supervisor (Durand et al., TAROS 2010, Section VI).
+/// What an objective is to its supervisor (Durand et al., TAROS 2010, Sections IV.A.1 and V.C.1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Does {
     /// It drives along the path.

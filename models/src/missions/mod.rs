@@ -18,11 +18,13 @@ pub mod faults;
 #[cfg(feature = "std")]
 pub mod infeasible;
 #[cfg(feature = "std")]
+pub mod known;
+#[cfg(feature = "std")]
 mod mission;
 #[cfg(feature = "std")]
 pub mod mission_net;
 #[cfg(feature = "std")]
-mod reader;
+pub(crate) mod reader;
 #[cfg(feature = "std")]
 mod rust_source;
 #[cfg(feature = "std")]

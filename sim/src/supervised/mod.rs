@@ -158,7 +158,7 @@ pub struct Conduct {
 }
 
 /// How a diagnosis was judged: the two rules of the contextual supervisor (Durand et al., TAROS
-/// 2010, Section IV; that the worse class wins is inferred).
+/// 2010, Sections III.C and V.B; that the worse class wins is inferred).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Judged {
     /// The report to the contextual supervisor; none for what is recorded only.

@@ -61,8 +61,8 @@ pub struct Chain<'t> {
 }
 
 /// How far up a reaction went, from the change of a number to the end of the mission: the first two
-/// and the fourth are levels of Durand et al. (TAROS 2010, Sections IV and V), planning the rest
-/// again is that of Lambert et al. (J. Intell. Robot. Syst. 110, 2024, Section 5).
+/// and the fourth are levels of Durand et al. (TAROS 2010, Sections III.C and V.C), planning the
+/// rest again is that of Lambert et al. (J. Intell. Robot. Syst. 110, 2024, Section 5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Rung {
     /// A module goes on with other parameters.

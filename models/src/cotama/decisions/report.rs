@@ -144,7 +144,7 @@ pub const fn lost_after(report: Report, situation: Situation) -> Losses {
 /// The decision: the table of the reconstruction, cell by cell. Total, also where the places do not
 /// fit together.
 ///
-/// Severity decides first (stated, Durand et al., TAROS 2010, Section IV); the cells are inferred
+/// Severity decides first (stated, Durand et al., TAROS 2010, Section V.B); the cells are inferred
 /// from it and from what is still available, see [`by_rules`](crate::cotama::by_rules). A question
 /// that no operator can answer is a global event.
 ///

@@ -5,7 +5,7 @@ use super::situation::{Loss, Losses, Situation};
 use crate::cotama::modules::{Configuration, Mode};
 use crate::cotama::modules::{Module, Modules};
 
-/// Severity (stated, Durand et al., TAROS 2010, Section IV). It depends on the autonomy mode.
+/// Severity (stated, Durand et al., TAROS 2010, Section III.A). It depends on the autonomy mode.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Severity {
     /// The sub-objective goes on nearly as before.
@@ -19,8 +19,8 @@ pub enum Severity {
 }
 
 impl Severity {
-    /// Its class (stated, Section IV): weak and medium go to the adapter, hard to the local, fatal
-    /// to the global supervisor.
+    /// Its class (stated, Sections III.C and V.B): weak and medium go to the adapter, hard to the
+    /// local, fatal to the global supervisor.
     pub const fn class(self) -> Class {
         match self {
             Self::Weak | Self::Medium => Class::Adapter,

@@ -1,5 +1,5 @@
 //! From flags to failure modes: the signature table of the GOM (Durand et al., TAROS 2010, Section
-//! IV), and which failure modes it cannot tell apart.
+//! V.A; the table itself is inferred), and which failure modes it cannot tell apart.
 //!
 //! A failure mode is a candidate when it explains the raised flags exactly: all that it always
 //! raises are there, and all that are there it raises always or sometimes. Flags of observers that
@@ -230,9 +230,9 @@ impl Probe {
     #[must_use]
     pub const fn needs(self) -> Modules {
         Modules::of(match self {
-            Self::SpreadLimit => &[Module::OLoc],
+            Self::SpreadLimit => &[Module::OLoc, Module::Mcl],
             Self::UnmappedObstacle => &[Module::Ust],
-            Self::ObstacleAtStall => &[Module::OSen],
+            Self::ObstacleAtStall => &[Module::OSen, Module::Ust],
             Self::FrameTimeAtSource => &[Module::Cam],
             Self::ReckoningLimit => &[Module::Nav],
             Self::Gyroscope => &[],

@@ -91,8 +91,8 @@ members! {
 
 impl Flag {
     /// The modules of which each one can raise it (stated for the observers, Durand et al., TAROS
-    /// 2010, Section III; who raises which flag is inferred); none for what a supervisor's timer or
-    /// the operator's side sees.
+    /// 2010, Section IV.B.3; who raises which flag is inferred); none for what a supervisor's timer
+    /// or the operator's side sees.
     #[must_use]
     pub const fn observers(self) -> Modules {
         Modules::of(match self {
@@ -131,14 +131,51 @@ impl Flag {
     }
 }
 
+impl Flag {
+    /// The modules whose data the check looks at, all of them: without one there is nothing to
+    /// check, and the other checks of its observer go on (inferred; Durand et al., TAROS 2010,
+    /// Section IV.B.3, name what each observer checks, and the timing checks apart).
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Flag, Flags, Resource, Resources, Modules, available};
+    /// // Sonars are lost: nobody checks them, and the camera is watched as before.
+    /// let left = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
+    /// let seen = Flags::seen_by(left);
+    /// assert!(!seen.has(Flag::SonarFar) && seen.has(Flag::NoFrame));
+    /// ```
+    #[must_use]
+    pub const fn observed(self) -> Modules {
+        Modules::of(match self {
+            Self::SonarFar
+            | Self::SonarSilent
+            | Self::SonarNear
+            | Self::SonarOutliers
+            | Self::FreeAhead => &[Module::Ust],
+            Self::PoseDistance
+            | Self::PoseGrowth
+            | Self::PosePeak
+            | Self::SlowDrift
+            | Self::Spread => &[Module::Mcl],
+            _ => &[],
+        })
+    }
+
+    /// Whether it can be raised while these modules are available.
+    #[must_use]
+    pub const fn is_seen_by(self, available: Modules) -> bool {
+        let observers = self.observers();
+        available.covers(self.observed())
+            && (observers.is_empty() || !observers.common(available).is_empty())
+    }
+}
+
 impl Flags {
     /// Those that can be raised while these modules are available.
     #[must_use]
     pub const fn seen_by(available: Modules) -> Self {
         let (mut seen, mut at) = (Self::NONE, 0);
         while at < Flag::ALL.len() {
-            let observers = Flag::ALL[at].observers();
-            if observers.is_empty() || !observers.common(available).is_empty() {
+            if Flag::ALL[at].is_seen_by(available) {
                 seen = seen.with(Flag::ALL[at]);
             }
             at += 1;

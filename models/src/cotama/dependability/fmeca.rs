@@ -2,16 +2,16 @@
 //! how it shows, how severe it is, and what is done.
 //!
 //! The method is that of Durand, Godary-Dejean, Lapierre, Crestani, IROS 2010, and Durand et al.,
-//! TAROS 2010, Section IV. The rows are the project's own: those marked as seed rules follow TAROS
-//! 2010, the others fill the same form; rates are assumed but where [`Description::rate_label`]
-//! says otherwise. Firmware links [`RULES`] alone, the texts stand apart in [`TEXTS`].
+//! TAROS 2010, Section III.A. The rows are the project's own: those marked as seed rules follow
+//! TAROS 2010, the others fill the same form; rates are assumed but where
+//! [`Description::rate_label`] says otherwise. Firmware links [`RULES`] alone, the texts stand
+//! apart in [`TEXTS`].
 
 use super::rule::{Description, Rule};
 use super::table::{FailureMode, RULES, TEXTS};
 use crate::cotama::decisions::{Class, Situation, by_availability};
 use crate::cotama::modules::Mode::{Autonomous, Rest};
 use crate::cotama::modules::{Health, Module, Modules};
-use core::fmt::{self, Write};
 
 impl FailureMode {
     /// What reacts to it needs to know.
@@ -93,66 +93,3 @@ const _: () = {
         at += 1;
     }
 };
-
-/// The FMECA as comma-separated values, a heading and one line a row, fields quoted where they must
-/// be (RFC 4180, with plain line ends).
-#[derive(Clone, Copy, Debug)]
-pub struct FmecaCsv;
-
-/// The columns of [`FmecaCsv`].
-pub const FMECA_COLUMNS: &str = "id,function,component,failure_mode,cause,effect,\
-    severity_auto,severity_teleop,modules_lost,observer,detection_rule,detection_latency_s,\
-    cs_event_auto,reaction,persistence,mtbf_h,rate_source,injection";
-
-impl fmt::Display for FmecaCsv {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(f, "{FMECA_COLUMNS}")?;
-        for mode in FailureMode::ALL {
-            let (rule, text) = (mode.rule(), mode.description());
-            for field in
-                [mode.name(), text.function, text.component, text.failure, text.cause, text.effect]
-            {
-                quoted(f, field)?;
-                f.write_char(',')?;
-            }
-            write!(f, "{},{},", rule.autonomous.name(), rule.operator.name())?;
-            for field in [text.modules, text.observer, text.detection] {
-                quoted(f, field)?;
-                f.write_char(',')?;
-            }
-            thousandths(f, rule.latency_ms)?;
-            write!(f, ",{},", rule.class.name())?;
-            quoted(f, text.reaction)?;
-            write!(f, ",{},", rule.persistence.name())?;
-            thousandths(f, text.mtbf_mh)?;
-            f.write_char(',')?;
-            quoted(f, text.rate)?;
-            f.write_char(',')?;
-            quoted(f, text.injection)?;
-            f.write_char('\n')?;
-        }
-        Ok(())
-    }
-}
-
-fn quoted(f: &mut fmt::Formatter<'_>, field: &str) -> fmt::Result {
-    if !field.contains([',', '"', '\n']) {
-        return f.write_str(field);
-    }
-    f.write_char('"')?;
-    for (at, part) in field.split('"').enumerate() {
-        write!(f, "{}{part}", if at == 0 { "" } else { "\"\"" })?;
-    }
-    f.write_char('"')
-}
-
-/// A number of thousandths as a decimal number without trailing zeros.
-fn thousandths(f: &mut fmt::Formatter<'_>, number: u32) -> fmt::Result {
-    let (whole, rest) = (number / 1000, number % 1000);
-    match rest {
-        0 => write!(f, "{whole}"),
-        _ if rest % 100 == 0 => write!(f, "{whole}.{}", rest / 100),
-        _ if rest % 10 == 0 => write!(f, "{whole}.{:02}", rest / 10),
-        _ => write!(f, "{whole}.{rest:03}"),
-    }
-}

@@ -3,19 +3,16 @@
 #[macro_use]
 mod rows;
 
-mod causes;
 mod diagnosis;
 mod flags;
 mod fmeca;
 mod rule;
 mod table;
 
-pub use causes::{Rib, functions, ribs};
 pub use diagnosis::{
     Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose,
     is_detectable, shared_flags, undetectable,
 };
 pub use flags::{Flag, Flags};
-pub use fmeca::{FMECA_COLUMNS, FmecaCsv};
 pub use rule::{Description, Persistence, Rule, Signature};
 pub use table::{FailureMode, FailureModes, RULES, TEXTS};

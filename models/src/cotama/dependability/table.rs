@@ -1,8 +1,8 @@
 //! The rows of the FMECA, one copy: numbers and sets go to [`RULES`], words to [`TEXTS`].
 //!
-//! Source: the rows marked as seed rules follow Durand et al., TAROS 2010, Sections IV to VI; the
-//! others fill the same form for a Pioneer 3-DX and are assumed, with shares and common causes
-//! after Carlson and Murphy, IEEE Trans. Robotics 21, 2005, where a row says so.
+//! Source: the rows marked as seed rules follow Durand et al., TAROS 2010, Sections IV to VI, where
+//! they name a fault; the others fill the same form for a Pioneer 3-DX and are assumed, with shares
+//! and common causes after Carlson and Murphy, IEEE Trans. Robotics 21, 2005, where a row says so.
 
 use super::flags::{Flag, Flags};
 use super::rule::{Description, Persistence, Rule, Signature};

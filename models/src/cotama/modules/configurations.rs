@@ -201,7 +201,7 @@ impl Configuration {
     /// );
     /// assert_eq!(
     ///     FollowingDegraded.scheduled().to_string(),
-    ///     "GOM P3D NAV GUI LAN O-EFF O-COM O-PF"
+    ///     "GOM P3D NAV GUI LAN O-SEN O-EFF O-COM O-LOC O-PF"
     /// );
     /// ```
     pub const fn scheduled(self) -> Modules {

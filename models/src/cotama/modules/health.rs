@@ -34,7 +34,7 @@ pub enum Status {
     Unavailable,
 }
 
-/// The status of every module (Durand et al., TAROS 2010, Section IV: the module status vector).
+/// The status of every module (Durand et al., TAROS 2010, Section V.A: the module status vector).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct StatusVector {
     suspect: Modules,
@@ -65,11 +65,11 @@ impl Health {
     /// The status of every module, closed under the needs of [`MODULES`](super::table::MODULES).
     ///
     /// ```
-    /// use cotama_models::cotama::{Health, Module::{Mcl, Nav, OLoc, Smz}, Modules, Status};
-    /// let ambiguous = Health { suspected: Modules::of(&[Mcl]), ..Health::SOUND };
+    /// use cotama_models::cotama::{Health, Module::{Nav, Smz, Ust}, Modules, Status};
+    /// let ambiguous = Health { suspected: Modules::of(&[Ust]), ..Health::SOUND };
     /// let status = ambiguous.status_vector();
-    /// assert_eq!(status.of(OLoc), Status::Suspect);
-    /// assert_eq!(status.of(Smz), Status::Available);
+    /// assert_eq!(status.of(Smz), Status::Suspect);
+    /// assert_eq!(status.of(Nav), Status::Available);
     /// ```
     pub const fn status_vector(self) -> StatusVector {
         let sure = self.available();

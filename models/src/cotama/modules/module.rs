@@ -1,5 +1,5 @@
-//! The modules of the executive level (Durand et al., TAROS 2010, Section III, Figs. 1 and 2; what
-//! is not stated there carries its label in [`MODULES`](crate::cotama::MODULES)).
+//! The modules of the executive level (Durand et al., TAROS 2010, Sections II.B and IV.B, Figs. 1
+//! and 2; what is not stated there carries its label in [`MODULES`](crate::cotama::MODULES)).
 
 use super::ports::{Data, ModuleEvents, Parameter};
 use super::resources::Resources;

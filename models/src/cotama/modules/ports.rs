@@ -1,5 +1,5 @@
 //! What passes between modules: data, events, requests, parameters (Durand et al., TAROS 2010,
-//! Section III: a module has ports for each).
+//! Section II.B: a module has ports for each).
 
 use crate::cotama::label::Label;
 use crate::cotama::members::members;

@@ -1,7 +1,7 @@
 //! The table of modules, one row each, and which modules are available after faults.
 
 use super::module::Kind::{Control, Diagnosis, Functional, Observer};
-use super::module::Module::{self, Gui, Lan, Mcl, Nav, P3d, Sim, Smz, Ust};
+use super::module::Module::{self, Gui, Lan, Nav, P3d, Sim, Smz, Ust};
 use super::module::{Kind, ModuleFacts, Modules};
 use super::ports::Datum::{
     Course, Flags, Image, JobTimes, LinkState, MclPose, MotorCommand, OdometricPose, Path, Pose,
@@ -105,9 +105,9 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         .data(&[Path, Pose, Ranges], &[Course])
         .events(&[GoalReached])
         .stands_on(&[], &[Ust, Nav], Stated),
-    module(Module::Dvz, Control, "deformable virtual zone: reactive avoidance", Inferred)
+    module(Module::Dvz, Control, "deformable virtual zone: reactive avoidance", Stated)
         .data(&[Ranges], &[Course])
-        .stands_on(&[], &[Ust], Stated),
+        .stands_on(&[], &[Ust], Inferred),
     module(Module::Lan, Functional, "WiFi to the operator's computer", Stated)
         .data(&[Image, Pose], &[LinkState, Course, Path])
         .events(&[Operator])
@@ -126,7 +126,7 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         set("stuck_time", "ms", 1_000, 60_000, 5_000, Assumed),
         set("moved_distance", "mm", 100, 5_000, 500, Assumed),
     ])
-    .stands_on(&[], &[P3d, Ust], Stated),
+    .stands_on(&[], &[P3d], Inferred),
     module(Module::OEff, Observer, "multiple-model Kalman filter on motors and wheels", Stated)
         .data(&[Ticks, MotorCommand], &[Flags])
         .stands_on(&[Encoders], &[P3d], Stated),
@@ -145,7 +145,7 @@ pub const MODULES: [ModuleFacts; Module::ALL.len()] = [
         set("distance", "mm", 50, 5_000, 500, Assumed),
         set("growth", "mm/s", 5, 500, 50, Assumed),
     ])
-    .stands_on(&[], &[Nav, Mcl], Stated),
+    .stands_on(&[], &[Nav], Inferred),
     module(
         Module::OPf,
         Observer,
@@ -232,14 +232,12 @@ impl Module {
 /// them all (inferred).
 ///
 /// ```
-/// use cotama_models::cotama::Module::{Dvz, Mcl, Sim, Smz, Ust};
 /// use cotama_models::cotama::Resource::SonarArrays;
 /// use cotama_models::cotama::{Modules, Resources, available};
 /// // Stated: with the sonars go UST, MCL and SMZ, and SIM is useless. Inferred: DVZ goes too. The
-/// // observers O-SEN and O-LOC lose what they observe.
+/// // observers O-SEN and O-LOC go on with what is left to observe.
 /// let left = available(Modules::NONE, Resources::of(&[SonarArrays]));
-/// assert!(left.common(Modules::of(&[Sim, Ust, Mcl, Smz, Dvz])).is_empty());
-/// assert_eq!(Modules::ALL.without(left).to_string(), "SIM UST MCL SMZ DVZ O-SEN O-LOC");
+/// assert_eq!(Modules::ALL.without(left).to_string(), "SIM UST MCL SMZ DVZ");
 /// ```
 #[must_use]
 pub const fn available(faulty: Modules, lost: Resources) -> Modules {

@@ -3,7 +3,7 @@
 use cotama_core::net;
 
 net! {
-    /// Contextual supervisor (Durand et al., TAROS 2010, Section IV): from a report, by its
+    /// Contextual supervisor (Durand et al., TAROS 2010, Section V.B): from a report, by its
     /// severity where the robot is and by what is still available, to an event for the adapter, the
     /// local or the global supervisor. What is not listed is acknowledged and recorded only.
     pub mod contextual {

@@ -3,7 +3,7 @@
 use cotama_core::net;
 
 net! {
-    /// Global supervisor of the delivery mission (Durand et al., TAROS 2010, Section VI): which
+    /// Global supervisor of the delivery mission (Durand et al., TAROS 2010, Section V.C.1): which
     /// objective, or security.
     pub mod global {
         places {

@@ -5,7 +5,7 @@ use cotama_core::net;
 net! {
     /// The permit to move: motion is a capability that a running activity holds, and that `halt`
     /// destroys for good. Ours: the papers only say that the robot stops (Durand et al., TAROS
-    /// 2010, Section VI).
+    /// 2010, Section V.C.1).
     pub mod permit {
         places {
             /// No permit: the robot stands, or brakes.

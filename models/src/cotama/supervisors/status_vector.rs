@@ -4,9 +4,9 @@
 use cotama_core::net;
 
 net! {
-    /// Global observation module (Durand et al., TAROS 2010, Section V): collects flags, diagnoses,
-    /// keeps the module status vector, and reports what is new. A flag that tells nothing new is
-    /// ignored.
+    /// Global observation module (Durand et al., TAROS 2010, Section V.A): collects flags,
+    /// diagnoses, keeps the module status vector, and reports what is new. A flag that tells
+    /// nothing new is ignored.
     ///
     /// Inferred: the vector is closed under dependencies, so that a lost sonar takes localisation
     /// by particles and avoidance along; a diagnosis that is not unique makes its candidates

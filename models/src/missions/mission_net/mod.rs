@@ -137,7 +137,7 @@ fn kinds(objectives: &[Objective]) -> Result<Vec<Does>, MissionNetError> {
     objectives.iter().enumerate().map(kind).collect()
 }
 
-/// The global supervisor of these objectives (Durand et al., TAROS 2010, Section VI): one place
+/// The global supervisor of these objectives (Durand et al., TAROS 2010, Section V.C.1): one place
 /// each, one after the other, and from wherever the mission is to security on a global event.
 ///
 /// The events and outputs are those of [`global`](crate::cotama::global); a mission in which the

@@ -3,13 +3,14 @@
 use super::entry::{Entry, Names, ids};
 use super::fields::{self, Fields, Sink};
 use super::incidents;
-use super::quantities::MAX_QUANTITY;
 use crate::missions::definition::{Definition, Hardware, Zone};
 use crate::missions::diagnostic::{Diagnostic, MissionErrors};
 use crate::missions::faults::{
     Event, EventKind, FORMAT, Faults, Incident, PowerError, RandomEvent, Run,
 };
-use cotama_core::hardware::MAX_UNITS;
+use crate::missions::known::{
+    AT_LEAST_ZERO, EVENTS, INCIDENTS, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, RANDOM_EVENTS, UNITS,
+};
 use cotama_core::units::{Millimetres, Millis};
 
 impl Faults {
@@ -56,7 +57,7 @@ impl Faults {
 /// Reads `[run]`; its absence is a run in which nothing goes wrong.
 pub(super) fn run(run: Option<Fields<'_>>, names: &Names<'_>) -> Option<Run> {
     let Some(mut run) = run else { return Some(Run::default()) };
-    let period = run.optional_integer("monitor_period_ms", 1..=3_600_000);
+    let period = run.optional_integer("monitor_period_ms", PERIODS);
     let faults = read(&mut run, names);
     run.finish();
     let monitor_period = period.ok()?.map_or(Run::default().monitor_period, Millis);
@@ -91,7 +92,7 @@ fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerE
     let Some(table) = fields.optional_table("power_error_permille").ok()? else {
         return Some(Vec::new());
     };
-    let errors = table.named_integers::<i32>(&(-999..=10_000))?;
+    let errors = table.named_integers::<i32>(&POWER_ERRORS)?;
     let errors = errors.into_iter().map(|(zone, permille)| {
         let zone = fields.index_of(&zone, "zone", ids(names.zones))?;
         Some(PowerError { zone, permille })
@@ -101,17 +102,17 @@ fn power_errors(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Vec<PowerE
 }
 
 fn delay(fields: &mut Fields<'_>) -> Option<EventKind> {
-    Some(EventKind::Obstacle { delay: Millis(fields.integer("delay_ms", 1..=MAX_QUANTITY)?) })
+    Some(EventKind::Obstacle { delay: Millis(fields.integer("delay_ms", POSITIVE)?) })
 }
 
 fn extra(fields: &mut Fields<'_>) -> Option<EventKind> {
-    Some(EventKind::Odometry { extra: Millimetres(fields.integer("extra_mm", 1..=MAX_QUANTITY)?) })
+    Some(EventKind::Odometry { extra: Millimetres(fields.integer("extra_mm", POSITIVE)?) })
 }
 
 /// The hardware of a fault or repair, and how many units of it.
 fn units(fields: &mut Fields<'_>, key: &'static str, names: &Names<'_>) -> Option<(usize, u8)> {
     let hardware = fields.text("hardware");
-    let units = fields.integer(key, 1..=i64::from(MAX_UNITS));
+    let units = fields.integer(key, UNITS);
     let hardware = fields.index_of(&hardware?, "hardware", ids(names.hardware))?;
     let units: u8 = units?;
     let kind = names.hardware.get(hardware)?.item.as_ref()?;
@@ -134,8 +135,8 @@ enum Scripted {
 }
 
 fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
-    let x = fields.integer("x_mm", 0..=MAX_QUANTITY).map(Millimetres);
-    let kinds = [&["obstacle", "fault", "repair", "odometry"], &incidents::KINDS[..]].concat();
+    let x = fields.integer("x_mm", AT_LEAST_ZERO).map(Millimetres);
+    let kinds = [&EVENTS[..], &INCIDENTS].concat();
     let Some(kind) = fields.choice("kind", "event", &kinds) else {
         fields.abandon();
         return None;
@@ -176,8 +177,8 @@ fn on_the_path(fields: &Fields<'_>, x: Option<Millimetres>, names: &Names<'_>) {
 
 fn random_event(mut fields: Fields<'_>, seen: &mut Vec<String>) -> Option<RandomEvent> {
     let name = fields.id("name");
-    let per_km = fields.integer("per_km", 1..=1000);
-    let Some(kind) = fields.choice("kind", "random event", &["obstacle", "odometry"]) else {
+    let per_km = fields.integer("per_km", PER_KM);
+    let Some(kind) = fields.choice("kind", "random event", &RANDOM_EVENTS) else {
         fields.abandon();
         return None;
     };

@@ -4,7 +4,10 @@
 //! A method returns `None` when what it was asked for is absent or wrong, and has then reported it;
 //! the caller reads everything first and only then gives up.
 
+mod more;
+
 use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::known::{DOCUMENTATION, ID_LENGTHS, MAX_ENTRIES};
 use crate::names::{MAX_ID, nearest, quoted, unknown};
 use std::cell::RefCell;
 use std::ops::{Range, RangeInclusive};
@@ -14,10 +17,6 @@ type Node<'t> = toml::Spanned<DeValue<'t>>;
 
 /// The largest file that is read, in bytes.
 const MAX_BYTES: usize = 16 << 20;
-/// The most entries of one list or table.
-const MAX_ENTRIES: usize = 1000;
-/// Keys that are documentation: texts, accepted in every table and not read.
-const DOCUMENTATION: [&str; 2] = ["source", "power_source"];
 
 /// What is wrong was reported.
 pub(crate) struct Reported;
@@ -80,6 +79,8 @@ pub(crate) struct Fields<'t> {
     entries: &'t DeTable<'t>,
     span: Range<usize>,
     what: String,
+    /// The most entries of a list.
+    most_entries: usize,
     /// What a file must say that its format is; nothing in tables below the root.
     format: &'static str,
     asked: Vec<&'static str>,
@@ -89,7 +90,8 @@ pub(crate) struct Fields<'t> {
 impl<'t> Fields<'t> {
     fn new(sink: &'t Sink, entries: &'t DeTable<'t>, span: Range<usize>, what: &str) -> Self {
         let (asked, missing) = (Vec::new(), Vec::new());
-        Self { sink, entries, span, what: what.into(), format: "", asked, missing }
+        let (what, most_entries) = (what.into(), MAX_ENTRIES);
+        Self { sink, entries, span, what, most_entries, format: "", asked, missing }
     }
 
     pub(crate) fn report(&self, diagnostic: Diagnostic) {
@@ -128,6 +130,9 @@ impl<'t> Fields<'t> {
         let message = format!("`{key}` must be {expected}, not {found}");
         let help = match node.get_ref() {
             DeValue::Float(_) => "all quantities are whole numbers of mm, mm/s, ms, mW, mJ and g",
+            DeValue::String(_) if expected == "an integer" => {
+                "write a whole number, without quotes and without a unit"
+            }
             _ => "change the value",
         };
         self.report(
@@ -218,7 +223,7 @@ impl<'t> Fields<'t> {
     /// Whether a text is an id; reports it if not.
     fn is_id(&self, id: &str, span: Range<usize>) -> bool {
         let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '-' | '_' | '.');
-        let good = (1..=MAX_ID).contains(&id.len()) && id.chars().all(plain);
+        let good = ID_LENGTHS.contains(&id.len()) && id.chars().all(plain);
         if !good {
             let message = format!("{} is not an id", quoted(id));
             let help = format!("use 1 to {MAX_ID} ASCII letters, digits, `-`, `_` and `.`");
@@ -291,9 +296,10 @@ impl<'t> Fields<'t> {
             self.wrong_type(key, node, "an array");
             return None;
         };
-        if array.len() > MAX_ENTRIES {
+        let most = self.most_entries;
+        if array.len() > most {
             let message =
-                format!("`{key}` has {} entries; at most {MAX_ENTRIES} are allowed", array.len());
+                format!("`{key}` has {} entries; at most {most} are allowed", array.len());
             self.report(Diagnostic::new(node.span(), message, "too many").help("leave some out"));
             return None;
         }

@@ -2,19 +2,16 @@
 
 use super::entry::Names;
 use super::fields::Fields;
-use super::quantities::MAX_QUANTITY;
 use crate::cotama::{FailureMode, Module};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::faults::{Answer, IncidentKind};
+use crate::missions::known::{AT_LEAST_ZERO, INCIDENTS};
 use cotama_core::units::Millis;
-
-/// The kinds of incidents in mission files.
-pub(super) const KINDS: [&str; 2] = ["failure", "operator"];
 
 /// Whether an event of this kind is an incident: `repair` is one when it names a failure mode, and
 /// else about hardware.
 pub(super) fn is_incident(fields: &Fields<'_>, kind: &str) -> bool {
-    KINDS.contains(&kind) || (kind == "repair" && fields.has("mode"))
+    INCIDENTS.contains(&kind) || (kind == "repair" && fields.has("mode"))
 }
 
 /// Reads what is left of an incident of this kind.
@@ -35,7 +32,7 @@ pub(super) fn incident(
         let incident = if kind == "failure" { IncidentKind::Failure } else { IncidentKind::Repair };
         return FailureMode::named(&mode.value).map(incident);
     }
-    let delay = fields.integer("delay_ms", 0..=MAX_QUANTITY).map(Millis);
+    let delay = fields.integer("delay_ms", AT_LEAST_ZERO).map(Millis);
     let found = fields.texts("answers");
     let answers = found.and_then(|found| {
         let known = found.iter().map(|name| {

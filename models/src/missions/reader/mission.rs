@@ -3,34 +3,20 @@
 use super::entry::{Entry, Names, ids};
 use super::faults;
 use super::fields::{Fields, Reported};
-use super::path::{objective, one_after_the_other, zone};
-use super::quantities::{AT_LEAST_ZERO, POSITIVE, SPEEDS, task};
+use super::path::{objective, one_after_the_other, task, zone};
 use super::supervision::{self, Supervised};
 use crate::missions::definition::{
     AXES, Definition, Hardware, MotionPower, PlannedFor, Robot, Standing, Task, Tio, harmless_speed,
 };
 use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::known::{
+    AT_LEAST_ZERO, ENERGIES, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, POSITIVE, QUALITIES,
+    ROUNDINGS, SPEEDS, UNITS,
+};
 use crate::names::quoted;
-use cotama_core::hardware::{Equipment, MAX_KINDS, MAX_UNITS};
+use cotama_core::hardware::{Equipment, MAX_KINDS};
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
-use std::ops::{Range, RangeInclusive};
-
-const QUALITIES: RangeInclusive<i64> = 0..=1_000_000;
-/// Up to 1 GJ.
-const ENERGIES: RangeInclusive<i64> = 1..=1_000_000_000_000;
-
-/// The roundings that the formulas of this crate do, as mission files write them.
-const ROUNDINGS: [(&str, &str); 2] = [
-    ("duration", "ms = round_half_up(length_mm * 1000 / speed_mm_s)"),
-    ("energy", "mJ = round_half_up(power_mW * duration_ms / 1000)"),
-];
-
-/// What plans can be chosen for, as mission files write it.
-const OBJECTIVES: [(&str, PlannedFor); 3] = [
-    ("paper", PlannedFor::Paper),
-    ("quality", PlannedFor::Quality),
-    ("min-energy", PlannedFor::MinEnergy),
-];
+use std::ops::Range;
 
 /// Reads the whole file.
 pub(in crate::missions) fn definition(mut root: Fields<'_>) -> Option<Definition> {
@@ -113,7 +99,8 @@ fn unique<'n>(
 
 fn name(root: &mut Fields<'_>) -> Option<String> {
     let name = root.text("name")?;
-    if !(1..=100).contains(&name.value.chars().count()) || name.value.chars().any(char::is_control)
+    if !NAME_LENGTHS.contains(&name.value.chars().count())
+        || name.value.chars().any(char::is_control)
     {
         let message = format!("{} is not a name for a mission", quoted(&name.value));
         let help = "use 1 to 100 characters on one line";
@@ -239,7 +226,7 @@ fn hardware(fields: Fields<'_>) -> Option<Vec<Entry<Hardware>>> {
                 table
                     .report(Diagnostic::new(name.span.clone(), message, "one too many").help(help));
             }
-            let units = table.integer("units", 1..=i64::from(MAX_UNITS));
+            let units = table.integer("units", UNITS);
             let power = table.integer("power_mw", AT_LEAST_ZERO).map(Milliwatts);
             table.finish();
             Some(Hardware { name: name.value.clone(), units: units?, power: power? })
@@ -292,7 +279,7 @@ fn own_standing(fields: &mut Fields<'_>, task: Option<Task>) -> Result<Option<St
 }
 
 fn needs(fields: &mut Fields<'_>, hardware: &[Entry<Hardware>]) -> Option<Equipment> {
-    let entries = fields.table("needs")?.named_integers::<u8>(&(0..=i64::from(MAX_UNITS)))?;
+    let entries = fields.table("needs")?.named_integers::<u8>(&NEEDED_UNITS)?;
     let mut needs = Some(Equipment::NONE);
     for (name, count) in entries {
         let index = fields.index_of(&name, "hardware", ids(hardware));

@@ -2,11 +2,10 @@
 
 mod entry;
 mod faults;
-mod fields;
+pub(crate) mod fields;
 mod incidents;
 mod mission;
 mod path;
-mod quantities;
 mod supervision;
 
 pub(super) use fields::{Sink, document};

@@ -2,13 +2,12 @@
 
 use super::entry::{Entry, ids};
 use super::fields::{Fields, Reported};
-use super::quantities::{AT_LEAST_ZERO, SPEEDS, task};
 use super::supervision::{self, Supervised};
 use crate::missions::definition::{
     Does, Hardware, HardwareRequirement, Objective, Task, Tio, Zone,
 };
 use crate::missions::diagnostic::{Diagnostic, Spanned};
-use cotama_core::hardware::MAX_UNITS;
+use crate::missions::known::{AT_LEAST_ZERO, SPEEDS, UNITS};
 use cotama_core::units::{Millimetres, MillimetresPerSecond};
 
 pub(super) fn zone(
@@ -69,7 +68,7 @@ fn required_hardware(
 ) -> Result<Option<Spanned<HardwareRequirement>>, Reported> {
     // Without a hardware, a number of units is an unknown key.
     let Some(name) = fields.optional_text("require_hardware")? else { return Ok(None) };
-    let units = fields.optional_integer("require_units", 1..=i64::from(MAX_UNITS));
+    let units = fields.optional_integer("require_units", UNITS);
     let hardware = fields.index_of(&name, "hardware", ids(hardware)).ok_or(Reported)?;
     let value = HardwareRequirement { hardware, units: units?.unwrap_or(1) };
     Ok(Some(Spanned { value, span: name.span }))
@@ -102,6 +101,12 @@ pub(super) fn objective(
         Some(Objective { id: id.clone(), span, x_start, x_end, tasks: tasks?, does: does.ok()? })
     };
     Entry { item: complete(), id }
+}
+
+/// The task of this name; reports it if there is none.
+pub(super) fn task(fields: &Fields<'_>, name: &Spanned<String>) -> Option<Task> {
+    fields.index_of(name, "task", Task::NAMES.iter().copied())?;
+    Task::from_name(&name.value)
 }
 
 fn tasks(fields: &Fields<'_>, names: &[Spanned<String>], tios: &[Entry<Tio>]) -> Option<Vec<Task>> {

@@ -3,9 +3,10 @@
 
 use super::entry::Entry;
 use super::fields::{Fields, Reported};
-use crate::cotama::{Configuration, Module, SubObjective};
+use crate::cotama::{Configuration, Module};
 use crate::missions::definition::{Does, Hardware, Supervision, Task};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
+use crate::missions::known::configurations;
 use cotama_core::hardware::Equipment;
 
 /// Whether the mission is supervised, and by supervisors that use again what returns, as far as it
@@ -82,12 +83,9 @@ pub(super) fn configuration(
     }
     let needed = supervised.known().filter(|supervised| task.is_some() || !supervised);
     let Some(found) = supervised_text(fields, "configuration", needed)? else { return Ok(None) };
-    let following =
-        Configuration::ALL.iter().filter(|it| it.facts().sub_objective == SubObjective::Following);
-    let following: Vec<_> = following.copied().collect();
-    let names = following.iter().map(|it| it.name());
+    let names = configurations().map(Configuration::name);
     let index = fields.index_of(&found, "configuration", names).ok_or(Reported)?;
-    let configuration = *following.get(index).ok_or(Reported)?;
+    let configuration = configurations().nth(index).ok_or(Reported)?;
     for module in configuration.facts().required.iter().map(Module::name) {
         let kind = hardware.iter().position(|it| it.id == module);
         let (message, help) = match kind {

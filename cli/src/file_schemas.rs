@@ -1,0 +1,323 @@
+//! JSON schemas of the files that users write, for editors of TOML: missions and faults.
+//!
+//! Numbers and words are those of the reader; that the keys are, too, is a test
+//! (`tests/file_schemas.rs`). A schema knows the shape of a file, not what its numbers say
+//! together: that objectives follow each other, say, only the reader finds out.
+
+mod parts;
+
+use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
+use cotama_models::cotama::{Configuration, FailureMode};
+use cotama_models::missions::faults::{self, Answer};
+use cotama_models::missions::known::{
+    AT_LEAST_ZERO, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, PER_KM,
+    PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS, SPEEDS, UNITS,
+    configurations,
+};
+use cotama_models::missions::{self, AXES, Does, Supervision, Task};
+use parts::{
+    absent, both, choice, choices, flag, id, integer, named, only, says, table, tables, text, when,
+    with, word,
+};
+use serde_json::{Value, json};
+
+const DRAFT: &str = "http://json-schema.org/draft-07/schema#";
+
+/// The schema of a mission file.
+pub(crate) fn mission() -> Value {
+    let needs = [
+        ("format", word(missions::FORMAT, "how this file is written")),
+        ("name", name()),
+        ("path_length_mm", integer(&POSITIVE, "how long the path is, in mm")),
+        ("limits", limits()),
+        ("robot", robot()),
+        ("motion_power", motion_power()),
+        ("hardware", hardware()),
+        ("tio", tables(&tio(), 1, "task implementation options: ways to do a task")),
+        ("objective", tables(&objective(), 1, "what is to be done where, in this order")),
+    ];
+    let can = [
+        ("zone", tables(&zone(), 0, "what holds in a part of the path")),
+        ("fixed", fixed()),
+        ("rounding", rounding()),
+        ("plan", plan()),
+        ("supervision", supervision()),
+        ("run", run()),
+    ];
+    let file = table(&needs, &can, "The path, the robot, its ways to do things, and the limits.");
+    let file = with(with(file, "$schema", DRAFT.into()), "title", "A mission of cotama".into());
+    with(
+        file,
+        "allOf",
+        json!([supervised(), needs_fixed("TUR", "turn"), needs_fixed("DET", "detect")]),
+    )
+}
+
+/// The schema of a file of faults.
+pub(crate) fn faults() -> Value {
+    let format = word(faults::FORMAT, "how this file is written");
+    let file = table(&[("format", format)], &happenings(), "What goes wrong while a mission runs.");
+    with(with(file, "$schema", DRAFT.into()), "title", "Faults of a mission of cotama".into())
+}
+
+fn name() -> Value {
+    let lengths = format!(
+        "^[^\\u0000-\\u001f\\u007f-\\u009f]{{{},{}}}$",
+        NAME_LENGTHS.start(),
+        NAME_LENGTHS.end()
+    );
+    with(text("the name of the mission"), "pattern", lengths.into())
+}
+
+fn limits() -> Value {
+    let order = choices(&AXES, "which limit the rule treats first: `[\"duration\", \"energy\"]`");
+    let order = with(with(order, "minItems", 2.into()), "maxItems", 2.into());
+    let needs = [
+        ("order", with(order, "uniqueItems", true.into())),
+        ("duration_ms", integer(&POSITIVE, "the mission takes at most so long, in ms")),
+        ("energy_mj", integer(&ENERGIES, "and at most so much, in mJ")),
+    ];
+    table(&needs, &[], "what every plan must keep")
+}
+
+fn plan() -> Value {
+    let meaning =
+        "`\"quality\"` (where nothing is said), `\"min-energy\"`, or `\"paper\"`: the rule";
+    let objective = choice(&OBJECTIVES.map(|it| it.0), meaning);
+    table(&[("objective", objective)], &[], "what plans are for")
+}
+
+fn rounding() -> Value {
+    let formulas =
+        ROUNDINGS.map(|(key, formula)| (key, word(formula, "the formula, word by word")));
+    table(&[], &formulas, "repeats the two formulas that the program computes with")
+}
+
+fn robot() -> Value {
+    let hurts = "this energy of motion, in mJ, and more, would hurt somebody";
+    let needs = [
+        ("mass_g", integer(&POSITIVE, "its mass, in g")),
+        ("speed_max_mm_s", integer(&SPEEDS, "its highest speed, in mm/s")),
+        ("impact_energy_max_mj", integer(&POSITIVE, hurts)),
+    ];
+    let harmless = "the speed that follows from both, in mm/s; checked";
+    table(&needs, &[("speed_harmless_mm_s", integer(&SPEEDS, harmless))], "the robot's body")
+}
+
+fn motion_power() -> Value {
+    let needs = [
+        ("c0", integer(&AT_LEAST_ZERO, "mW at rest")),
+        ("c1", integer(&AT_LEAST_ZERO, "mW for each m/s")),
+        ("c2", integer(&AT_LEAST_ZERO, "mW for each (m/s)²")),
+    ];
+    let point = [
+        ("speed_mm_s", integer(&SPEEDS, "a speed, in mm/s")),
+        ("power_mw", integer(&AT_LEAST_ZERO, "the power at this speed, in mW")),
+    ];
+    let point = table(&point, &[], "a point of the curve");
+    let at = tables(&point, 0, "`{ speed_mm_s, power_mw }`: points of the curve, checked");
+    table(&needs, &[("at", at)], "power for a speed: c0 + c1 v / 1000 + c2 v² / 1,000,000 mW")
+}
+
+fn hardware() -> Value {
+    let needs = [
+        ("units", integer(&UNITS, &format!("how many there are, at most {MAX_UNITS}"))),
+        ("power_mw", integer(&AT_LEAST_ZERO, "what each takes while it is on, in mW")),
+    ];
+    let kind = table(&needs, &[], "a kind of hardware");
+    with(named(&kind, "what the robot has"), "maxProperties", MAX_KINDS.into())
+}
+
+fn fixed() -> Value {
+    let power = integer(&AT_LEAST_ZERO, "what it takes, in mW");
+    let can = [
+        ("turn_ms", integer(&POSITIVE, "how long a turn takes, in ms")),
+        ("turn_power_mw", power.clone()),
+        ("detect_ms", integer(&POSITIVE, "how long a detection takes, in ms")),
+        (
+            "detect_power_mw",
+            named(&power, "what it takes, in mW, for each option of the task `DET`"),
+        ),
+    ];
+    let pairs = json!({
+        "turn_ms": ["turn_power_mw"], "turn_power_mw": ["turn_ms"],
+        "detect_ms": ["detect_power_mw"], "detect_power_mw": ["detect_ms"],
+    });
+    with(table(&[], &can, "needed where the robot turns or detects"), "dependencies", pairs)
+}
+
+/// A mission with an option for a task that is done standing says what that takes.
+fn needs_fixed(task: &str, what: &str) -> Value {
+    let options = json!({ "contains": says("task", &[task]) });
+    let has = json!({ "properties": { "tio": options }, "required": ["tio"] });
+    let keys = [format!("{what}_ms"), format!("{what}_power_mw")];
+    when(&has, &json!({ "properties": { "fixed": { "required": keys } }, "required": ["fixed"] }))
+}
+
+/// The tasks that say themselves what they take.
+const STANDING: [&str; 3] = ["RCV", "DLV", "WAI"];
+
+fn tio() -> Value {
+    let configurations: Vec<_> = configurations().map(Configuration::name).collect();
+    let units = integer(&NEEDED_UNITS, "units of this hardware");
+    let needs = [
+        ("id", id("its name")),
+        ("task", choice(&Task::NAMES, "`MOV`, `LOC`, `TUR`, `DET`, `RCV`, `DLV` or `WAI`")),
+        ("needs", named(&units, "how many units of which hardware")),
+    ];
+    let can = [
+        ("speed_max_mm_s", integer(&SPEEDS, "not faster this way, in mm/s")),
+        ("quality_per_dm", integer(&QUALITIES, "how good it is, for each 100 mm of way")),
+        ("quality", integer(&QUALITIES, "how good it is where the robot stands")),
+        (
+            "configuration",
+            choice(&configurations, "needed under supervision where it moves: which modules run"),
+        ),
+        (
+            "duration_ms",
+            integer(&POSITIVE, "needed by `RCV`, `DLV` and `WAI`: how long it takes, in ms"),
+        ),
+        (
+            "power_mw",
+            integer(&AT_LEAST_ZERO, "needed by `RCV`, `DLV` and `WAI`: what it takes, in mW"),
+        ),
+    ];
+    let own = ["duration_ms", "power_mw"];
+    let moves = says("task", &["MOV"]);
+    let rules = json!([
+        { "if": says("task", &STANDING), "then": { "required": own }, "else": absent(&own) },
+        { "if": moves, "then": true, "else": absent(&["configuration"]) },
+    ]);
+    with(table(&needs, &can, "a way to do a task"), "allOf", rules)
+}
+
+fn zone() -> Value {
+    let needs = [
+        ("id", id("its name")),
+        ("x_start_mm", integer(&AT_LEAST_ZERO, "where it begins, in mm")),
+        ("x_end_mm", integer(&POSITIVE, "where it ends, in mm")),
+    ];
+    let can = [
+        ("speed_max_mm_s", integer(&SPEEDS, "not faster here, in mm/s")),
+        ("require_tio", text("this option must be used here")),
+        ("require_hardware", text("the option that moves must use this")),
+        ("require_units", integer(&UNITS, "beside `require_hardware`: so many units of it")),
+    ];
+    let rule = json!({ "require_units": ["require_hardware"] });
+    with(table(&needs, &can, "a part of the path"), "dependencies", rule)
+}
+
+fn objective() -> Value {
+    let tasks = choices(&Task::NAMES, "what is done at the same time, as `[\"MOV\", \"LOC\"]`");
+    let ends = "where it ends, in mm; the same place where the robot stands";
+    let needs = [
+        ("id", id("its name")),
+        ("x_start_mm", integer(&AT_LEAST_ZERO, "where it begins, in mm")),
+        ("x_end_mm", integer(&AT_LEAST_ZERO, ends)),
+        ("tasks", with(tasks, "uniqueItems", true.into())),
+    ];
+    let meaning = "needed under supervision: `drive`, `receive`, `deliver` or `wait`";
+    let does = choice(&Does::NAMES, meaning);
+    table(&needs, &[("does", does)], "a part of what is to be done")
+}
+
+fn supervision() -> Value {
+    let decides = choice(&Supervision::NAMES, "`\"cotama\"`: the supervisors of COTAMA");
+    let recovery = flag("modules that return are used again");
+    table(&[("decides", decides)], &[("recovery", recovery)], "who decides when something fails")
+}
+
+/// Under supervision each objective says what it does and each option that moves which modules run;
+/// without, nothing does, and nothing happens that only supervisors can answer.
+fn supervised() -> Value {
+    let moves = when(&says("task", &["MOV"]), &json!({ "required": ["configuration"] }));
+    let event = both(&json!({ "properties": { "kind": { "enum": EVENTS } } }), &absent(&["mode"]));
+    json!({
+        "if": { "required": ["supervision"] },
+        "then": { "properties": {
+            "objective": { "items": { "required": ["does"] } },
+            "tio": { "items": moves },
+        } },
+        "else": { "properties": {
+            "objective": { "items": absent(&["does"]) },
+            "tio": { "items": absent(&["configuration"]) },
+            "run": { "properties": { "event": { "items": event } } },
+        } },
+    })
+}
+
+fn run() -> Value {
+    let period = integer(&PERIODS, "how often margins are looked at, in ms; 1,000");
+    let can = [&[("monitor_period_ms", period)][..], &happenings()].concat();
+    table(&[], &can, "what goes wrong in this mission")
+}
+
+/// The keys of a file of faults, and of `[run]`.
+fn happenings() -> [(&'static str, Value); 3] {
+    let error = integer(&POWER_ERRORS, "difference in parts per thousand");
+    let error = named(&error, "by zone, real power against that of the model, in ‰");
+    let events = tables(&event(), 0, "what happens where");
+    let random = tables(&random_event(), 0, "what happens at places drawn from `--seed`");
+    [("power_error_permille", error), ("event", events), ("random", random)]
+}
+
+/// What an event has beside its place and its kind.
+fn details() -> [(&'static str, Value); 7] {
+    let modes: Vec<_> = FailureMode::ALL.iter().map(|it| it.name()).collect();
+    [
+        ("delay_ms", integer(&AT_LEAST_ZERO, "how long the robot or the operator waits, in ms")),
+        ("extra_mm", integer(&POSITIVE, "so much more path to drive, in mm")),
+        ("hardware", text("what fails or works again")),
+        ("units_lost", integer(&UNITS, "how many units fail")),
+        ("units_back", integer(&UNITS, "how many units work again")),
+        ("mode", choice(&modes, "under supervision: a failure mode of `cotama fmeca`")),
+        (
+            "answers",
+            choices(&Answer::NAMES, "under supervision: what the operator does when asked"),
+        ),
+    ]
+}
+
+fn event() -> Value {
+    let kinds = [&EVENTS[..], &INCIDENTS].concat();
+    let needs = [
+        ("x_mm", integer(&AT_LEAST_ZERO, "where it happens, in mm")),
+        ("kind", choice(&kinds, "what happens; it says which other keys there are")),
+    ];
+    let details = details();
+    let keys = details.each_ref().map(|it| it.0);
+    let has_mode = json!({ "required": ["mode"] });
+    let repairs = says("kind", &["repair"]);
+    let rules = [
+        (says("kind", &["obstacle"]), &["delay_ms"][..]),
+        (says("kind", &["odometry"]), &["extra_mm"]),
+        (says("kind", &["fault"]), &["hardware", "units_lost"]),
+        (both(&repairs, &absent(&["mode"])), &["hardware", "units_back"]),
+        (both(&repairs, &has_mode), &["mode"]),
+        (says("kind", &["failure"]), &["mode"]),
+        (says("kind", &["operator"]), &["answers", "delay_ms"]),
+    ];
+    let rules = rules.map(|(kind, needs)| when(&kind, &only(needs, &keys)));
+    let rules = rules.into_iter().chain([obstacles_last()]).collect();
+    with(table(&needs, &details, "something that happens once"), "allOf", rules)
+}
+
+/// An obstacle costs time, while an operator may answer at once.
+fn obstacles_last() -> Value {
+    let delay = json!({ "properties": { "delay_ms": { "minimum": POSITIVE.start() } } });
+    when(&says("kind", &["obstacle"]), &delay)
+}
+
+fn random_event() -> Value {
+    let needs = [
+        ("name", id("its name, which also names its random numbers")),
+        ("per_km", integer(&PER_KM, "how many on a kilometre")),
+        ("kind", choice(&RANDOM_EVENTS, "what happens")),
+    ];
+    let keys = ["delay_ms", "extra_mm"];
+    let details: Vec<_> = details().into_iter().filter(|it| keys.contains(&it.0)).collect();
+    let rules = [("obstacle", "delay_ms"), ("odometry", "extra_mm")];
+    let rules = rules.map(|(kind, key)| when(&says("kind", &[kind]), &only(&[key], &keys)));
+    let rules = rules.into_iter().chain([obstacles_last()]).collect();
+    with(table(&needs, &details, "something that happens at random places"), "allOf", rules)
+}

@@ -1,0 +1,102 @@
+//! An analysis as comma-separated values.
+
+use super::analysis::{Analysis, Mode};
+use super::set::Set;
+use std::fmt::Write;
+
+/// The columns of [`Analysis::to_csv`]. The last five are computed and not read back: the ranks of
+/// severity, occurrence and detection, their product, and the class of criticality.
+pub const COLUMNS: &str = "id,function,component,failure_mode,cause,effect,\
+    severity_auto,severity_teleop,modules_lost,observer,detection_rule,detection_latency_s,\
+    cs_event_auto,reaction,persistence,mtbf_h,rate_source,injection,\
+    flags,sometimes,silent,rate_label,alpha_permille,beta_permille,detection_rank,\
+    s,o,d,rpn,criticality";
+
+impl Analysis {
+    /// Comma-separated values: a heading and one line a row, fields quoted where they must be (RFC
+    /// 4180, with plain line ends). Names in a list stand between `;`.
+    ///
+    /// ```
+    /// use cotama_models::fmeca::{Analysis, COLUMNS};
+    /// let csv = Analysis::of_the_robot().to_csv();
+    /// assert_eq!(csv.lines().next(), Some(COLUMNS));
+    /// let again = Analysis::parse_csv("robot.csv", &csv).unwrap();
+    /// assert_eq!(again.modes().len(), 40);
+    /// ```
+    #[must_use]
+    pub fn to_csv(&self) -> String {
+        let mut text = format!("{COLUMNS}\n");
+        for mode in &self.modes {
+            text += &self.fields(mode).map(quoted).join(",");
+            text.push('\n');
+        }
+        text
+    }
+
+    fn fields(&self, it: &Mode) -> [String; 30] {
+        let number = |it: Option<u16>| it.map_or_else(String::new, |it| it.to_string());
+        let criticality = self.criticality(it);
+        [
+            it.id.clone(),
+            it.function.clone(),
+            it.component.clone(),
+            it.failure.clone(),
+            it.cause.clone(),
+            it.effect.clone(),
+            it.severity.name().to_owned(),
+            it.severity_operator.map_or("", |it| it.name()).to_owned(),
+            it.lost.clone(),
+            it.observer.clone(),
+            it.detection.clone(),
+            thousandths(it.latency_ms.into()),
+            it.event.clone(),
+            it.reaction.clone(),
+            it.persistence.map_or("", |it| it.name()).to_owned(),
+            thousandths(it.mtbf_mh),
+            it.rate_source.clone(),
+            it.injection.clone(),
+            self.list(&it.flags),
+            self.list(&it.sometimes),
+            it.silent.clone().unwrap_or_default(),
+            it.rate_label.name().to_owned(),
+            number(it.alpha_permille),
+            number(it.beta_permille),
+            number(it.detection_rank.map(u16::from)),
+            criticality.severity.to_string(),
+            criticality.occurrence.to_string(),
+            criticality.detection.to_string(),
+            criticality.rpn().to_string(),
+            criticality.class().name().to_owned(),
+        ]
+    }
+
+    /// Names in a list, by the alphabet; one with a space is no list of two names where a `;`
+    /// follows it.
+    fn list(&self, flags: &Set) -> String {
+        let mut names = self.names(flags);
+        names.sort_unstable();
+        match names.as_slice() {
+            [one] if one.contains(' ') => format!("{one};"),
+            names => names.join("; "),
+        }
+    }
+}
+
+fn quoted(field: String) -> String {
+    if field.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", field.replace('"', "\"\""))
+    } else {
+        field
+    }
+}
+
+/// A number of thousandths as a decimal number without trailing zeros.
+fn thousandths(number: u64) -> String {
+    let mut text = (number / 1000).to_string();
+    if !number.is_multiple_of(1000) {
+        // Writing into a string cannot fail.
+        let _ = write!(text, ".{:03}", number % 1000);
+        text.truncate(text.trim_end_matches('0').len());
+    }
+    text
+}

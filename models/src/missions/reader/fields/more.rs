@@ -1,0 +1,53 @@
+//! Numbers with decimals, longer lists, and lists that may be left out.
+
+use super::{Fields, Reported, Sink};
+use crate::missions::diagnostic::Spanned;
+use toml::de::DeValue;
+
+impl<'t> Fields<'t> {
+    /// Where its errors are collected.
+    pub(crate) fn sink(&self) -> &'t Sink {
+        self.sink
+    }
+
+    /// The digits of a number, with or without decimals, that may be left out.
+    pub(crate) fn optional_number(
+        &mut self,
+        key: &'static str,
+    ) -> Result<Option<Spanned<String>>, Reported> {
+        let Some(node) = self.optional(key) else { return Ok(None) };
+        let value = match node.get_ref() {
+            DeValue::Float(float) => float.as_str().to_owned(),
+            DeValue::Integer(integer) => integer.to_string(),
+            _ => {
+                self.wrong_type(key, node, "a number");
+                return Err(Reported);
+            }
+        };
+        Ok(Some(Spanned { value, span: node.span() }))
+    }
+
+    /// A list of texts that may be left out or empty.
+    pub(crate) fn optional_texts(
+        &mut self,
+        key: &'static str,
+    ) -> Result<Vec<Spanned<String>>, Reported> {
+        let Some(node) = self.optional(key) else { return Ok(Vec::new()) };
+        let items = self.items(key, node).ok_or(Reported)?;
+        let texts: Vec<_> = items.iter().map(|item| self.text_of(key, item)).collect();
+        texts.into_iter().collect::<Option<_>>().ok_or(Reported)
+    }
+
+    /// [`tables`](Self::tables), with a limit of its own.
+    pub(crate) fn tables_up_to(
+        &mut self,
+        key: &'static str,
+        required: bool,
+        most: usize,
+    ) -> Option<Vec<Self>> {
+        let usual = std::mem::replace(&mut self.most_entries, most);
+        let tables = self.tables(key, required);
+        self.most_entries = usual;
+        tables
+    }
+}
