@@ -25,8 +25,8 @@ impl Default for Limits {
 ///
 /// ```
 /// use cotama_sim::trace::Trace;
-/// let error = Trace::parse("t.jsonl", "{\"schema\":\"cotama-trace/0\"}\n").unwrap_err();
-/// assert_eq!((error.source_name.as_str(), error.line), ("t.jsonl", 1));
+/// let error = Trace::parse("t.jsonl", "{\"schema\":\"cotama-trace/1\"}\n").unwrap_err();
+/// assert_eq!(error.to_string(), "t.jsonl:1:27: missing field `version`");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceError {

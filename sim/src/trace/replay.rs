@@ -17,11 +17,12 @@ use std::fmt;
 /// ```
 /// use cotama_models::missions::embedded;
 /// use cotama_sim::options::Options;
-/// use cotama_sim::trace::{RecordError, Trace};
+/// use cotama_sim::trace::Trace;
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let poor = patrol.text.replace("energy_mj = 8640000", "energy_mj = 4320000");
 /// let error = Trace::record("poor", &poor, &Options::default()).unwrap_err();
-/// assert!(matches!(error, RecordError::Infeasible { .. }));
+/// let why = "infeasible from the start: no plan within the energy limit: 355.896 J short";
+/// assert_eq!(error.to_string(), why);
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RecordError {

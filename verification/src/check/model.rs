@@ -7,12 +7,14 @@ use cotama_core::net::Net;
 /// A net, with time or without.
 ///
 /// ```
-/// use cotama_models::nets::watchdog;
-/// use cotama_verification::check::Model;
-/// // With its intervals, times can be asked for.
-/// let model = Model::timed(&watchdog::NET).unwrap();
-/// assert!(matches!(model, Model::Timed { .. }));
-/// assert!(matches!(Model::from(&watchdog::NET), Model::Plain(_)));
+/// use cotama_verification::check::{Model, Options, Verdict, check};
+/// use cotama_verification::tpn::Time::Finite;
+/// use cotama_verification::{property, tina};
+/// let net = b"tr put cold -> raw  tr boil [300,360] raw -> hard  pl cold (1)";
+/// let egg = Model::from(tina::read("egg.net", net).unwrap());
+/// let asked = property::parse("bound(put -> hard)", egg.pt()).unwrap();
+/// let answer = check(&egg, &asked, &Options::default());
+/// assert_eq!(answer.verdict, Verdict::Response(Some((Finite(300), Finite(360)))));
 /// ```
 #[derive(Clone, Debug)]
 pub enum Model {
