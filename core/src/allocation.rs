@@ -3,6 +3,28 @@
 use crate::problem::Problem;
 
 /// An allocator: picks one candidate an activity.
+///
+/// ```
+/// use cotama_core::allocation::{Allocator, Answer};
+/// use cotama_core::exact::{Exact, Item, Objective, Stage};
+/// use cotama_core::panorama::Panorama;
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let c = |duration, energy, quality| Candidate { cost: [duration, energy], quality, id: 0 };
+/// let (a, b) = ([c(5, 1, 2), c(1, 2, 9)], [c(5, 1, 2)]);
+/// let activities = [&a[..], &b[..]];
+/// let problem = Problem::new(&activities, [10, 9], [0, 1]).unwrap();
+/// fn quality(by: &mut impl Allocator<2>, problem: &Problem<'_, 2>) -> Option<u64> {
+///     match by.allocate(problem, &mut [0; 2]) {
+///         Ok(Answer::Planned(planned)) => Some(planned.quality),
+///         _ => None,
+///     }
+/// }
+/// let (mut items, mut stages) = ([Item::EMPTY; 3], [Stage::EMPTY; 2]);
+/// let mut exact = Exact::new(&[Objective::MostQuality], 1_000, &mut items, &mut stages);
+/// assert_eq!(quality(&mut Panorama::new(&mut [[0; 2]; 2]), &problem), Some(11));
+/// assert_eq!(quality(&mut exact, &problem), Some(11));
+/// ```
 pub trait Allocator<const A: usize> {
     /// Writes the chosen candidate of each activity to `plan` and says what is known of it.
     ///
@@ -92,6 +114,22 @@ impl Shortfall {
 }
 
 /// A plan within every limit, and how good it is known to be.
+///
+/// ```
+/// use cotama_core::allocation::{Allocator, Answer};
+/// use cotama_core::exact::{Exact, Item, Objective, Stage};
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let c = |energy, quality| Candidate { cost: [energy], quality, id: 0 };
+/// let (a, b) = ([c(3, 1), c(8, 5)], [c(2, 1), c(6, 4)]);
+/// let activities = [&a[..], &b[..]];
+/// let problem = Problem::new(&activities, [10], [0]).unwrap();
+/// let (mut items, mut stages) = ([Item::EMPTY; 4], [Stage::EMPTY; 2]);
+/// let mut exact = Exact::new(&[Objective::MostQuality], 1_000, &mut items, &mut stages);
+/// let Ok(Answer::Planned(planned)) = exact.allocate(&problem, &mut [0; 2]) else { panic!() };
+/// assert_eq!((planned.cost, planned.quality), ([10], 6));
+/// assert_eq!((planned.bound, planned.optimal), (Some(6), true));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Planned<const A: usize> {
     /// The total cost on each axis.
@@ -108,6 +146,18 @@ pub struct Planned<const A: usize> {
 }
 
 /// Memory that the caller gave is too small for the problem.
+///
+/// ```
+/// use cotama_core::allocation::Allocator;
+/// use cotama_core::panorama::Panorama;
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let activity = [Candidate { cost: [7], quality: 1, id: 0 }];
+/// let activities = [&activity[..], &activity[..]];
+/// let problem = Problem::new(&activities, [20], [0]).unwrap();
+/// let error = Panorama::new(&mut [[0]; 2]).allocate(&problem, &mut [0; 1]).unwrap_err();
+/// assert_eq!(error.to_string(), "the plan needs 2 elements, 1 were given");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryError {
     /// Which memory.

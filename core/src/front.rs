@@ -58,6 +58,22 @@ pub struct Front<'m, const A: usize> {
 }
 
 /// The plans of a front, in rising order of cost (axis after axis), then falling quality.
+///
+/// ```
+/// use cotama_core::front::{Front, Node};
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let c = |duration, energy| Candidate { cost: [duration, energy], quality: 0, id: 0 };
+/// let ways = [c(1, 9), c(4, 4), c(9, 9), c(8, 1)];
+/// let activities = [&ways[..]];
+/// let problem = Problem::new(&activities, [10, 10], [0, 1]).unwrap();
+/// let mut nodes = [Node::EMPTY; 8];
+/// let mut front = Front::new(&mut nodes);
+/// let plans = front.find(&problem).unwrap();
+/// let costs: Vec<_> = (0..plans.len()).filter_map(|at| Some(plans.totals(at)?.0)).collect();
+/// assert_eq!(costs, [[1, 9], [4, 4], [8, 1]]); // (9, 9) is beaten by all of them
+/// assert!(front.find(&problem.with_limits([0, 10])).unwrap().is_empty());
+/// ```
 #[derive(Debug)]
 pub struct FrontPlans<'f, const A: usize> {
     nodes: &'f [Node<A>],

@@ -64,6 +64,19 @@ impl core::fmt::Display for MonitorError {
 impl core::error::Error for MonitorError {}
 
 /// When to ask for a better plan.
+///
+/// ```
+/// use cotama_core::hardware::Equipment;
+/// use cotama_core::monitor::{Monitor, Request, Upward};
+///
+/// let upward = Upward { growth: [0, 50], reserve: [0, 10] };
+/// let mut monitor = Monitor::new([600, 900], [0, 1]).unwrap().with_upward(upward);
+/// monitor.planned(&[500, 800]).unwrap();
+/// // Half of it was done with 60 less energy than planned.
+/// monitor.spend(&[250, 340]).unwrap();
+/// let asks = monitor.assess(&[250, 400], Equipment::NONE, Equipment::NONE);
+/// assert_eq!((asks, monitor.room()), (Ok(Request::Up), [350, 550]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upward<const A: usize> {
     /// How much some margin must have grown since the last plan; zero on an axis means: not on this
@@ -74,6 +87,18 @@ pub struct Upward<const A: usize> {
 }
 
 /// What the monitor asks for.
+///
+/// ```
+/// use cotama_core::hardware::Equipment;
+/// use cotama_core::monitor::{Monitor, Request, Trigger};
+///
+/// let laser = Equipment::NONE.with(0, 1).unwrap();
+/// let mut monitor = Monitor::new([600, 900], [0, 1]).unwrap();
+/// monitor.planned(&[500, 800]).unwrap();
+/// assert_eq!(monitor.assess(&[500, 800], laser, laser), Ok(Request::Keep));
+/// let lost = monitor.assess(&[500, 800], laser, Equipment::NONE);
+/// assert_eq!(lost, Ok(Request::Down(Trigger::Hardware)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Request {
     /// Nothing; go on.
@@ -97,6 +122,16 @@ pub enum Trigger {
 }
 
 /// Consumption so far against limits.
+///
+/// ```
+/// use cotama_core::monitor::Monitor;
+///
+/// let mut monitor = Monitor::new([600, 900], [0, 1]).unwrap();
+/// monitor.planned(&[500, 800]).unwrap();
+/// monitor.spend(&[200, 450]).unwrap();
+/// assert_eq!((monitor.used(), monitor.left()), ([200, 450], [400, 450]));
+/// assert_eq!(monitor.margins(&[300, 460]), Ok([100, -10])); // 10 mJ are short
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Monitor<const A: usize> {
     limits: [u64; A],
@@ -249,6 +284,19 @@ impl<const A: usize> Monitor<A> {
 }
 
 /// The most that activities can cost on each axis, whichever candidate is used in each.
+///
+/// ```
+/// use cotama_core::monitor::{Monitor, worst};
+/// use cotama_core::problem::Candidate;
+///
+/// let c = |duration, energy| Candidate { cost: [duration, energy], quality: 0, id: 0 };
+/// let (a, b) = ([c(10, 90), c(40, 20)], [c(30, 30)]);
+/// let way = worst(&[&a, &b]);
+/// assert_eq!(way, [70, 120]);
+/// let mut monitor = Monitor::new([100, 200], [0, 1]).unwrap();
+/// monitor.spend(&[20, 100]).unwrap();
+/// assert_eq!(monitor.return_margin(&way), Ok([10, -20])); // 20 mJ may lack on the way home
+/// ```
 #[must_use]
 pub fn worst<const A: usize>(activities: &[&[Candidate<A>]]) -> [u64; A] {
     core::array::from_fn(|axis| {

@@ -39,6 +39,22 @@ use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enou
 use crate::problem::{Candidate, Problem};
 
 /// The paper's allocator, in memory from its caller. A step is one candidate looked at.
+///
+/// ```
+/// use cotama_core::allocation::{Allocator, Answer};
+/// use cotama_core::panorama::Panorama;
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let c = |duration| Candidate { cost: [duration], quality: 0, id: 0 };
+/// let ways = [c(9), c(5), c(2)];
+/// let activities = [&ways[..], &ways[..]];
+/// let problem = Problem::new(&activities, [12], [0]).unwrap();
+/// let (mut caps, mut plan) = ([[0]; 2], [0; 2]);
+/// let Ok(Answer::Planned(planned)) = Panorama::new(&mut caps).allocate(&problem, &mut plan) else {
+///     panic!("there is a plan")
+/// };
+/// assert_eq!((plan, planned.cost), ([0, 2], [11])); // the last activity is lowered first
+/// ```
 #[derive(Debug)]
 pub struct Panorama<'m, const A: usize> {
     caps: &'m mut [[u32; A]],

@@ -38,6 +38,16 @@ pub struct Problem<'a, const A: usize> {
 }
 
 /// Why the parts do not make a problem.
+///
+/// ```
+/// use cotama_core::problem::{Candidate, Problem, ProblemError};
+///
+/// let ways = [Candidate { cost: [7, 3], quality: 1, id: 0 }];
+/// let (lacks, full) = ([&ways[..], &[]], [&ways[..]]);
+/// let error = Problem::new(&lacks, [9, 9], [0, 1]).unwrap_err();
+/// assert_eq!(error.to_string(), "activity 1 has no candidate");
+/// assert_eq!(Problem::new(&full, [9, 9], [0, 0]).unwrap_err(), ProblemError::BadOrder);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProblemError {
     /// This activity has no candidate.

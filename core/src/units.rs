@@ -85,6 +85,14 @@ quantity!(
 );
 
 /// `a * b / c`, rounded half up; `None` when `c` is zero or the result does not fit.
+///
+/// ```
+/// use cotama_core::units::mul_div_half_up;
+///
+/// assert_eq!(mul_div_half_up(5, 1, 2), Some(3)); // 2.5
+/// assert_eq!(mul_div_half_up(u64::MAX, 3, 3), Some(u64::MAX));
+/// assert_eq!(mul_div_half_up(u64::MAX, 2, 1), None);
+/// ```
 #[must_use]
 pub const fn mul_div_half_up(a: u64, b: u64, c: u64) -> Option<u64> {
     if c == 0 {

@@ -4,6 +4,9 @@
 #[path = "../examples/allocate.rs"]
 mod allocate;
 #[allow(dead_code, missing_docs)]
+#[path = "../examples/board.rs"]
+mod board;
+#[allow(dead_code, missing_docs)]
 #[path = "../examples/supervisor.rs"]
 mod supervisor;
 #[allow(dead_code, missing_docs)]
@@ -36,4 +39,13 @@ fn an_arm_grips_what_a_camera_sees_or_says_that_it_did_not() {
     assert_eq!(belt.gripped, [(Millis(100), 100), (Millis(500), 90)]);
     assert_eq!(belt.passed, [180, 190]);
     assert_eq!(belt.refused, [200]);
+}
+
+#[test]
+fn a_board_stops_its_pump_in_time_and_counts_the_interrupt_that_it_lost() {
+    let mut out = Vec::new();
+    board::run(&mut out).unwrap();
+    let told = "204 ms: run\n1911 ms: stand\n2500 ms: run\n5500 ms: stand\n5500 ms: alarm\n\
+                7000 ms: Off, lost 1\n";
+    assert_eq!(String::from_utf8_lossy(&out), told);
 }

@@ -15,6 +15,16 @@ use std::collections::BinaryHeap;
 
 /// A discrete-event queue. Equal times leave by priority (lower first), equal priorities in the
 /// order in which they came; nothing else decides, so the order is the same everywhere.
+///
+/// ```
+/// use cotama_sim::kernel::Queue;
+/// let mut queue = Queue::new();
+/// queue.push(20, 0, "late");
+/// queue.push(10, 1, "second");
+/// queue.push(10, 0, "first");
+/// assert_eq!(queue.pop(), Some((10, "first"))); // of equal times the lower priority
+/// assert_eq!((queue.pop(), queue.next_time()), (Some((10, "second")), Some(20)));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Queue<E> {
     heap: BinaryHeap<Entry<E>>,

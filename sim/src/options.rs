@@ -6,6 +6,18 @@ use cotama_models::missions::faults::Faults;
 use serde::{Deserialize, Serialize};
 
 /// How a mission is run.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::options::{FaultChoice, Options};
+/// use cotama_sim::setup::Simulation;
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let options = Options { faults: FaultChoice::None, ..Options::default() };
+/// let run = Simulation::new(&mission, &options).unwrap().run(0).unwrap();
+/// // Planned are 527,924 ms and 8,563,613 mJ, where each activity is rounded.
+/// assert_eq!((run.replans, run.events.total(), run.used), (0, 0, [527_923, 8_563_598]));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Options {
     /// The seed of all random numbers.
@@ -38,6 +50,22 @@ pub enum FaultChoice {
 }
 
 /// Who plans.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
+/// use cotama_sim::setup::Simulation;
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let used = |planner| {
+///     let options = Options { planner, faults: FaultChoice::None, ..Options::default() };
+///     Simulation::new(&mission, &options).unwrap().run(0).unwrap().used
+/// };
+/// assert_eq!(used(Planner::Panorama), [527_923, 8_563_598]);
+/// let exact = |aim| Planner::Exact { aim, steps: 100_000 };
+/// assert_eq!(used(exact(Aim::Quality)), [527_923, 8_627_497]);
+/// assert_eq!(used(exact(Aim::MinEnergy))[1], 4_675_898);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(tag = "rule", rename_all = "snake_case")]
 pub enum Planner {

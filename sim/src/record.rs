@@ -3,6 +3,28 @@
 use crate::trace::Record;
 
 /// Takes the records of a run, in the order of time.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::record::Recorder;
+/// use cotama_sim::{options::Options, setup::Simulation, trace::Record};
+/// #[derive(Default)]
+/// struct Plans(Vec<String>);
+/// impl Recorder for Plans {
+///     const WANTED: bool = true;
+///     fn record(&mut self, record: Record) {
+///         if let Record::Plan(plan) = record {
+///             self.0.push(plan.cause);
+///         }
+///     }
+/// }
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let (simulation, mut plans) =
+///     (Simulation::new(&mission, &Options::default()).unwrap(), Plans::default());
+/// simulation.run_recorded(0, &mut plans).unwrap();
+/// assert_eq!(plans.0[1..3], ["energy margin below zero", "one laser lost"]);
+/// ```
 pub trait Recorder {
     /// Whether records are wanted at all; if not, none is made.
     const WANTED: bool;

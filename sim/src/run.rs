@@ -14,6 +14,18 @@ pub const MAX_CHECKS: u64 = 1_000_000;
 pub const LONGEST: Millis = Millis(3_600_000);
 
 /// What a run comes to: a few numbers and its plans.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::run::Outcome;
+/// use cotama_sim::{options::Options, setup::Simulation};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let run = Simulation::new(&mission, &Options::default()).unwrap().run(0).unwrap();
+/// assert_eq!((run.outcome, run.margins), (Outcome::Completed, [54_118, 31_399]));
+/// let causes: Vec<_> = run.plans.iter().map(|it| it.cause.text(&mission)).collect();
+/// assert_eq!(causes[..2], ["start", "energy margin below zero"]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Run {
     /// How it ended.
@@ -43,6 +55,12 @@ pub struct Run {
 }
 
 /// How a mission ended.
+///
+/// ```
+/// use cotama_sim::run::Outcome;
+/// let names = [Outcome::Completed, Outcome::Safe, Outcome::Failed].map(Outcome::name);
+/// assert_eq!(names, ["completed", "safe", "failed"]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
@@ -189,6 +207,16 @@ pub enum Reason {
 }
 
 /// Why no plan was found.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::run::NoPlan;
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let short = NoPlan::Limit { axis: 1, short: 355_896 };
+/// assert_eq!(short.text(&mission), "no plan within the energy limit: 355.896 J short");
+/// assert_eq!(NoPlan::Emptied { activity: 3 }.text(&mission), "no alternative left for A4");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum NoPlan {
     /// A limit cannot be met, as far as the allocator can tell.

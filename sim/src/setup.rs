@@ -55,6 +55,16 @@ pub(crate) struct Pending {
 }
 
 /// Why a mission cannot be made ready.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::{options::Options, setup::{SetupError, Simulation}};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let options = Options { monitor_period: Some(Millis(0)), ..Options::default() };
+/// assert_eq!(Simulation::new(&mission, &options).unwrap_err(), SetupError::ZeroPeriod);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SetupError {
     /// The monitor period is zero.

@@ -16,6 +16,14 @@ use rand_pcg::Pcg64;
 use rand_pcg::rand_core::Rng;
 
 /// The source of all random numbers of a run.
+///
+/// ```
+/// use cotama_sim::streams::Streams;
+/// let streams = Streams::new(7);
+/// let draw = |name| streams.stream(name).below(1_000);
+/// assert_eq!(draw("event rain"), draw("event rain")); // a stream begins anew each time
+/// assert_ne!(streams.stream("a").bits(), streams.stream("b").bits());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Streams {
     seed: u64,

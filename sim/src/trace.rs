@@ -18,6 +18,18 @@ pub use replay::{RecordError, Replayed, replay};
 pub const SCHEMA: &str = "cotama-trace/1";
 
 /// A whole trace.
+///
+/// ```
+/// use cotama_models::missions::embedded;
+/// use cotama_sim::options::Options;
+/// use cotama_sim::trace::{Record, Trace};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let (trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+/// assert_eq!((trace.header.schema.as_str(), trace.canonical), ("cotama-trace/1", true));
+/// let plans = trace.records.iter().filter(|it| matches!(it, Record::Plan(_))).count();
+/// assert_eq!(plans, 4);
+/// assert!(matches!(trace.records.last(), Some(Record::End(_))));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Trace {
     /// What was run.

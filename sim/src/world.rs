@@ -44,6 +44,20 @@ struct Leg {
 }
 
 /// A robot on its mission. A clone goes on exactly as the original does.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::record::Silent;
+/// use cotama_sim::{options::Options, setup::Simulation, world::World};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let simulation = Simulation::new(&mission, &Options::default()).unwrap();
+/// let mut world = World::start(&simulation, 0, &mut Silent).unwrap();
+/// while world.x_nm() < 1_000_000_000 {
+///     assert!(world.step(&mut Silent).is_none()); // still under way
+/// }
+/// assert_eq!(world.time_us(), 3_000_000); // 1 m, seen at the next check of the margins
+/// ```
 #[derive(Clone, Debug)]
 pub struct World<'s> {
     simulation: &'s Simulation<'s>,

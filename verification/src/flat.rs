@@ -42,6 +42,35 @@ pub const MOST_TRANSITIONS: usize = 100_000;
 /// # Errors
 /// When it does not fit together, when the absence of tokens in a place without a bound decides, or
 /// when the net would be too large.
+///
+/// ```
+/// use cotama_core::{net, system};
+/// use cotama_verification::check::{Model, Options, Verdict, check};
+/// use cotama_verification::{flat::flat, property};
+/// net! {
+///     mod bell {
+///         places { Here: 1 }
+///         events { press }
+///         outputs { ring }
+///         transitions { ring on press: Here => Here emit ring; }
+///     }
+/// }
+/// net! {
+///     mod dog {
+///         places { Asleep: 1, Awake }
+///         events { heard }
+///         transitions { wake on heard: Asleep => Awake; }
+///         ignore { heard in Awake; }
+///     }
+/// }
+/// system! { mod house { nets { bell: bell, dog: dog } links { bell.ring => dog.heard mail 2; } } }
+/// # fn main() {
+/// let net = flat(&house::SYSTEM).unwrap();
+/// let model = Model::from(&net.view().net());
+/// let wakes = property::parse("EF dog.Awake", model.pt()).unwrap();
+/// assert_eq!(check(&model, &wakes, &Options::default()).verdict, Verdict::Holds(true));
+/// # }
+/// ```
 pub fn flat(system: &System<'_>) -> Result<OwnedNet, FlatError> {
     if let Some(defect) = system.defect() {
         return Err(FlatError::Defect(defect));

@@ -7,6 +7,17 @@ use std::sync::OnceLock;
 ///
 /// A transition is enabled when every place of its `needs` holds the weight; firing changes the
 /// places of its `effects`. Reads are needs without an effect. Lists are sorted by place.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::pt::Pt;
+/// let door = Pt::from(&door::NET);
+/// let call = door.transition("call").unwrap();
+/// assert!(door.enabled(&door.initial, call.0));
+/// let next = door.fire(&door.initial, call.0).unwrap();
+/// let opening = door.place("Opening").unwrap();
+/// assert_eq!((door.initial[opening.0 as usize], next[opening.0 as usize]), (0, 1));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pt {
     /// The name of the net.

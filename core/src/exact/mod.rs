@@ -58,6 +58,26 @@ use load::Aim;
 use rows::Rows;
 
 /// What a plan is chosen for.
+///
+/// ```
+/// use cotama_core::allocation::Allocator;
+/// use cotama_core::exact::{Exact, Item, Objective, Stage};
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// // Three ways: the best two are equal in quality, and differ in energy.
+/// let c = |energy, quality| Candidate { cost: [energy], quality, id: 0 };
+/// let ways = [c(3, 1), c(9, 5), c(7, 5)];
+/// let activities = [&ways[..]];
+/// let problem = Problem::new(&activities, [10], [0]).unwrap();
+/// let best = |objectives: &[Objective]| {
+///     let (mut items, mut stages, mut plan) = ([Item::EMPTY; 3], [Stage::EMPTY; 1], [0]);
+///     Exact::new(objectives, 100, &mut items, &mut stages).allocate(&problem, &mut plan).unwrap();
+///     plan[0]
+/// };
+/// assert_eq!(best(&[Objective::Least(0)]), 0);
+/// assert_eq!(best(&[Objective::Most(0)]), 1);
+/// assert_eq!(best(&[Objective::MostQuality, Objective::Least(0)]), 2);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Objective {
     /// The most total quality.
@@ -208,6 +228,23 @@ impl Budget {
 }
 
 /// The complete allocator, in memory from its caller.
+///
+/// ```
+/// use cotama_core::allocation::{Allocator, Answer};
+/// use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
+/// use cotama_core::problem::{Candidate, Problem};
+///
+/// let c = |energy, quality| Candidate { cost: [energy], quality, id: 0 };
+/// let ways = [c(2, 1), c(4, 3), c(9, 4)];
+/// let activities = [&ways[..]; 3];
+/// let problem = Problem::new(&activities, [15], [0]).unwrap();
+/// let (mut items, mut stages) = ([Item::EMPTY; 9], [Stage::EMPTY; 3]);
+/// let (mut seen, mut plan) = ([Seen::EMPTY; 64], [0; 3]);
+/// let exact = Exact::new(&[Objective::MostQuality], 10_000, &mut items, &mut stages);
+/// let answer = exact.with_memory(&mut seen).allocate(&problem, &mut plan);
+/// let Ok(Answer::Planned(planned)) = answer else { panic!() };
+/// assert_eq!((plan, planned.quality, planned.optimal), ([1, 1, 1], 9, true));
+/// ```
 #[derive(Debug)]
 pub struct Exact<'m, const A: usize> {
     objectives: &'m [Objective],

@@ -6,6 +6,19 @@ use crate::units::Micros;
 /// Which modules run into their extra time, in each of their periods.
 ///
 /// One that does is not asked to be in time itself, the others are.
+///
+/// ```
+/// use cotama_core::executive::{Overruns, Task, TaskSet};
+/// use cotama_core::units::Micros;
+///
+/// let task = |cost, extra| Task { extra: Micros(extra), ..Task::new(Micros(100), Micros(cost)) };
+/// let tasks = [task(10, 5), task(20, 10), task(30, 0)];
+/// let set = TaskSet::new(&tasks).unwrap();
+/// let last = |overruns| set.response_times(overruns).last().unwrap().unwrap();
+/// assert_eq!(last(Overruns::None), Micros(60));
+/// assert_eq!(last(Overruns::One), Micros(70));
+/// assert_eq!(last(Overruns::All), Micros(75));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Overruns {
     /// None: each job is done within its cost.
@@ -17,6 +30,16 @@ pub enum Overruns {
 }
 
 /// Why a set is not known to be in time.
+///
+/// ```
+/// use cotama_core::executive::{Overruns, Task, TaskSet};
+/// use cotama_core::units::Micros;
+///
+/// let task = |period, cost| Task::new(Micros(period), Micros(cost));
+/// let tasks = [task(10, 6), task(20, 9)];
+/// let late = TaskSet::new(&tasks).unwrap().schedulable(Overruns::None).unwrap_err();
+/// assert_eq!(late.to_string(), "task 1 can miss its deadline, 20 us: it may take 21 us or more");
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unschedulable {
     /// A job of this task can miss its deadline.

@@ -7,6 +7,16 @@ use crate::units::Micros;
 pub const ITERATIONS: u32 = 10_000;
 
 /// A periodic module. Of two tasks of a set the earlier one is the more urgent.
+///
+/// ```
+/// use cotama_core::executive::Task;
+/// use cotama_core::units::Micros;
+///
+/// let avoid = Task::new(Micros(50_000), Micros(8_000));
+/// assert_eq!((avoid.deadline, avoid.patience), (Micros(50_000), 3));
+/// let tolerant = Task { deadline: Micros(20_000), extra: Micros(2_000), ..avoid };
+/// assert_eq!(tolerant.budget(), Micros(10_000));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Task {
     /// From one release to the next.
@@ -147,6 +157,17 @@ impl core::fmt::Display for TaskError {
 impl core::error::Error for TaskError {}
 
 /// Tasks that make sense, the most urgent first.
+///
+/// ```
+/// use cotama_core::executive::{Task, TaskSet};
+/// use cotama_core::units::Micros;
+///
+/// let task = Task::new(Micros(100), Micros(20));
+/// assert_eq!(TaskSet::new(&[task]).unwrap().tasks().len(), 1);
+/// let late = Task { deadline: Micros(150), ..task };
+/// let error = TaskSet::new(&[task, late]).unwrap_err();
+/// assert_eq!(error.task, 1);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct TaskSet<'t> {
     tasks: &'t [Task],

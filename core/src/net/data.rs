@@ -27,6 +27,22 @@ pub struct TransitionId(pub u32);
 /// A place/transition net with events, read arcs, bounds, priorities and time: a supervisor.
 ///
 /// Its marking decides alone what an event does; nothing that decides is outside of it.
+///
+/// ```
+/// use cotama_core::net;
+/// net! {
+///     /// A lamp.
+///     mod lamp {
+///         places { Off: 1, On }
+///         events { press }
+///         transitions { on on press: Off => On; off on press: On => Off; }
+///     }
+/// }
+/// let net = &lamp::NET;
+/// assert_eq!((net.name, net.doc, net.places[0].initial), ("lamp", "A lamp.", 1));
+/// let off = &net.transitions[1];
+/// assert_eq!((off.name, net.places[off.take[0].place.0 as usize].name), ("off", "On"));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Net<'n> {
     /// Its name.
@@ -68,6 +84,25 @@ impl Place<'_> {
 }
 
 /// What a place stands for. The token game does not depend on it.
+///
+/// ```
+/// use cotama_core::{net, net::Role};
+/// net! {
+///     /// Counts to three, and remembers whether it may.
+///     mod counting {
+///         places { Ready: 1 }
+///         flags { allowed }
+///         counters { count: 0 of 3 }
+///         events { allow, step }
+///         transitions {
+///             allow on allow [!allowed]: Ready => Ready do allowed = true;
+///             step on step [allowed]: Ready => Ready do count += 1;
+///         }
+///     }
+/// }
+/// let roles: Vec<_> = counting::NET.places.iter().map(|it| it.role).collect();
+/// assert_eq!(roles[..3], [Role::State, Role::Data, Role::Data]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
     /// A state or a condition of the supervisor.
@@ -129,6 +164,14 @@ pub struct Arc {
 }
 
 /// A time interval, closed on both sides, in milliseconds.
+///
+/// ```
+/// use cotama_core::net::Within;
+///
+/// assert!(Within { earliest: 500, latest: Some(2_000) }.is_sound());
+/// assert!(Within { earliest: 500, latest: None }.is_sound());
+/// assert!(!Within { earliest: 500, latest: Some(400) }.is_sound());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Within {
     /// Not before.
@@ -166,6 +209,20 @@ pub struct Ignored {
 /// A net *rests* where nothing fires by itself now. On the way there it *passes* markings: those
 /// count as marked, but no event is offered in them. A *run* is what a player does from some
 /// instant on.
+///
+/// ```
+/// use cotama_core::{net, net::{Law, PlaceId}};
+/// net! {
+///     mod lamp {
+///         places { Off: 1, On }
+///         events { press }
+///         transitions { on on press: Off => On; off on press: On => Off; }
+///         laws { never_both(Off, On); always_can(Off); }
+///     }
+/// }
+/// let laws = [Law::NeverBoth(PlaceId(0), PlaceId(1)), Law::AlwaysCan(PlaceId(0))];
+/// assert_eq!(lamp::NET.laws, laws);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law<'n> {
     /// A weighted sum of tokens stays the same, also in passing: a place invariant.

@@ -4,6 +4,16 @@ use super::data::{Arc, Law, Net, PlaceId, Role, Within};
 use core::fmt;
 
 /// What is wrong with the lists of a [`Net`].
+///
+/// ```
+/// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+/// use cotama_core::net::{Defect, PlaceId};
+///
+/// let mut net = OwnedNet::new("lamp", "");
+/// net.place(OwnedPlace::new("off", 1)).unwrap();
+/// net.transition(OwnedTransition::new("press").take(PlaceId(0), 1).give(PlaceId(7), 1)).unwrap();
+/// assert_eq!(net.view().net().defect(), Some(Defect::UnknownId { transition: 0 }));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Defect {

@@ -92,6 +92,17 @@ pub struct OwnedSignal {
 }
 
 /// A [`Transition`] that owns its lists.
+///
+/// ```
+/// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+///
+/// let mut net = OwnedNet::new("egg", "");
+/// let raw = net.place(OwnedPlace::new("raw", 1).at_most(1)).unwrap();
+/// let hard = net.place(OwnedPlace::new("hard", 0)).unwrap();
+/// let boil = OwnedTransition::new("boil").take(raw, 1).give(hard, 1);
+/// net.transition(boil.within(300_000, Some(360_000))).unwrap();
+/// assert_eq!(net.transitions[0].within.unwrap().latest, Some(360_000));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct OwnedTransition {
     /// Its name.

@@ -22,6 +22,14 @@ pub(super) const fn machine(system: &System<'_>) -> (usize, bool) {
 
 /// Whether exactly one place of role [`Role::State`] is marked at any time, because transitions
 /// only move one token among them; for nets of at most 32 such places.
+///
+/// ```
+/// use cotama_core::{net, player::is_state_machine};
+/// net! { mod lamp { places { Off: 1, On } events { go } transitions { on on go: Off => On; } } }
+/// net! { mod fork { places { A: 1, B, C } events { go } transitions { go on go: A => B & C; } } }
+/// assert!(is_state_machine(&lamp::NET));
+/// assert!(!is_state_machine(&fork::NET));
+/// ```
 pub const fn is_state_machine(net: &Net<'_>) -> bool {
     states(net).is_some()
 }

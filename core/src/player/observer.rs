@@ -6,6 +6,21 @@ use crate::system::data::Of;
 use crate::units::Millis;
 
 /// A transition that has just fired.
+///
+/// ```
+/// use cotama_core::{net, units::Millis};
+/// net! {
+///     mod egg {
+///         places { Raw: 1, Hard }
+///         outputs { ring }
+///         transitions { boil: Raw => Hard emit ring within 300..=300 ms; }
+///     }
+/// }
+/// let (mut egg, mut rung) = (egg::Player::new(), None);
+/// let mut hear = |it: &egg::Firing<'_>| rung = it.says(egg::Output::ring).then_some(it.at);
+/// assert_eq!(egg.advance_with(Millis(900), &mut hear).fired, 1);
+/// assert_eq!(rung, Some(Millis(300))); // told late, it fired when it was due
+/// ```
 #[derive(Debug)]
 pub struct Firing<'f, P: Names, M = ()> {
     /// The transition.
@@ -47,6 +62,34 @@ impl<'f, P: Names, M> Firing<'f, P, M> {
 
 /// Hears what a player does, in the order in which it happens. Actions, logs and recorders are
 /// observers. `()` observes nothing and costs nothing; any closure that takes a [`Firing`] is one.
+///
+/// ```
+/// use cotama_core::{net, net::EventId};
+/// use cotama_core::player::{Firing, Names, Observer};
+/// use cotama_core::system::Of;
+/// use cotama_core::units::Millis;
+/// net! {
+///     mod lamp {
+///         places { Off: 1, On }
+///         events { press }
+///         transitions { on on press: Off => On; }
+///     }
+/// }
+/// #[derive(Default)]
+/// struct Log(Vec<&'static str>);
+/// impl<P: Names> Observer<P> for Log {
+///     fn on_fire(&mut self, _: &Firing<'_, P>) {
+///         self.0.push("fired");
+///     }
+///     fn on_ignore(&mut self, _: Of<EventId>, _: ()) {
+///         self.0.push("ignored");
+///     }
+/// }
+/// let (mut lamp, mut log) = (lamp::Player::new(), Log::default());
+/// let _ = lamp.offer_with(Millis(0), &lamp::Event::press, &mut log);
+/// let _ = lamp.offer_with(Millis(1), &lamp::Event::press, &mut log);
+/// assert_eq!(log.0, ["fired", "ignored"]);
+/// ```
 pub trait Observer<P: Names, M = ()> {
     /// A transition has fired.
     fn on_fire(&mut self, firing: &Firing<'_, P, M>);

@@ -4,6 +4,22 @@ use crate::net::data::EventId;
 use crate::system::data::Of;
 
 /// What became of an event.
+///
+/// ```
+/// use cotama_core::{net, player::{Outcome, Why}, units::Millis};
+/// net! {
+///     mod lamp {
+///         places { Off: 1, On, Warm }
+///         events { press }
+///         transitions { on on press: Off => On; heat: On => Warm; }
+///     }
+/// }
+/// let mut lamp = lamp::Player::new();
+/// let fired = Outcome::Fired { transition: lamp::Transition::on, settled: 1 }; // `heat` too
+/// assert_eq!(lamp.offer(Millis(0), &lamp::Event::press), fired);
+/// let ignored = Outcome::Ignored { why: Why::NotEnabled };
+/// assert_eq!(lamp.offer(Millis(1), &lamp::Event::press), ignored);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[must_use = "an event may have been ignored or refused"]
 pub enum Outcome<T> {
@@ -58,6 +74,26 @@ impl<T> Outcome<T> {
 
 /// Why an event is ignored. When a transition on it has its tokens: what else the first such one
 /// lacks, even where the event is ignored on purpose.
+///
+/// ```
+/// use cotama_core::{net, player::{Outcome::Ignored, Why}, units::Millis};
+/// net! {
+///     mod safe {
+///         places { Locked: 1, Open }
+///         events { turn, shut }
+///         transitions { open on turn: Locked => Open within 100..=200 ms; }
+///         ignore { shut in Locked; }
+///     }
+/// }
+/// use safe::{Event, Transition};
+/// let mut safe = safe::Player::new();
+/// let why = |outcome| match outcome { Ignored { why } => Some(why), _ => None };
+/// let early = why(safe.offer(Millis(50), &Event::turn));
+/// assert_eq!(early, Some(Why::TooEarly(Transition::open)));
+/// assert_eq!(why(safe.offer(Millis(60), &Event::shut)), Some(Why::OnPurpose));
+/// let late = why(safe.offer(Millis(300), &Event::turn));
+/// assert_eq!(late, Some(Why::TooLate(Transition::open)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why<T> {
     /// A marked place ignores it on purpose.
@@ -89,6 +125,33 @@ pub struct Advanced {
 }
 
 /// What a round did.
+///
+/// ```
+/// use cotama_core::{net, player::Round, system, units::Millis};
+/// net! {
+///     mod bell {
+///         places { Here: 1 }
+///         events { press }
+///         outputs { ring }
+///         transitions { ring on press: Here => Here emit ring; }
+///     }
+/// }
+/// net! {
+///     mod dog {
+///         places { Asleep: 1, Awake }
+///         events { heard }
+///         transitions { wake on heard: Asleep => Awake; }
+///     }
+/// }
+/// system! { mod house { nets { bell: bell, dog: dog } links { bell.ring => dog.heard mail 2; } } }
+/// # fn main() {
+/// let mut house = house::Player::new();
+/// let press = house::Event::bell(bell::Event::press);
+/// assert!(house.offer(Millis(0), &press).fired() && house.offer(Millis(1), &press).fired());
+/// // The first wakes the dog; to the second it does not listen.
+/// assert_eq!(house.round(Millis(10)), Round { fired: 1, ignored: 1, ..Round::default() });
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[must_use = "something may have been ignored or may still wait"]
 pub struct Round {

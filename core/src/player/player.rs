@@ -14,6 +14,15 @@ use crate::units::Millis;
 /// `W` is the number of words of the marking, `C` that of transitions with an interval, `S` that of
 /// all that can wait in mailboxes, and `M` is what events carry along. `net!` and `system!` name
 /// the type with these as `Player` in the module that they make.
+///
+/// ```
+/// use cotama_core::{net, units::Millis};
+/// net! { mod egg { places { Raw: 1, Hard } transitions { boil: Raw => Hard after 300_000 ms; } } }
+/// let mut egg = egg::Player::new();
+/// assert_eq!(egg.wake_at(), Some(Millis(300_000)));
+/// assert_eq!(egg.advance(Millis(400_000)).fired, 1);
+/// assert_eq!((egg.state(), egg.wake_at()), (egg::State::Hard, None));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Player<P, const W: usize, const C: usize = 0, const S: usize = 0, M = ()> {
     pub(super) program: P,

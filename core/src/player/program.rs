@@ -146,6 +146,27 @@ pub(super) const fn order<const W: usize>(net: &Net<'_>, code: &Code<'_, W>, ord
 }
 
 /// A system made at run time, packed.
+///
+/// ```
+/// use cotama_core::net::{EventId, owned::{OwnedNet, OwnedPlace, OwnedTransition}};
+/// use cotama_core::player::{Packed, Player};
+/// use cotama_core::system::{Component, System};
+/// use cotama_core::units::Millis;
+///
+/// let mut lamp = OwnedNet::new("lamp", "");
+/// let off = lamp.place(OwnedPlace::new("off", 1)).unwrap();
+/// let on = lamp.place(OwnedPlace::new("on", 0)).unwrap();
+/// let press = lamp.event("press", "").unwrap();
+/// lamp.transition(OwnedTransition::new("on").on(press).take(off, 1).give(on, 1)).unwrap();
+/// let view = lamp.view();
+/// let net = view.net();
+/// let alone = [Component::alone(&net)];
+/// let packed = Packed::<1>::alone(&net).unwrap();
+/// let mut player: Player<_, 1> =
+///     Player::start(packed.load(&System::alone(&alone)), Millis(0), &mut ());
+/// assert!(player.offer(Millis(5), &EventId(0).into()).fired());
+/// assert_eq!(player.tokens(on), 1);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Loaded<'c, const W: usize, const C: usize = 0, const S: usize = 0> {
     pub(super) system: System<'c>,

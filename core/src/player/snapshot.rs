@@ -54,6 +54,22 @@ stored! { u8 u16 u32 u64 }
 /// A stored marking, with its clocks and what waits in mailboxes.
 ///
 /// A player makes one, or [`Snapshot::read`] from bytes whose checksum is right.
+///
+/// ```
+/// use cotama_core::{net, player::{Checked, Snapshot}, units::Millis};
+/// net! { mod egg { places { Raw: 1, Hard } transitions { boil: Raw => Hard after 300 ms; } } }
+/// let mut egg = egg::Player::new();
+/// let _ = egg.advance(Millis(100));
+/// let mut flash = [0; Snapshot::<1, 1>::BYTES];
+/// assert!(egg.snapshot().write(&mut flash).is_some());
+///
+/// // The power was away until 5 s; 200 ms were left.
+/// let stored = Snapshot::read(&flash).unwrap();
+/// let egg = egg::Checked::restore(Checked(egg::Program), Millis(5_000), &stored).unwrap();
+/// assert_eq!(egg.wake_at(), Some(Millis(5_200)));
+/// flash[9] ^= 1;
+/// assert_eq!(Snapshot::<1, 1>::read(&flash), None); // the checksum is wrong
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Snapshot<const W: usize, const C: usize = 0, const S: usize = 0, M = ()> {
     /// Tells the system and its version: [`Code::fingerprint`].
@@ -67,6 +83,15 @@ pub struct Snapshot<const W: usize, const C: usize = 0, const S: usize = 0, M = 
 }
 
 /// Why a stored marking is refused.
+///
+/// ```
+/// use cotama_core::{net, player::{Checked, RestoreError}, units::Millis};
+/// net! { mod one { places { A: 1, B } events { go } transitions { go on go: A => B; } } }
+/// net! { mod two { places { A: 1, C } events { go } transitions { go on go: A => C; } } }
+/// let stored = one::Player::new().snapshot();
+/// let refused = two::Checked::restore(Checked(two::Program), Millis(0), &stored);
+/// assert!(matches!(refused, Err(RestoreError::OtherSystem { .. })));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum RestoreError {

@@ -8,6 +8,38 @@ use crate::net::data::{EventId, Net, OutputId, PlaceId};
 /// output are a broadcast. Events that no link leads to come from outside: from the robot, the
 /// operator, or, when a system is closed for checking, from environment nets, which are nets like
 /// any other. A [`Binding`] makes a shared place of one net the place of another.
+///
+/// ```
+/// use cotama_core::{net, system};
+/// use cotama_core::system::Delivery;
+/// net! {
+///     mod button {
+///         places { Here: 1 }
+///         events { press }
+///         outputs { pressed }
+///         transitions { press on press: Here => Here emit pressed; }
+///     }
+/// }
+/// net! {
+///     mod lamp {
+///         places { Off: 1, On }
+///         events { toggle }
+///         transitions { on on toggle: Off => On; off on toggle: On => Off; }
+///     }
+/// }
+/// system! {
+///     mod room {
+///         nets { button: button, lamp: lamp }
+///         links { button.pressed => lamp.toggle now; }
+///     }
+/// }
+/// # fn main() {
+/// let system = &room::SYSTEM;
+/// assert_eq!(system.components[1].name, "lamp");
+/// assert_eq!(system.delivery(system.links[0].to), Some(Delivery::Now));
+/// assert_eq!(system.defect(), None);
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct System<'s> {
     /// Its name.
@@ -68,6 +100,36 @@ pub struct Link {
 }
 
 /// When an output causes an event.
+///
+/// ```
+/// use cotama_core::{net, player::Outcome, system, units::Millis};
+/// net! {
+///     mod bell {
+///         places { Here: 1 }
+///         events { press }
+///         outputs { ring }
+///         transitions { ring on press: Here => Here emit ring; }
+///     }
+/// }
+/// net! {
+///     mod dog {
+///         places { Asleep: 1, Awake }
+///         events { heard }
+///         transitions { wake on heard: Asleep => Awake; }
+///     }
+/// }
+/// system! { mod now { nets { bell: bell, dog: dog } links { bell.ring => dog.heard now; } } }
+/// system! { mod mail { nets { bell: bell, dog: dog } links { bell.ring => dog.heard mail 1; } } }
+/// # fn main() {
+/// let (mut now, mut mail) = (now::Player::new(), mail::Player::new());
+/// assert!(now.offer(Millis(0), &now::Event::bell(bell::Event::press)).fired());
+/// assert_eq!(now::state::dog(&now), dog::State::Awake);
+/// let press = mail::Event::bell(bell::Event::press);
+/// assert!(mail.offer(Millis(0), &press).fired());
+/// assert_eq!(mail::state::dog(&mail), dog::State::Asleep); // its mail waits for its turn
+/// assert!(matches!(mail.offer(Millis(1), &press), Outcome::Refused { .. })); // there is no room
+/// # }
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Delivery {
     /// At once, in the step that emits it: a rendezvous. The receiver fires or ignores it.
@@ -112,6 +174,15 @@ pub const DEPTH: usize = 8;
 
 impl<'s> System<'s> {
     /// A net alone. Its shared places are its own.
+    ///
+    /// ```
+    /// use cotama_core::net;
+    /// use cotama_core::system::{Component, System};
+    /// net! { mod lamp { places { Off: 1, On } transitions { on: Off => On after 5 ms; } } }
+    /// let components = [Component::alone(&lamp::NET)];
+    /// let system = System::alone(&components);
+    /// assert_eq!((system.name, system.is_alone()), ("lamp", true));
+    /// ```
     pub const fn alone(component: &'s [Component<'s>; 1]) -> Self {
         let Net { name, doc, .. } = *component[0].net;
         Self { name, doc, components: component, links: &[], bindings: &[], clears: &[] }

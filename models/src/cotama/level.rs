@@ -225,6 +225,14 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<
 }
 
 /// The names of a component of [`delivery`](delivery::SYSTEM) and of one of its transitions.
+///
+/// ```
+/// use cotama_core::net::TransitionId;
+/// use cotama_core::system::Of;
+/// use cotama_models::cotama::named;
+/// assert_eq!(named(Of { component: 0, id: TransitionId(0) }), Some(("gs", "g1")));
+/// assert_eq!(named(Of { component: 99, id: TransitionId(0) }), None);
+/// ```
 pub fn named(transition: Of<TransitionId>) -> Option<(&'static str, &'static str)> {
     let component = delivery::SYSTEM.components.get(usize::from(transition.component))?;
     let transition = component.net.transitions.get(transition.id.0 as usize)?;

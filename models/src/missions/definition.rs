@@ -148,6 +148,14 @@ pub struct Hardware {
 }
 
 /// The power of motion at speed v (mm/s): c0 + c1 v / 1000 + c2 v² / 1,000,000 mW, rounded half up.
+///
+/// ```
+/// use cotama_core::units::{MillimetresPerSecond, Milliwatts};
+/// use cotama_models::missions::MotionPower;
+/// let power = MotionPower { c0: 4_890, c1: 3_930, c2: 8_466 };
+/// assert_eq!(power.at(MillimetresPerSecond(0)), Milliwatts(4_890));
+/// assert_eq!(power.at(MillimetresPerSecond(410)), Milliwatts(7_924));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MotionPower {
     /// The constant coefficient, in mW.
@@ -267,6 +275,16 @@ pub enum PlannedFor {
 }
 
 /// Everything a mission file says.
+///
+/// ```
+/// use cotama_models::missions::{Mission, PlannedFor, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// // A `Mission` is read as its definition.
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// assert_eq!((mission.name.as_str(), mission.planned_for), ("patrol", Some(PlannedFor::Paper)));
+/// assert_eq!((mission.objectives.len(), mission.zones.len()), (9, 8));
+/// assert_eq!(mission.hardware[1].name, "laser");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Definition {
     /// The name of the mission.

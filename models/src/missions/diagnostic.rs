@@ -40,6 +40,13 @@ impl Diagnostic {
 }
 
 /// A place in a text, as people count: both from one, the column in characters.
+///
+/// ```
+/// use cotama_models::missions::Position;
+/// let text = "ä = 1\nb = 2";
+/// assert_eq!(Position::of(text, 3), Position { line: 1, column: 3 }); // characters, not bytes
+/// assert_eq!(Position::of(text, 7), Position { line: 2, column: 1 });
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Position {
     /// The line, from 1.
@@ -76,6 +83,14 @@ pub const MAX_DIAGNOSTICS: usize = 100;
 ///
 /// Its `Display` is plain text, one line `file:line:column: message` for each error and a line of
 /// help where there is some.
+///
+/// ```
+/// use cotama_models::missions::{Mission, MissionErrors};
+/// let errors: MissionErrors = Mission::parse("mine.toml", "format = 'x'").unwrap_err();
+/// let first = &errors.diagnostics()[0];
+/// assert_eq!((errors.position(first).line, errors.position(first).column), (1, 10));
+/// assert!(errors.to_string().starts_with("mine.toml:1:10: "));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MissionErrors {
     source_name: String,

@@ -27,11 +27,23 @@ const MISSIONS: [Embedded; 2] = [
 ];
 
 /// All missions that come with the program.
+///
+/// ```
+/// use cotama_models::missions::embedded;
+/// let names: Vec<_> = embedded::embedded().iter().map(|it| it.name).collect();
+/// assert_eq!(names, ["patrol", "delivery"]);
+/// ```
 pub fn embedded() -> &'static [Embedded] {
     &MISSIONS
 }
 
 /// The mission of this name.
+///
+/// ```
+/// use cotama_models::missions::embedded;
+/// assert!(embedded::mission("delivery").unwrap().text.contains("decides = \"cotama\""));
+/// assert_eq!(embedded::mission("nope"), None);
+/// ```
 pub fn mission(name: &str) -> Option<Embedded> {
     embedded().iter().copied().find(|mission| mission.name == name)
 }

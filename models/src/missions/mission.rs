@@ -54,6 +54,18 @@ pub const FORMAT: &str = "panorama-mission/1";
 /// *Invariant:* the scenario is that of the definition, and none of its activities is without
 /// alternatives; the supervisor of a supervised mission is made from its objectives, and checked.
 /// The definition is therefore read only; its fields are those of the mission.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// assert_eq!((mission.path_length.0, mission.limits), (187_000, [600_000, 8_640_000]));
+/// assert_eq!(mission.scenario().activities.len(), 17);
+///
+/// let wrong = patrol.text.replace("name = \"patrol\"", "nam = \"patrol\"");
+/// let errors = Mission::parse("mine.toml", &wrong).unwrap_err();
+/// assert_eq!(errors.diagnostics().len(), 1);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mission {
     definition: Definition,
@@ -137,6 +149,16 @@ impl Mission {
     /// An objective that does not travel is left out. One that travels cannot be left out alone,
     /// since the robot would not get to the next: the mission then ends where the objective starts,
     /// without all that follows.
+    ///
+    /// ```
+    /// use cotama_models::missions::{Mission, embedded};
+    /// let patrol = embedded::mission("patrol").unwrap();
+    /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+    /// let stands = mission.objectives.iter().position(|it| !it.travels()).unwrap();
+    /// assert_eq!(mission.without_objective(stands).unwrap().objectives.len(), 8);
+    /// // The way to the first valve and all that follows it: nothing would be left.
+    /// assert_eq!(mission.without_objective(0), None);
+    /// ```
     pub fn without_objective(&self, objective: usize) -> Option<Self> {
         let mut definition = self.definition.clone();
         let dropped = definition.objectives.get(objective)?;

@@ -27,6 +27,16 @@ pub enum Constraint {
 }
 
 /// A combination of options that constraints excluded.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let glass = &mission.scenario().activities[1];
+/// assert_eq!((glass.alternatives.len(), glass.unconstrained()), (12, 21));
+/// let reason = "zone `glass-out` requires the moving option to use 1 of `sonar`";
+/// assert_eq!(glass.dropped[0].reason, reason);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Dropped {
     /// The ids of its options, as in [`PlannedActivity::labels`].
@@ -71,6 +81,16 @@ impl PlannedActivity {
 }
 
 /// What an allocator works on: activities in sequence, with their alternatives, and limits.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let scenario = mission.scenario();
+/// let first = &scenario.activities[0];
+/// assert_eq!((first.id.as_str(), first.x_end.0, first.alternatives.len()), ("A1", 31_000, 21));
+/// assert_eq!(scenario.activities().len(), 17);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scenario {
     /// The activities, in sequence; at least one.

@@ -19,6 +19,13 @@ pub struct ModelEntry {
 }
 
 /// What a name stands for.
+///
+/// ```
+/// use cotama_models::nets::{Model, all};
+/// let families = all().iter().filter(|it| matches!(it.model, Model::Family(_)));
+/// let names: Vec<_> = families.map(|it| it.name).collect();
+/// assert_eq!(names[..2], ["philosophers", "token_ring"]);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub enum Model {
     /// A net that was checked while compiling.
@@ -47,6 +54,12 @@ const fn family(family: &'static Family) -> ModelEntry {
 }
 
 /// All of them: first those to learn from, then the families.
+///
+/// ```
+/// use cotama_models::nets::all;
+/// let names: Vec<_> = all().iter().map(|it| it.name).collect();
+/// assert_eq!(names[..4], ["door", "watchdog", "charger", "crossing"]);
+/// ```
 pub const fn all() -> &'static [ModelEntry] {
     const ALL: &[ModelEntry] = &[
         defined!(door),
@@ -67,6 +80,14 @@ pub const fn all() -> &'static [ModelEntry] {
 }
 
 /// Why there is no net of this name.
+///
+/// ```
+/// use cotama_models::nets::{FindError, find};
+/// let message = |name| find(name).unwrap_err().to_string();
+/// assert_eq!(message("kanban"), "`kanban` is a family of nets: say which one, as `kanban:5`");
+/// assert_eq!(message("door:2"), "`door` is one net and takes no number: say `door`");
+/// assert!(matches!(find("kanban:0"), Err(FindError::OutOfRange(_))));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum FindError {
     /// No net or family has this name.

@@ -47,6 +47,15 @@ pub struct Effect {
 }
 
 /// What a failure does.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::FailureMode;
+/// use cotama_sim::supervised::{Ends, Motion, effect};
+/// let somebody = effect(FailureMode::Hum1);
+/// assert_eq!((somebody.motion, somebody.ends), (Motion::Blocked, Ends::After(Millis(8_000))));
+/// assert_eq!(effect(FailureMode::Pwr1).motion, Motion::Mindless);
+/// ```
 pub const fn effect(mode: FailureMode) -> Effect {
     use FailureMode as F;
     let motion = match mode {

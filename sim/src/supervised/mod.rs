@@ -74,6 +74,20 @@ impl From<&Faults> for Script {
 }
 
 /// A failure that is to happen.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::FailureMode;
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::supervised::{Decided, Injection, Script, Supervised, When};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let failure = Injection::new(When::At(Millis(20_000)), FailureMode::Rt1);
+/// let script = Script { injections: vec![failure], ..Script::default() };
+/// let run = Supervised::new(&mission).unwrap().run(&script).unwrap();
+/// // Localisation is late again and again: an adapter takes fewer particles.
+/// assert_eq!(run.conduct[0].decided.unwrap().1, Decided::Adapter);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Injection {
     /// When.
@@ -227,6 +241,18 @@ pub struct Run {
 }
 
 /// A supervised mission, ready to be run.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::run::Outcome;
+/// use cotama_sim::supervised::{Fired, Script, Supervised};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let run = Supervised::new(&mission).unwrap().run(&Script::default()).unwrap();
+/// assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
+/// let received = |it: &Fired| (it.net, it.transition.as_str()) == ("gs", "g3");
+/// assert!(run.fired.iter().any(received));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Supervised<'m> {
     mission: &'m Mission,

@@ -22,6 +22,12 @@ impl Default for Limits {
 }
 
 /// What is wrong with the text of a trace, and where.
+///
+/// ```
+/// use cotama_sim::trace::Trace;
+/// let error = Trace::parse("t.jsonl", "{\"schema\":\"cotama-trace/0\"}\n").unwrap_err();
+/// assert_eq!((error.source_name.as_str(), error.line), ("t.jsonl", 1));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct TraceError {
     /// The name of the file, as the caller gave it.

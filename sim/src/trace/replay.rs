@@ -13,6 +13,16 @@ use cotama_models::missions::{Mission, MissionErrors};
 use std::fmt;
 
 /// Why a recorded run cannot be made.
+///
+/// ```
+/// use cotama_models::missions::embedded;
+/// use cotama_sim::options::Options;
+/// use cotama_sim::trace::{RecordError, Trace};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let poor = patrol.text.replace("energy_mj = 8640000", "energy_mj = 4320000");
+/// let error = Trace::record("poor", &poor, &Options::default()).unwrap_err();
+/// assert!(matches!(error, RecordError::Infeasible { .. }));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum RecordError {
     /// The mission or the faults have errors.
@@ -183,6 +193,17 @@ fn supervised(
 ///
 /// # Errors
 /// A [`RecordError`] when the header is not that of a run that can be made.
+///
+/// ```
+/// use cotama_models::missions::embedded;
+/// use cotama_sim::options::Options;
+/// use cotama_sim::trace::{Trace, replay};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let (mut trace, _) = Trace::record("patrol", patrol.text, &Options::default()).unwrap();
+/// assert!(replay(&trace).unwrap().identical);
+/// trace.records.pop();
+/// assert!(!replay(&trace).unwrap().identical);
+/// ```
 pub fn replay(trace: &Trace) -> Result<Replayed, RecordError> {
     let mission = trace.mission().map_err(RecordError::Text)?;
     let options = trace.options(&mission).map_err(RecordError::Text)?;

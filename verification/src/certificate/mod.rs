@@ -66,6 +66,19 @@ use serde::{Deserialize, Serialize};
 pub const SCHEMA: &str = "cotama-certificate/1";
 
 /// A verdict with its evidence.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::certificate::{Certificate, Evidence, Formula, Question, verify};
+/// use cotama_verification::pt::Pt;
+/// let net = philosophers(2).unwrap();
+/// let pt = Pt::from(&net.view().net());
+/// let left: Vec<u32> = ["left_first_1", "left_first_2"]
+///     .map(|name| pt.transition(name).unwrap().0).into();
+/// let stuck = Question::Formula(Formula::reached(Formula::Deadlock));
+/// let certificate = Certificate::of(&pt, "stuck", stuck, true, Evidence::trace(&pt, &left));
+/// assert!(verify(&certificate.text()).unwrap().verdict);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Certificate {

@@ -27,6 +27,18 @@ pub enum Task<'t> {
 }
 
 /// The most of something.
+///
+/// ```
+/// use cotama_models::nets::families::kanban;
+/// use cotama_verification::check::{Extent, Model, Options, Verdict, check};
+/// use cotama_verification::property;
+/// let net = kanban(5).unwrap();
+/// let model = Model::from(&net.view().net());
+/// let place = &model.pt().places[0];
+/// let most = property::parse(&format!("bounds({place})"), model.pt()).unwrap();
+/// let answer = check(&model, &most, &Options::default());
+/// assert_eq!(answer.verdict, Verdict::Bound(Extent::Finite(5)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Extent {
     /// So many.

@@ -7,6 +7,13 @@ use cotama_core::net::{Law, Net, PlaceId};
 /// The laws of a net that are about reachable markings, as properties named by their text. Those
 /// about events and priorities (`handles(all)`, `settles`, `deterministic`) are not among them:
 /// they are checked while compiling, or by rounds.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::check::laws;
+/// let laws = laws(&door::NET);
+/// assert_eq!(laws[0].name, "AG Closed + Opening + Open + Closing + Blocked = 1");
+/// ```
 pub fn laws(net: &Net<'_>) -> Vec<Property> {
     let pt = Pt::from(net);
     let property = |law: &Law<'_>| {

@@ -54,6 +54,19 @@ use crate::tpn::{Schedule, Time};
 use std::fmt;
 
 /// What is known of a question.
+///
+/// ```
+/// use cotama_verification::check::{Extent, Model, Options, Verdict, check};
+/// use cotama_verification::{property, tina};
+/// let belt = tina::read("belt.net", b"tr put on -> on full  pl on (1)").unwrap().untimed();
+/// let model = Model::from(belt);
+/// let ask = |text| {
+///     check(&model, &property::parse(text, model.pt()).unwrap(), &Options::default()).verdict
+/// };
+/// assert_eq!(ask("EF full >= 3"), Verdict::Holds(true));
+/// assert_eq!(ask("bounds(on)"), Verdict::Bound(Extent::Finite(1)));
+/// assert_eq!(ask("bounds(full)"), Verdict::Bound(Extent::Infinite));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
     /// Whether it is so.
@@ -68,6 +81,18 @@ pub enum Verdict {
 }
 
 /// An answer, and how it is known.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::certificate::verify;
+/// use cotama_verification::check::{Model, Options, check};
+/// use cotama_verification::property;
+/// let model = Model::from(&door::NET);
+/// let wish = property::parse("AG !(Closing & obstacle)", model.pt()).unwrap();
+/// let answer = check(&model, &wish, &Options { evidence: true, ..Options::default() });
+/// let certificate = answer.certificate(model.pt(), &wish).unwrap();
+/// assert!(verify(&certificate.text()).unwrap().verdict);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Answer {
     /// What is known.
@@ -155,6 +180,20 @@ pub enum Choice {
 }
 
 /// How a question is answered.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::check::{Choice, Model, Options, Verdict, check};
+/// use cotama_verification::explicit::Limits;
+/// use cotama_verification::property;
+/// let net = philosophers(8).unwrap();
+/// let model = Model::from(&net.view().net());
+/// let asked = property::parse("EF deadlock", model.pt()).unwrap();
+/// let limits = Limits { states: 100, ..Limits::default() };
+/// let options = Options { engine: Choice::Explicit, limits, ..Options::default() };
+/// assert!(matches!(check(&model, &asked, &options).verdict, Verdict::Unknown(_)));
+/// assert_eq!(check(&model, &asked, &Options::default()).verdict, Verdict::Holds(true));
+/// ```
 #[derive(Clone, Copy)]
 pub struct Options<'o> {
     /// By which engine.
@@ -183,6 +222,19 @@ impl Default for Options<'_> {
 }
 
 /// A model and what was found of it so far, which serves the next question.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::check::{Checker, Model, Options, Verdict};
+/// use cotama_verification::property;
+/// let model = Model::from(&door::NET);
+/// let checker = Checker::new(&model);
+/// let verdict = |text| {
+///     checker.answer(&property::parse(text, model.pt()).unwrap(), &Options::default()).verdict
+/// };
+/// assert_eq!(verdict("EF Open"), Verdict::Holds(true));
+/// assert_eq!(verdict("AG EF Closed"), Verdict::Holds(true)); // the graph may be there already
+/// ```
 #[derive(Debug)]
 pub struct Checker<'m> {
     model: &'m Model,
@@ -207,11 +259,35 @@ impl<'m> Checker<'m> {
 }
 
 /// Answers one question.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::check::{Model, Options, Verdict, check};
+/// use cotama_verification::property;
+/// let net = philosophers(3).unwrap();
+/// let model = Model::from(&net.view().net());
+/// let wish = property::parse("AG !deadlock", model.pt()).unwrap();
+/// let answer = check(&model, &wish, &Options::default());
+/// assert_eq!(answer.verdict, Verdict::Holds(false)); // all take the left fork
+/// assert_eq!(answer.run.unwrap().stem.len(), 3);
+/// ```
 pub fn check(model: &Model, property: &Property, options: &Options<'_>) -> Answer {
     Checker::new(model).answer(property, options)
 }
 
 /// Answers questions to one net, in their order.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::check::{Model, Options, Verdict, check_all};
+/// use cotama_verification::property;
+/// let model = Model::from(&door::NET);
+/// let asked = ["AG !(Closing & obstacle)", "EF Blocked", "AG Closed"];
+/// let asked = asked.map(|it| property::parse(it, model.pt()).unwrap());
+/// let answers = check_all(&model, &asked, &Options::default());
+/// let verdicts = answers.iter().map(|it| it.verdict).collect::<Vec<_>>();
+/// assert_eq!(verdicts, [true, true, false].map(Verdict::Holds));
+/// ```
 pub fn check_all(model: &Model, properties: &[Property], options: &Options<'_>) -> Vec<Answer> {
     let checker = Checker::new(model);
     properties.iter().map(|it| checker.answer(it, options)).collect()

@@ -5,6 +5,15 @@ use crate::tpn::{self, TimeNet, TimeNetDefect};
 use cotama_core::net::Net;
 
 /// A net, with time or without.
+///
+/// ```
+/// use cotama_models::nets::watchdog;
+/// use cotama_verification::check::Model;
+/// // With its intervals, times can be asked for.
+/// let model = Model::timed(&watchdog::NET).unwrap();
+/// assert!(matches!(model, Model::Timed { .. }));
+/// assert!(matches!(Model::from(&watchdog::NET), Model::Plain(_)));
+/// ```
 #[derive(Clone, Debug)]
 pub enum Model {
     /// Enabled transitions fire in any order.

@@ -12,6 +12,16 @@ use cotama_core::system::System;
 use std::fmt;
 
 /// What can be checked: a net, a system of nets.
+///
+/// ```
+/// use cotama_models::nets::{door, families::philosophers};
+/// use cotama_verification::assert_holds;
+/// use cotama_verification::pt::Pt;
+/// // A net of `net!`, one that was built, and one that engines read.
+/// assert_holds!(door::NET, "EF Open");
+/// assert_holds!(philosophers(3).unwrap(), "EF deadlock");
+/// assert_holds!(Pt::from(&door::NET), "AG EF Closed");
+/// ```
 pub trait Checkable {
     /// The model that engines read, and the net whose events and documentation explain its runs.
     ///
@@ -85,6 +95,16 @@ pub struct Report {
 ///
 /// # Errors
 /// When it has no model, or a text is none of the language.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::check::{Options, report};
+/// let report = report(&door::NET, &["AG !(Open & obstacle)"], &Options::default()).unwrap();
+/// assert!(!report.holds());
+/// let (property, answer) = &report.rows()[0];
+/// let diagnosis = report.diagnosis(property, answer).unwrap();
+/// assert_eq!(diagnosis.trace.last().unwrap().event.as_deref(), Some("Obstacle"));
+/// ```
 pub fn report(
     of: &impl Checkable,
     texts: &[&str],

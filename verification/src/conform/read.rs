@@ -58,6 +58,14 @@ pub enum What {
 }
 
 /// What is wrong with the text of a recording, and where.
+///
+/// ```
+/// use cotama_verification::conform::Recording;
+/// let text = r#"{"schema":"cotama-recording/1","start_ms":0}
+/// {"t_ms":-1,"event":"Call"}"#;
+/// let error = Recording::read("log.jsonl", text).unwrap_err();
+/// assert_eq!((error.source_name.as_str(), error.line), ("log.jsonl", 2));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordingError {
     /// The name of the file, as the caller gave it.

@@ -22,6 +22,14 @@ pub enum Bounded {
 
 /// Whether a net is bounded. Sums of tokens that never grow, see [`bounds`](crate::bounds::bounds),
 /// prove it for most bounded nets; otherwise markings are passed through.
+///
+/// ```
+/// use cotama_verification::coverability::{Bounded, Limits, bounded};
+/// use cotama_verification::tina;
+/// let belt = tina::read("belt.net", b"tr put on -> on full  pl on (1)").unwrap().untimed();
+/// let Bounded::No(growth) = bounded(&belt, &Limits::default()) else { panic!("it fills") };
+/// assert_eq!(growth.grows, [(belt.place("full").unwrap(), 1)]);
+/// ```
 pub fn bounded(pt: &Pt, limits: &Limits<'_>) -> Bounded {
     let few = Limits { nodes: limits.nodes.min(FIRST), ..*limits };
     for order in [Order::First, Order::Greatest] {

@@ -21,6 +21,18 @@ pub enum Coverable {
 
 /// Whether a marking with at least so many tokens is reachable. Places that are not named may hold
 /// any number, those that the net does not have hold none.
+///
+/// ```
+/// use cotama_verification::coverability::{Coverable, Limits, coverable};
+/// use cotama_verification::tina;
+/// let belt = tina::read("belt.net", b"tr put on -> on full  tr go on -> off  pl on (1)").unwrap();
+/// let pt = belt.untimed();
+/// let place = |name| pt.place(name).unwrap();
+/// let found = coverable(&pt, &[(place("full"), 2), (place("off"), 1)], &Limits::default());
+/// assert!(matches!(found, Coverable::Yes(way) if way.length == 3));
+/// let both = coverable(&pt, &[(place("on"), 1), (place("off"), 1)], &Limits::default());
+/// assert!(matches!(both, Coverable::No));
+/// ```
 pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Coverable {
     let known = |it: &&(PlaceId, u64)| (it.0.0 as usize) < pt.places.len();
     if target.iter().any(|it| !known(&it) && it.1 > 0) {

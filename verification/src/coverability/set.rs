@@ -8,6 +8,18 @@ use cotama_core::net::{PlaceId, TransitionId};
 /// The maximal ω-markings of a net, its minimal coverability set: for every reachable marking one
 /// with at least as many tokens in each place, and for each of them and every number there is a
 /// reachable marking with at least its tokens, and at least that number of them where it has ω.
+///
+/// ```
+/// use cotama_verification::coverability::{CoverabilitySet, Limits};
+/// use cotama_verification::tina;
+/// let belt = tina::read("belt.net", b"tr put on -> on full  tr go on -> off  pl on (1)").unwrap();
+/// let pt = belt.untimed();
+/// let set = CoverabilitySet::new(&pt, &Limits::default()).unwrap();
+/// let place = |name| pt.place(name).unwrap();
+/// assert_eq!(set.bound(&[place("on"), place("off")]), Some(1));
+/// assert_eq!(set.bound(&[place("full")]), None); // the belt fills for ever
+/// assert_eq!(set.covers(&[(place("full"), 1_000), (place("off"), 1)]).unwrap().length, 1_001);
+/// ```
 #[derive(Debug)]
 pub struct CoverabilitySet<'n> {
     search: Search<'n>,

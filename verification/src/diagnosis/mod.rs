@@ -106,6 +106,17 @@ impl<'a> Case<'a> {
 /// precision says (`{:.58}`), with the middle of a long run left out; by [`json`](Self::json)
 /// whole; by [`html`](Self::html) as a page with pictures; by [`svg`](Self::svg) as one drawing.
 /// Names in sentences stand in backticks.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::check::{Options, report};
+/// let net = philosophers(2).unwrap();
+/// let report = report(&net, &["AG !deadlock"], &Options::default()).unwrap();
+/// let (property, answer) = &report.rows()[0];
+/// let diagnosis = report.diagnosis(property, answer).unwrap();
+/// assert_eq!((diagnosis.trace.len(), diagnosis.deadlock), (2, true));
+/// assert!(diagnosis.json().contains("\"deadlock\": true"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Diagnosis {
     /// The name of the net.

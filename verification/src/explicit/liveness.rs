@@ -5,6 +5,15 @@ use cotama_core::net::TransitionId;
 
 /// Which transitions can fire once, which always again, and whether the net can always return to
 /// the start.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::explicit::{Graph, Limits};
+/// use cotama_verification::pt::Pt;
+/// let graph = Graph::new(&Pt::from(&door::NET), &Limits::default(), &|_| {}).unwrap();
+/// let liveness = graph.liveness();
+/// assert!(liveness.is_live() && liveness.reversible);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Liveness {
     /// Transitions that can fire from every reachable marking, at once or later.

@@ -108,6 +108,16 @@ impl Limit {
 }
 
 /// A search that ended before its end.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::explicit::{Graph, Limit, Limits, Unfinished};
+/// use cotama_verification::pt::Pt;
+/// let net = philosophers(9).unwrap();
+/// let limits = Limits { states: 1_000, ..Limits::default() };
+/// let graph = Graph::new(&Pt::from(&net.view().net()), &limits, &|_| {});
+/// assert!(matches!(graph, Err(Unfinished { limit: Limit::States, .. })));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unfinished {
     /// Why.

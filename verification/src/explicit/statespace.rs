@@ -80,6 +80,15 @@ const OF_AN_UNBOUNDED_NET: u64 = 1 << 16;
 ///
 /// All counts are the same on any number of threads, but for limits of memory and time. `progress`
 /// is called by this thread now and then.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::explicit::{Limits, statespace};
+/// use cotama_verification::pt::Pt;
+/// let net = philosophers(5).unwrap();
+/// let space = statespace(&Pt::from(&net.view().net()), &Limits::default(), 2, &|_| {});
+/// assert_eq!((space.states, space.dead_markings, space.max_place), (243, 2, 1));
+/// ```
 pub fn statespace(
     pt: &Pt,
     limits: &Limits,

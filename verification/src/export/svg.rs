@@ -53,6 +53,17 @@ pub fn write(net: &Net<'_>, style: Style) -> String {
 }
 
 /// Draws a net with a marking and transitions pointed out.
+///
+/// ```
+/// use cotama_core::net::TransitionId;
+/// use cotama_models::nets::door;
+/// use cotama_verification::export::drawing::Style;
+/// use cotama_verification::export::svg::{Highlight, write, write_highlighted};
+/// let fired = [TransitionId(0)];
+/// let highlight = Highlight { transitions: &fired, ..Highlight::default() };
+/// let drawing = write_highlighted(&door::NET, Style::Net, &highlight);
+/// assert!(drawing.starts_with("<svg") && drawing != write(&door::NET, Style::Net));
+/// ```
 pub fn write_highlighted(net: &Net<'_>, style: Style, highlight: &Highlight<'_>) -> String {
     let scene = Scene::of(net, Figure::of(net, style), highlight);
     let kind = if scene.figure.is_states { "State diagram" } else { "Petri net" };

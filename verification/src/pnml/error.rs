@@ -25,6 +25,16 @@ pub struct Diagnostic {
 ///
 /// Its `Display` is plain text: a line `file:line:column: message` for each error, and lines of
 /// help and of the related place where there are some.
+///
+/// ```
+/// use cotama_verification::pnml;
+/// let text = r#"<pnml xmlns="http://www.pnml.org/version-2009/grammar/pnml">
+/// <net id="n" type="http://www.pnml.org/version-2009/grammar/ptnet"><page id="g">
+///   <arc id="a" source="p" target="t"/>
+/// </page></net></pnml>"#;
+/// let errors = pnml::read("mine.pnml", text.as_bytes()).unwrap_err();
+/// assert_eq!(errors.diagnostics()[0].at.line, 3);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PnmlErrors {
     source_name: String,

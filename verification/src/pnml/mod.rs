@@ -137,6 +137,19 @@ pub struct Imported {
 ///
 /// # Errors
 /// What is wrong with the file; after an error in its XML nothing further is looked for.
+///
+/// ```
+/// use cotama_verification::pnml;
+/// let text = r#"<pnml xmlns="http://www.pnml.org/version-2009/grammar/pnml">
+/// <net id="n" type="http://www.pnml.org/version-2009/grammar/ptnet"><page id="g">
+///   <place id="p"><initialMarking><text>1</text></initialMarking></place>
+///   <transition id="t"/>
+///   <arc id="a" source="p" target="t"/>
+/// </page></net></pnml>"#;
+/// let net = pnml::read("mine.pnml", text.as_bytes()).unwrap();
+/// assert_eq!((net.places[0].name.as_str(), net.places[0].initial), ("p", 1));
+/// assert_eq!(net.transitions[0].take.len(), 1);
+/// ```
 pub fn read(name: &str, bytes: &[u8]) -> Result<OwnedNet, PnmlErrors> {
     read_within(name, bytes, Limits::default()).map(|imported| imported.net)
 }

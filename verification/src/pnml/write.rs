@@ -10,6 +10,14 @@ use std::fmt::{self, Display, Formatter};
 /// The result is valid PNML of a P/T net. [`read`](super::read) gives the same net back if
 /// [`Net::defect`] finds nothing in it and names are unique; if not, it refuses the file or gives
 /// another net.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::pnml;
+/// let text = pnml::write(&door::NET);
+/// let net = pnml::read("door.pnml", text.as_bytes()).unwrap();
+/// assert_eq!((net.name.as_str(), net.places.len()), ("door", door::NET.places.len()));
+/// ```
 pub fn write(net: &Net<'_>) -> String {
     File { net, for_tina: false }.to_string()
 }

@@ -5,6 +5,16 @@ use std::collections::HashMap;
 
 /// A formula of CTL as nodes that share what is equal. A node speaks of nodes before it only, so
 /// that one pass in their order finds where each of them holds.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::property::{self, Ctl};
+/// use cotama_verification::pt::Pt;
+/// let door = Pt::from(&door::NET);
+/// let ctl = |text| Ctl::new(property::parse(text, &door).unwrap().question.formula().unwrap());
+/// assert!(ctl("AG EF Closed").is_some());
+/// assert!(ctl("A (F G Open)").is_none()); // LTL
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Ctl {
     nodes: Vec<CtlNode>,

@@ -8,6 +8,14 @@ use std::ops::Range;
 ///
 /// Its `Display` is plain text: `source:line:column: message`, and a line of help where there is
 /// some.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::{property, pt::Pt};
+/// let error = property::parse("AG !(Opn & obstacle)", &Pt::from(&door::NET)).unwrap_err();
+/// assert_eq!((error.at.line, error.at.column), (1, 6));
+/// assert_eq!(error.help.as_deref(), Some("did you mean `Open`?"));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PropertyError {
     /// The name of the file; `property` for a text.

@@ -34,6 +34,19 @@ use std::ops::Range;
 ///
 /// # Errors
 /// The first thing that is wrong with the file, and where.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::property::{Ids, mcc};
+/// use cotama_verification::pt::Pt;
+/// let net = philosophers(2).unwrap();
+/// let text = br#"<property-set xmlns="http://mcc.lip6.fr/"><property><id>stuck</id><formula>
+/// <exists-path><finally><deadlock/></finally></exists-path></formula></property></property-set>"#;
+/// let pt = Pt::from(&net.view().net());
+/// let properties = mcc::read("RF.xml", text, &pt, Ids::default()).unwrap();
+/// assert_eq!(properties[0].name, "stuck");
+/// assert_eq!(properties[0].question.display(&pt).to_string(), "EF deadlock");
+/// ```
 pub fn read(
     name: &str,
     bytes: &[u8],
@@ -53,6 +66,18 @@ pub fn read(
 
 /// The question of an examination that has no file, named after it: `ReachabilityDeadlock`,
 /// `Liveness`, `QuasiLiveness`, `StableMarking`, `OneSafe`. `None` for any other.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::check::{Model, Options, Verdict, check};
+/// use cotama_verification::property::mcc::{Answer, answer, examination};
+/// let net = philosophers(3).unwrap();
+/// let model = Model::from(&net.view().net());
+/// let asked = examination("ReachabilityDeadlock").unwrap();
+/// assert_eq!(check(&model, &asked, &Options::default()).verdict, Verdict::Holds(true));
+/// let line = answer(&asked.name, Answer::Verdict(true), &["EXPLICIT"]);
+/// assert_eq!(line, "FORMULA ReachabilityDeadlock TRUE TECHNIQUES EXPLICIT");
+/// ```
 pub fn examination(name: &str) -> Option<Property> {
     let question = match name {
         "ReachabilityDeadlock" => {

@@ -88,12 +88,41 @@ pub use error::PropertyError;
 pub use evaluate::{Condition, Marking};
 pub use ltl::{Ltl, LtlNode};
 pub use names::Ids;
-pub use parser::{MAX_DEPTH, MAX_TEXT, parse, parse_with};
+pub use parser::{MAX_DEPTH, MAX_TEXT, parse_with};
 pub use reachability::Reachability;
 
+use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 
+/// Reads a question about a net. Its name is the text without white space around it.
+///
+/// # Errors
+/// The first thing that is wrong with the text, and where.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::{property, pt::Pt};
+/// let door = Pt::from(&door::NET);
+/// let wish = property::parse("AG (Closing -> !obstacle)", &door).unwrap();
+/// assert_eq!(wish.name, "AG (Closing -> !obstacle)");
+/// assert_eq!(wish.question.display(&door).to_string(), "AG (!Closing | !obstacle)");
+/// let error = property::parse("AG (Closing -> ", &door).unwrap_err();
+/// assert_eq!((error.at.line, error.at.column), (1, 16));
+/// ```
+pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
+    parse_with(text, net, Ids::default())
+}
+
 /// A question with its name.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::{property, property::Question, pt::Pt};
+/// let door = Pt::from(&door::NET);
+/// let asked = property::parse(" bounds(Open + Closed) ", &door).unwrap();
+/// assert_eq!(asked.name, "bounds(Open + Closed)");
+/// assert!(matches!(&asked.question, Question::Bound(places) if places.len() == 2));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Property {
     /// Its name; of one that was typed, its text.
@@ -203,6 +232,18 @@ pub struct Linear {
 }
 
 /// What kind of formula it is: which engines can answer it.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::property::{self, Kind};
+/// use cotama_verification::pt::Pt;
+/// let door = Pt::from(&door::NET);
+/// let kind = |text| property::parse(text, &door).unwrap().question.formula().unwrap().kind();
+/// assert_eq!(kind("Closed"), Kind::Initial);
+/// assert_eq!(kind("AG !(Closing & obstacle)"), Kind::Reachability);
+/// assert_eq!(kind("AG EF Closed"), Kind::Ctl);
+/// assert_eq!(kind("A (G F Closed)"), Kind::Ltl);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// About the initial marking alone.

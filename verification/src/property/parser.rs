@@ -15,18 +15,11 @@ pub const MAX_TEXT: usize = 1 << 20;
 /// How deep operators and parentheses may be nested, and formulas of files.
 pub const MAX_DEPTH: usize = 128;
 
-/// Reads a question about a net. Its name is the text without white space around it.
+/// As [`parse`](super::parse), of a net whose nodes can be called by the ids of its file as well;
+/// names go first.
 ///
 /// # Errors
-/// The first thing that is wrong with the text, and where.
-pub fn parse(text: &str, net: &Pt) -> Result<Property, PropertyError> {
-    parse_with(text, net, Ids::default())
-}
-
-/// The same of a net whose nodes can be called by the ids of its file as well; names go first.
-///
-/// # Errors
-/// As [`parse`].
+/// As [`parse`](super::parse).
 pub fn parse_with(text: &str, net: &Pt, ids: Ids<'_>) -> Result<Property, PropertyError> {
     let located = |fault: Fault| fault.located("property", text);
     if text.len() > MAX_TEXT {

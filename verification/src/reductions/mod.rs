@@ -133,6 +133,16 @@ pub struct Reduced {
 }
 
 /// Reduces a net as far as the rules go.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// use cotama_verification::pt::Pt;
+/// use cotama_verification::reductions::{Goal, Keep, reduce};
+/// let net = philosophers(5).unwrap();
+/// let pt = Pt::from(&net.view().net());
+/// let reduced = reduce(&pt, &Keep::new(Goal::Deadlock));
+/// assert!(reduced.net.places.len() < pt.places.len());
+/// ```
 pub fn reduce(pt: &Pt, keep: &Keep) -> Reduced {
     reduce_within(pt, keep, &Limits::default())
 }

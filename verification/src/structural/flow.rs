@@ -43,11 +43,34 @@ pub fn place_invariants(pt: &Pt) -> Option<Vec<Flow>> {
 
 /// A basis of all transition invariants: each is a rational combination of these. `None` when a
 /// number passes 63 bits.
+///
+/// ```
+/// use cotama_verification::structural::transition_invariants;
+/// use cotama_verification::tina;
+/// let net = tina::read("lamp.net", b"tr on a -> b*2  tr off b -> a  pl a (1)").unwrap().untimed();
+/// assert_eq!(transition_invariants(&net), Some(vec![])); // what fires leaves its traces
+/// let net = tina::read("lamp.net", b"tr on a -> b  tr off b -> a  pl a (1)").unwrap().untimed();
+/// assert_eq!(transition_invariants(&net), Some(vec![vec![(0, 1), (1, 1)]]));
+/// ```
 pub fn transition_invariants(pt: &Pt) -> Option<Vec<Flow>> {
     basis(&pt.effects, pt.places.len() as u32)
 }
 
 /// The minimal semiflows of places, by the method of Farkas with at most `limit` rows at a time.
+///
+/// ```
+/// use cotama_verification::structural::place_semiflows;
+/// use cotama_verification::tina;
+/// let net = b"tr take free tool -> busy  tr give busy -> free tool  pl free (1) pl tool (1)";
+/// let net = tina::read("tool.net", net).unwrap().untimed();
+/// let found = place_semiflows(&net, 1_000);
+/// let names = |flow: &Vec<(u32, i64)>| -> Vec<&str> {
+///     flow.iter().map(|it| net.places[it.0 as usize].as_str()).collect()
+/// };
+/// let sums: Vec<_> = found.flows.iter().map(names).collect();
+/// assert!(found.complete);
+/// assert_eq!(sums, [["free", "busy"], ["tool", "busy"]]);
+/// ```
 pub fn place_semiflows(pt: &Pt, limit: usize) -> Semiflows {
     semiflows(&pt.changers, pt.transitions.len() as u32, limit)
 }

@@ -178,6 +178,17 @@ pub fn greatest_trap(pt: &Pt, among: &[PlaceId]) -> Vec<PlaceId> {
 }
 
 /// The greatest siphon among these places.
+///
+/// ```
+/// use cotama_verification::structural::{greatest_siphon, greatest_trap};
+/// use cotama_verification::tina;
+/// // Nothing is put into `tank`, and nothing is taken out of `sea`.
+/// let net = tina::read("rain.net", b"tr leak tank ->  tr rain -> sea  pl tank (1)").unwrap();
+/// let net = net.untimed();
+/// let [tank, sea] = ["tank", "sea"].map(|name| net.place(name).unwrap());
+/// assert_eq!(greatest_siphon(&net, &[tank, sea]), [tank]);
+/// assert_eq!(greatest_trap(&net, &[tank, sea]), [sea]);
+/// ```
 pub fn greatest_siphon(pt: &Pt, among: &[PlaceId]) -> Vec<PlaceId> {
     let mut places = flags(pt, among);
     Graph::new(pt, &DeadTransitions::default()).greatest_siphon(&mut places);

@@ -45,6 +45,19 @@ pub fn all_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Prog
 
 /// Whether a formula without quantifiers is true of some run from the initial marking; the answer
 /// is as that of [`all_runs`].
+///
+/// ```
+/// use cotama_verification::explicit::Limits;
+/// use cotama_verification::property::{self, Formula, Question};
+/// use cotama_verification::temporal::{Verdict, some_runs};
+/// use cotama_verification::tina;
+/// let net = b"tr on off -> lit  tr fade lit -> off  tr break lit -> out  pl off (1)";
+/// let lamp = tina::read("lamp.net", net).unwrap().untimed();
+/// let asked = property::parse("E (G F lit)", &lamp).unwrap();
+/// let Question::Formula(Formula::Exists(path)) = asked.question else { panic!("no run") };
+/// let verdict = some_runs(&lamp, &path, &Limits::default(), &|_| {});
+/// assert!(matches!(verdict, Verdict::Known { holds: true, .. })); // if it never breaks
+/// ```
 pub fn some_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
     searched(pt, Ltl::new(path), true, limits, progress)
 }

@@ -76,6 +76,14 @@ impl Default for Limits {
 ///
 /// # Errors
 /// The first error of the file.
+///
+/// ```
+/// use cotama_verification::tina;
+/// let net = tina::read("mine.net", b"tr t [2,5] p -> q*2  pl p (1)").unwrap();
+/// assert_eq!((net.places().len(), net.transitions()[0].give[0].weight), (2, 2));
+/// let error = tina::read("mine.net", b"tr t [2,5 p -> q").unwrap_err();
+/// assert_eq!((error.line, error.column), (1, 11));
+/// ```
 pub fn read(name: &str, bytes: &[u8]) -> Result<TimeNet, TinaError> {
     read_within(name, bytes, Limits::default())
 }

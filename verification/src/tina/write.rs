@@ -10,6 +10,12 @@ use std::fmt::Write as _;
 /// transitions.
 ///
 /// Every interval is written but `[0,w[`, which is the one of a transition without interval.
+///
+/// ```
+/// use cotama_verification::tina;
+/// let net = tina::read("egg.net", b"tr boil [300,360] raw -> hard  pl raw (1)").unwrap();
+/// assert_eq!(tina::write(&net), "pl raw (1)\npl hard\ntr boil [300,360] raw -> hard\n");
+/// ```
 pub fn write(net: &TimeNet) -> String {
     let mut text = String::new();
     if !net.name().is_empty() {

@@ -16,6 +16,17 @@ pub type ClassId = u32;
 /// some firing sequence. Two classes are one iff both are equal; none is merged into a larger one.
 /// The first has the intervals of the net. The firing sequences of the net are the paths of the
 /// graph. Classes are numbered breadth first, transitions in their order.
+///
+/// ```
+/// use cotama_verification::tina;
+/// use cotama_verification::tpn::{Limits, classes};
+/// // `late` can never fire: `early` is always first, and takes the token.
+/// let net = b"tr early [1,2] p -> q  tr late [3,4] p -> r  pl p (1)";
+/// let net = tina::read("race.net", net).unwrap();
+/// let graph = classes(&net, &Limits::default());
+/// assert_eq!((graph.classes(), graph.edges(), graph.dead_markings()), (2, 1, 1));
+/// assert_eq!((graph.stopped(), graph.bounded()), (None, Some(true)));
+/// ```
 #[derive(Debug)]
 pub struct Classes {
     pub(super) rules: Rules,

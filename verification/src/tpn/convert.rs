@@ -48,6 +48,15 @@ impl fmt::Display for Difference {
 ///
 /// # Errors
 /// What is wrong with the net.
+///
+/// ```
+/// use cotama_models::nets::watchdog;
+/// use cotama_verification::tpn::from_net;
+/// let converted = from_net(&watchdog::NET).unwrap();
+/// let net = &converted.net;
+/// assert_eq!(net.transitions().len(), watchdog::NET.transitions.len());
+/// assert!(!converted.differences.is_empty()); // events come when they like
+/// ```
 pub fn from_net(net: &Net<'_>) -> Result<Converted, TimeNetDefect> {
     let ids = |wanted: fn(&Transition<'_>) -> bool| {
         let ids = net.transitions.iter().enumerate().filter(move |(_, it)| wanted(it));
@@ -148,6 +157,14 @@ impl std::error::Error for NotANet {}
 ///
 /// # Errors
 /// What a net cannot say.
+///
+/// ```
+/// use cotama_verification::tina;
+/// use cotama_verification::tpn::to_net;
+/// let net = tina::read("egg.net", b"tr boil [300,360] raw -> hard  pl raw (1)").unwrap();
+/// let within = to_net(&net).unwrap().transitions[0].within.unwrap();
+/// assert_eq!((within.earliest, within.latest), (300, Some(360)));
+/// ```
 pub fn to_net(net: &TimeNet) -> Result<OwnedNet, NotANet> {
     let places = net.places().iter().map(|it| {
         OwnedPlace::new(&it.name, it.initial).doc(it.label.as_deref().unwrap_or_default())

@@ -7,6 +7,13 @@ use std::fmt;
 
 /// When a transition may fire, counted from the moment it became enabled. No unit is attached;
 /// bounds are integers.
+///
+/// ```
+/// use cotama_verification::tpn::Interval;
+/// let both = Interval::closed(2, 5).intersection(Interval::at_least(4));
+/// assert_eq!(both, Interval::closed(4, 5));
+/// assert!(Interval::closed(2, 5).intersection(Interval::NOW).is_empty());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Interval {
     /// Not before.
@@ -158,6 +165,15 @@ impl std::error::Error for TimeNetDefect {}
 /// transition. After a firing the clocks start anew of transitions that are enabled now and either
 /// fired or were not enabled in the intermediate marking, when tokens were removed and not yet
 /// added. So a read arc disturbs no clock, and taking a token and putting it back does.
+///
+/// ```
+/// use cotama_core::net::PlaceId;
+/// use cotama_verification::tina;
+/// let net = tina::read("egg.net", b"tr boil [300,360] raw -> hard  pl raw (1)").unwrap();
+/// assert_eq!(net.place("hard"), Some(PlaceId(1)));
+/// assert_eq!(net.transitions()[0].interval.to_string(), "[300,360]");
+/// assert_eq!(net.untimed().initial, [1, 0]);
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TimeNet {
     name: String,

@@ -76,6 +76,15 @@ pub fn bound(net: &TimeNet, from: TransitionId, to: PlaceId, limits: &Limits<'_>
 
 /// The least and the most time from the start to the first marking with a token in `to`; else as
 /// [`bound`].
+///
+/// ```
+/// use cotama_verification::tina;
+/// use cotama_verification::tpn::{Limits, Response, Time, bound_from_start};
+/// let net = b"tr a [1,2] p -> q  tr b [3,4] q -> r  pl p (1)";
+/// let net = tina::read("chain.net", net).unwrap();
+/// let within = bound_from_start(&net, net.place("r").unwrap(), &Limits::default());
+/// assert_eq!(within, Response::Between { min: Time::Finite(4), max: Time::Finite(6) });
+/// ```
 pub fn bound_from_start(net: &TimeNet, to: PlaceId, limits: &Limits<'_>) -> Response {
     measured(net, None, to, limits).0
 }

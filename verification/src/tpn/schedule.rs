@@ -147,6 +147,14 @@ pub fn reach(net: &TimeNet, mut goal: impl FnMut(&[u32]) -> bool, limits: &Limit
 }
 
 /// Whether a marking can be reached that enables nothing.
+///
+/// ```
+/// use cotama_verification::tina;
+/// use cotama_verification::tpn::{Limits, Reach, deadlock};
+/// let net = tina::read("egg.net", b"tr boil [300,360] raw -> hard  pl raw (1)").unwrap();
+/// let Reach::Reached(schedule) = deadlock(&net, &Limits::default()) else { panic!("it ends") };
+/// assert_eq!(schedule.steps[0].date.to_string(), "300");
+/// ```
 pub fn deadlock(net: &TimeNet, limits: &Limits<'_>) -> Reach {
     let pt = net.untimed();
     let transitions = pt.transitions.len() as u32;

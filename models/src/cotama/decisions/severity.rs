@@ -46,6 +46,24 @@ impl Severity {
 /// A collision is hard when the robot drives itself and no avoidance runs (stated); in planning
 /// none runs. A unique diagnosis that localisation is lost is medium, since odometry is there in
 /// its place (inferred; the FMECA's hard is for the filter whose fault is not known to be its own).
+///
+/// ```
+/// use cotama_models::cotama::{Report, Severity, Situation, severity};
+/// use cotama_models::cotama::{local, path_following, teleoperation};
+/// let following = Situation {
+///     local: local::State::Following,
+///     following: path_following::State::Optimal,
+///     ..Situation::AT_REST
+/// };
+/// let driven = Situation {
+///     local: local::State::Teleoperated,
+///     teleoperation: teleoperation::State::Full,
+///     ..Situation::AT_REST
+/// };
+/// // The robot does not see with its camera; the operator does.
+/// assert_eq!(severity(Report::Camera, following), Severity::Weak);
+/// assert_eq!(severity(Report::Camera, driven), Severity::Hard);
+/// ```
 pub const fn severity(report: Report, situation: Situation) -> Severity {
     let autonomous = matches!(situation.mode(), Mode::Autonomous | Mode::Rest);
     let avoids = match situation.configuration() {
@@ -160,6 +178,18 @@ pub const fn judge(report: Report, severity: Severity, situation: Situation) -> 
 /// and but for situations in which an earlier loss is not answered yet ([`is_settled`]): there the
 /// rules answer both, and the table each loss by its own report. The transition `l7` of
 /// [`local`](crate::cotama::local) keeps teleoperation shut without a camera.
+///
+/// ```
+/// use cotama_models::cotama::{Decision, Report, Situation, by_rules, local, path_following};
+/// let following = Situation {
+///     local: local::State::Following,
+///     following: path_following::State::Optimal,
+///     ..Situation::AT_REST
+/// };
+/// assert_eq!(by_rules(Report::Mcl, following), Decision::AdaptMcl);
+/// assert_eq!(by_rules(Report::Vital, following), Decision::Global);
+/// assert_eq!(by_rules(Report::Mcl, Situation::AT_REST), Decision::Record);
+/// ```
 pub const fn by_rules(report: Report, situation: Situation) -> Decision {
     judge(report, severity(report, situation), situation)
 }

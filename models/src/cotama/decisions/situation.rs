@@ -28,6 +28,19 @@ members! {
 }
 
 /// The places of the supervisors, the particles, and what is lost.
+///
+/// ```
+/// use cotama_models::cotama::{Configuration, Losses, Mode, Situation, local, path_following};
+/// let following = Situation {
+///     local: local::State::Following,
+///     following: path_following::State::Odometric,
+///     ..Situation::AT_REST
+/// };
+/// assert_eq!(following.mode(), Mode::Autonomous);
+/// assert_eq!(following.configuration(), Some(Configuration::FollowingOdometric));
+/// assert!(following.is_consistent());
+/// assert!(!Situation { following: path_following::State::Off, ..following }.is_consistent());
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Situation {
     /// The place of the local supervisor.

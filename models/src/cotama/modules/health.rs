@@ -5,6 +5,13 @@ use super::resources::Resources;
 use super::table::available;
 
 /// What is diagnosed so far.
+///
+/// ```
+/// use cotama_models::cotama::{Health, Module, Resource, Resources};
+/// let blind = Health { lost: Resources::of(&[Resource::Camera]), ..Health::SOUND };
+/// assert!(!blind.available().has(Module::Cam));
+/// assert!(blind.available().has(Module::Mcl));
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Health {
     /// Modules that are faulty themselves.

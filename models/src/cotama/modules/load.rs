@@ -178,6 +178,15 @@ pub fn tasks(
 ///
 /// # Errors
 /// [`LoadError`].
+///
+/// ```
+/// use cotama_models::cotama::Configuration::{FollowingOdometric, FollowingOptimal};
+/// use cotama_models::cotama::load::{Load, MOST, SPARE, most_particles};
+/// let mut memory = [SPARE; MOST];
+/// let heavy = most_particles(FollowingOptimal, Load::Heavy, &mut memory).unwrap();
+/// assert_eq!(heavy, Some(100));
+/// assert_eq!(most_particles(FollowingOdometric, Load::Quiet, &mut memory), Ok(None));
+/// ```
 pub fn most_particles(
     configuration: Configuration,
     load: Load,

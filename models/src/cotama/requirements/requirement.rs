@@ -7,6 +7,14 @@ use cotama_core::system::System;
 
 /// Something that the decisional level is required to do. What is known of it may come in parts,
 /// each with its own proof.
+///
+/// ```
+/// use cotama_models::cotama::{Label, REQUIREMENTS};
+/// let first = &REQUIREMENTS[0];
+/// assert_eq!((first.id, first.label), ("GS1", Label::Stated));
+/// assert_eq!(first.sentence, "The mission is in exactly one place.");
+/// assert!(first.asked.unwrap().text.starts_with("AG gs.Wait + gs.DriveA"));
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Requirement {
     /// Its short name, for example `GS3`.

@@ -32,6 +32,15 @@ pub enum IncidentKind {
 /// What the operator can do (Durand et al., TAROS 2010, Fig. 3). Asked, he drives or edits the path
 /// or gives up; driving, he reaches the goal, or goes over to editing, or gives up; editing, he
 /// gives way-points or a path, or gives up.
+///
+/// ```
+/// use cotama_models::missions::faults::Answer;
+/// assert_eq!(Answer::FIRST.iter().map(|it| it.name()).collect::<Vec<_>>(), [
+///     "teleoperate", "teleprogram", "give_up",
+/// ]);
+/// assert_eq!(Answer::Teleprogram.next(), [Answer::Waypoints, Answer::Path, Answer::GiveUp]);
+/// assert!(Answer::Goal.next().is_empty()); // the robot goes on
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Answer {
     /// He drives.

@@ -26,6 +26,19 @@ impl Default for Run {
 }
 
 /// What goes wrong during a run.
+///
+/// ```
+/// use cotama_core::units::Millimetres;
+/// use cotama_models::missions::faults::{EventKind, Faults};
+/// use cotama_models::missions::{Mission, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let text = "format = 'panorama-faults/1'
+/// event = [{ x_mm = 60_000, kind = 'fault', hardware = 'laser', units_lost = 1 }]";
+/// let faults = Faults::parse("faults.toml", text, &mission).unwrap();
+/// assert_eq!(faults.events[0].x, Millimetres(60_000));
+/// assert_eq!(faults.events[0].kind, EventKind::Fault { hardware: 1, units: 1 });
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Faults {
     /// By how much the real power differs from the modelled one, by zone.

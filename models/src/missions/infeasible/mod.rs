@@ -126,6 +126,19 @@ pub struct Heavy {
 }
 
 /// A change after which the mission has a plan.
+///
+/// ```
+/// use cotama_models::missions::infeasible::{Relaxation, explain};
+/// use cotama_models::missions::{Mission, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let (limits, all) = ([600_000, 4_320_000], mission.available());
+/// let why = explain(&mission, limits, all).unwrap();
+/// let raised = Relaxation::RaiseLimit { axis: 1, from: 4_320_000, to: 4_675_896 };
+/// assert_eq!(why.relaxations[0], raised);
+/// let (mission, limits, all) = raised.apply(&mission, limits, all).unwrap();
+/// assert_eq!(explain(&mission, limits, all), None); // now there is a plan
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Relaxation {
     /// Raise a limit.
@@ -179,6 +192,17 @@ pub enum Relaxation {
 
 /// Explains why a mission has no plan within `limits` (ms and mJ, inclusive) with the `available`
 /// hardware; `None` when it has one.
+///
+/// ```
+/// use cotama_models::missions::infeasible::explain;
+/// use cotama_models::missions::{Mission, embedded};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let why = explain(&mission, [400_000, 8_640_000], mission.available()).unwrap();
+/// let reason = "the duration limit of 400 s cannot be met: within the energy limit the least is \
+///               490.031 s (+90.031 s, 22.5 %)";
+/// assert_eq!(why.reason.wording(&mission), reason);
+/// ```
 pub fn explain(mission: &Mission, limits: [u64; 2], available: Equipment) -> Option<Explanation> {
     explain_within(mission, limits, available, STEPS)
 }

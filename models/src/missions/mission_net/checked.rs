@@ -138,6 +138,17 @@ impl std::error::Error for Fault {}
 ///
 /// # Errors
 /// Everything that is wrong, in this order; of tokens only the first.
+///
+/// ```
+/// use cotama_models::missions::mission_net::check;
+/// use cotama_models::missions::{Mission, embedded};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let mut net = mission.supervisor().unwrap().clone();
+/// assert_eq!(check(&net.view().net(), &mission.objectives).unwrap().markings, 8);
+/// net.transitions.pop();
+/// assert!(check(&net.view().net(), &mission.objectives).is_err());
+/// ```
 pub fn check(net: &Net<'_>, objectives: &[Objective]) -> Result<Explored, Vec<Fault>> {
     let kinds = kinds(objectives).map_err(|error| vec![Fault::Objectives(error)])?;
     let one = |fault| vec![fault];

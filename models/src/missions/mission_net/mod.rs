@@ -145,6 +145,16 @@ fn kinds(objectives: &[Objective]) -> Result<Vec<Does>, MissionNetError> {
 ///
 /// # Errors
 /// [`MissionNetError`]: objectives of a plain mission, none or too many of them, a name twice.
+///
+/// ```
+/// use cotama_models::missions::mission_net::{MissionNetError, global_supervisor};
+/// use cotama_models::missions::{Mission, embedded};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let net = global_supervisor(&mission.objectives).unwrap();
+/// assert_eq!((net.places.len(), net.transitions.len()), (8, 12));
+/// assert_eq!(global_supervisor(&[]), Err(MissionNetError::Empty));
+/// ```
 pub fn global_supervisor(objectives: &[Objective]) -> Result<OwnedNet, MissionNetError> {
     if objectives.is_empty() {
         return Err(MissionNetError::Empty);

@@ -34,6 +34,17 @@ pub const EMPTY: Candidate<2> = Candidate { cost: [0; 2], quality: 0, id: 0 };
 const QUALITY_LENGTH: u64 = 100;
 
 /// An implementation alternative of an activity: its TIOs taken together.
+///
+/// ```
+/// use cotama_core::hardware::Equipment;
+/// use cotama_core::units::{Millimetres, Millis};
+/// use cotama_models::missions::tables::{Alternative, Rest};
+/// let drive = Alternative::travelling(410, 18_224, Equipment::NONE, 3);
+/// assert_eq!(drive.cost(Rest::Travel(Millimetres(31_000))), Some([75_610, 1_377_917]));
+/// assert_eq!(drive.quality_of(Rest::Travel(Millimetres(31_000))), Some(930));
+/// let turn = Alternative::standing(8_000, 7_500, Equipment::NONE, 2);
+/// assert_eq!(turn.cost(Rest::Time(Millis(8_000))), Some([8_000, 60_000]));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Alternative {
     /// The speed of travel; zero when the activity does not travel.
@@ -220,6 +231,20 @@ pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
 /// # Errors
 /// The first activity without candidates, a cost that does not fit, or a buffer smaller than
 /// needed.
+///
+/// ```
+/// use cotama_core::units::Millimetres;
+/// use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE};
+/// use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
+/// // The last activity, of which 10 m are left, after both lasers (kind 1) were lost.
+/// let last = &ACTIVITIES[16..];
+/// assert_eq!(buffer_sizes(last), (21, 1));
+/// let (mut candidates, mut lists) = ([EMPTY; 21], [&[][..]; 1]);
+/// let left = AVAILABLE.without(1, 2);
+/// let rest = Rest::Travel(Millimetres(10_000));
+/// let lists = remaining(last, rest, left, &mut candidates, &mut lists).unwrap();
+/// assert_eq!((lists[0].len(), lists[0][0].cost), (4, [24_390, 224_973]));
+/// ```
 pub fn remaining<'c, 'l>(
     activities: &[Activity<'_>],
     first: Rest,

@@ -18,6 +18,12 @@ pub const FMS: Family = Family {
 ///
 /// # Errors
 /// When `n` is not from 1 to 65,535.
+///
+/// ```
+/// use cotama_models::nets::families::fms;
+/// let net = fms(2).unwrap();
+/// assert_eq!((net.places.len(), net.transitions.len()), (22, 20));
+/// ```
 pub fn fms(n: u32) -> Result<OwnedNet, OutOfRange> {
     FMS.net(n)
 }

@@ -17,6 +17,12 @@ pub const KANBAN: Family = Family {
 ///
 /// # Errors
 /// When `n` is not from 1 to 65,535.
+///
+/// ```
+/// use cotama_models::nets::families::kanban;
+/// let net = kanban(5).unwrap();
+/// assert_eq!((net.places.len(), net.transitions.len()), (16, 16));
+/// ```
 pub fn kanban(n: u32) -> Result<OwnedNet, OutOfRange> {
     KANBAN.net(n)
 }

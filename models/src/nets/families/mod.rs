@@ -28,6 +28,12 @@ use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, PlaceId};
 
 /// A family of nets.
+///
+/// ```
+/// use cotama_models::nets::families::KANBAN;
+/// assert_eq!((KANBAN.name, KANBAN.least, KANBAN.most), ("kanban", 1, 65_535));
+/// assert_eq!(KANBAN.net(5).unwrap().name, "kanban_5");
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
     /// Its name.

@@ -17,6 +17,13 @@ pub const PHILOSOPHERS: Family = Family {
 ///
 /// # Errors
 /// When `n` is not from 2 to 10,000.
+///
+/// ```
+/// use cotama_models::nets::families::philosophers;
+/// let net = philosophers(3).unwrap();
+/// assert_eq!((net.places.len(), net.transitions.len()), (15, 15));
+/// assert!(philosophers(1).is_err()); // nobody dines alone
+/// ```
 pub fn philosophers(n: u32) -> Result<OwnedNet, OutOfRange> {
     PHILOSOPHERS.net(n)
 }

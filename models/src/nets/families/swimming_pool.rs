@@ -16,6 +16,12 @@ pub const SWIMMING_POOL: Family = Family {
 ///
 /// # Errors
 /// When `n` is not from 1 to 3,276.
+///
+/// ```
+/// use cotama_models::nets::families::swimming_pool;
+/// let net = swimming_pool(1).unwrap();
+/// assert_eq!((net.places.len(), net.transitions.len()), (9, 7));
+/// ```
 pub fn swimming_pool(n: u32) -> Result<OwnedNet, OutOfRange> {
     SWIMMING_POOL.net(n)
 }

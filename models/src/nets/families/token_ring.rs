@@ -19,6 +19,12 @@ pub const TOKEN_RING: Family = Family {
 ///
 /// # Errors
 /// When `n` is not from 1 to 50.
+///
+/// ```
+/// use cotama_models::nets::families::token_ring;
+/// let net = token_ring(5).unwrap();
+/// assert_eq!((net.places.len(), net.transitions.len()), (36, 156));
+/// ```
 pub fn token_ring(n: u32) -> Result<OwnedNet, OutOfRange> {
     TOKEN_RING.net(n)
 }
