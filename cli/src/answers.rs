@@ -239,7 +239,7 @@ pub(crate) struct AllocateAnswer {
 pub(crate) enum Outcome {
     /// All activities are done, within the limits.
     Completed,
-    /// The robot stopped, or never left, and asked its operator.
+    /// The robot stopped safely, or never left.
     Safe,
     /// All activities are done, but a limit is exceeded; or a supervised mission was not done after
     /// an hour.

@@ -104,7 +104,7 @@ pub(crate) fn refused(error: RecordError) -> Failure {
     }
 }
 
-/// There is no plan at the start: the robot stays where it is, and its operator is asked.
+/// There is no plan at the start: the robot stays where it is, and the mission is aborted.
 fn never_left(
     args: &RunArgs,
     screen: &Screen,
@@ -121,7 +121,7 @@ fn never_left(
         infeasible: infeasible::explain(mission, mission.limits, mission.available()),
         plans: Vec::new(),
         replans: 0,
-        operator_requests: 1,
+        operator_requests: 0,
         duration_margin_ms: None,
         energy_margin_mj: None,
         duration_ms: 0,

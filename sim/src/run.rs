@@ -66,7 +66,7 @@ pub struct Run {
 pub enum Outcome {
     /// All activities are done, within the limits.
     Completed,
-    /// The robot stopped and asked its operator.
+    /// The robot stopped safely: no plan was left, or the supervisors ended the mission.
     Safe,
     /// All activities are done, but a limit is exceeded.
     Failed,

@@ -152,6 +152,8 @@ pub enum Record {
     Event(Event),
     /// The operator is asked.
     Request(Request),
+    /// No plan is left: the mission is aborted.
+    Abort(Abort),
     /// A transition of a supervisor fired.
     Fired(supervised::Fired),
     /// The supervisors were told something.
@@ -179,6 +181,7 @@ impl Record {
             Self::Sample(it) => it.t_us,
             Self::Event(it) => it.t_us,
             Self::Request(it) => it.t_us,
+            Self::Abort(it) => it.t_us,
             Self::Fired(it) => it.t_us,
             Self::Told(it) => it.t_us,
             Self::Failure(it) => it.t_us,
@@ -198,6 +201,7 @@ impl Record {
             Self::Sample(it) => it.x_mm,
             Self::Event(it) => it.x_mm,
             Self::Request(it) => it.x_mm,
+            Self::Abort(it) => it.x_mm,
             Self::Fired(it) => it.x_mm,
             Self::Told(it) => it.x_mm,
             Self::Failure(it) => it.x_mm,
@@ -351,17 +355,31 @@ pub enum Occurrence {
     },
 }
 
-/// The operator is asked: no plan was found, or the supervisors need him.
+/// The supervisors ask the operator.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Request {
     /// When, in µs.
     pub t_us: u64,
     /// Where, in mm.
     pub x_mm: u64,
-    /// Why a plan was needed, worded as in [`Plan::cause`]; in a supervised run what the failure
-    /// was taken for.
+    /// What the failure was taken for.
     pub cause: String,
-    /// Why there is none; in a supervised run why he is asked.
+    /// Why he is asked.
+    pub reason: String,
+}
+
+/// A plan was needed, and there is none: the robot stops, and the mission is aborted (Lambert et
+/// al., J. Intell. Robot. Syst. 110, 2024, Section 7.3.2). Nobody is asked where no supervisors
+/// are.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Abort {
+    /// When, in µs.
+    pub t_us: u64,
+    /// Where, in mm.
+    pub x_mm: u64,
+    /// Why a plan was needed, worded as in [`Plan::cause`].
+    pub cause: String,
+    /// Why there is none.
     pub reason: String,
 }
 

@@ -187,7 +187,7 @@ proptest! {
                 prop_assert!(run.reason.is_some() && !exceeded);
             }
         }
-        prop_assert_eq!(run.operator_requests, u64::from(run.outcome == Outcome::Safe));
+        prop_assert_eq!(run.operator_requests, 0);
         if run.outcome != Outcome::Safe {
             prop_assert_eq!(run.x_mm, case.mission.path_length.0);
         }

@@ -115,6 +115,10 @@ fn row(record: &Record, plans: &mut u64) -> Option<Row> {
             let words = format!("Operator asked: {}; {}", it.cause, it.reason);
             Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none(), origin: none() })
         }
+        Record::Abort(it) => {
+            let words = format!("No plan is left: {}; {}", it.cause, it.reason);
+            Some(Row { mark: "<b class=\"bad\">?</b>".into(), words, lost: none(), origin: none() })
+        }
         Record::End(it) => {
             let mark = if it.outcome == Outcome::Completed {
                 "<b>■</b>"

@@ -54,7 +54,10 @@ fn sentence(view: &View<'_>) -> String {
             format!("The robot stands at {}{reason}.", metres(end.x_mm))
         }
         Outcome::Safe => {
-            format!("The robot stopped at {} and asked its operator{reason}.", metres(end.x_mm))
+            format!(
+                "The mission was aborted at {}, where the robot stands{reason}.",
+                metres(end.x_mm)
+            )
         }
         Outcome::Failed => format!("The run ended at {}{reason}.", metres(end.x_mm)),
     }

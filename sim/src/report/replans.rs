@@ -10,12 +10,10 @@ use crate::trace::{Event, Margins, Plan, PlanRow};
 use std::collections::HashMap;
 use std::fmt::Write;
 
-/// One card for each plan after the first, and one for each request to the operator.
+/// One card for each plan after the first, and one for a plan that was needed and is not there.
 pub(super) fn section(view: &View<'_>) -> String {
     let mut html = String::from("<section class=\"replans\"><h2>Replans</h2>\n");
-    // Supervisors ask for other reasons, which the table of decisions tells.
-    let supervised = !view.points.is_empty();
-    if view.plans.len() < 2 && (supervised || view.requests.is_empty()) {
+    if view.plans.len() < 2 && view.abort.is_none() {
         html.push_str("<p>There were none: the first plan held to the end.</p>\n");
     }
     for number in 1..view.plans.len().min(MAX_PLANS) {
@@ -25,16 +23,16 @@ pub(super) fn section(view: &View<'_>) -> String {
         let further = view.plans.len() - MAX_PLANS;
         let _ = writeln!(html, "<p class=\"note\">{further} further replans are in the trace.</p>");
     }
-    for request in view.requests.iter().take(if supervised { 0 } else { MAX_PLANS }) {
+    if let Some(abort) = view.abort {
         let _ = writeln!(
             html,
-            "<article class=\"card\"><h3><b class=\"pin ask\">?</b>Operator asked \
+            "<article class=\"card\"><h3><b class=\"pin ask\">?</b>Mission aborted \
              <span class=\"where\">at {}, {}</span></h3>\n<p>A plan was needed ({}), and there is \
              none: {}. The robot stopped.</p></article>",
-            metres(request.x_mm),
-            moment(request.t_us),
-            escape(&request.cause),
-            escape(&request.reason)
+            metres(abort.x_mm),
+            moment(abort.t_us),
+            escape(&abort.cause),
+            escape(&abort.reason)
         );
     }
     html.push_str("</section>\n");

@@ -122,9 +122,9 @@ fn planned(view: &View<'_>) -> String {
             text
         }),
     };
-    for it in view.requests.iter().take(1) {
+    if let Some(it) = view.abort {
         let (at, reason) = (metres(it.x_mm), &it.reason);
-        let _ = write!(text, " At {at} it asked its operator: {reason}.");
+        let _ = write!(text, " At {at} no plan was left: {reason}.");
     }
     text
 }

@@ -158,7 +158,7 @@ fn the_other_outcomes_are_told_with_their_reasons() {
     assert_sound(&page);
     assert!(page.contains("<strong>Stopped safely</strong>"));
     assert!(page.contains("no alternative left for A10"));
-    assert!(page.contains("Operator asked"));
+    assert!(page.contains("Mission aborted"));
     assert!(page.contains("run ended") && page.contains("class=\"bar todo\""));
 
     let failed = patrol_under("event = [{ x_mm = 187000, kind = \"obstacle\", delay_ms = 94000 }]");

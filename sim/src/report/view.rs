@@ -2,7 +2,7 @@
 //! choice.
 
 use crate::supervised::story::{Point, points};
-use crate::trace::{End, Event, Plan, Record, Request, Sample, Trace};
+use crate::trace::{Abort, End, Event, Plan, Record, Request, Sample, Trace};
 use cotama_models::missions::Mission;
 use std::collections::HashMap;
 
@@ -18,6 +18,7 @@ pub(super) struct View<'t> {
     pub(super) events: Vec<&'t Event>,
     pub(super) samples: Vec<&'t Sample>,
     pub(super) requests: Vec<&'t Request>,
+    pub(super) abort: Option<&'t Abort>,
     /// The story of a supervised run; none of another one.
     pub(super) points: Vec<Point<'t>>,
     pub(super) end: Option<&'t End>,
@@ -84,6 +85,7 @@ impl<'t> View<'t> {
             events: Vec::new(),
             samples: Vec::new(),
             requests: Vec::new(),
+            abort: None,
             points: points(&trace.records),
             end: None,
             length_mm: header.path_length_mm,
@@ -95,6 +97,7 @@ impl<'t> View<'t> {
                 Record::Event(it) => view.events.push(it),
                 Record::Sample(it) => view.samples.push(it),
                 Record::Request(it) => view.requests.push(it),
+                Record::Abort(it) => view.abort = Some(it),
                 Record::End(it) => view.end = Some(it),
                 _ => {}
             }

@@ -103,10 +103,10 @@ impl World<'_> {
         (cost, needs.union(alternative.needs))
     }
 
-    /// The operator is asked, and the robot stops.
+    /// The robot stops, and the mission is aborted.
     fn stop<R: Recorder>(&mut self, cause: PlanCause, reason: Reason, recorder: &mut R) {
         if R::WANTED {
-            recorder.record(self.request_record(cause, reason));
+            recorder.record(self.abort_record(cause, reason));
         }
         self.ended = Some((Outcome::Safe, Some(reason)));
     }

@@ -4,7 +4,7 @@ use super::World;
 use crate::run::{PlanCause, PlanMade, Reason, Run};
 use crate::setup::{NM_PER_MM, Pending};
 use crate::trace::{
-    Activity, End, Event, Margins, Occurrence, Plan, PlanRow, Record, Request, ReturnMargin, Sample,
+    Abort, Activity, End, Event, Margins, Occurrence, Plan, PlanRow, Record, ReturnMargin, Sample,
 };
 use cotama_core::units::mul_div_half_up;
 use cotama_models::missions::Mission;
@@ -118,9 +118,9 @@ impl World<'_> {
         Record::Event(Event { t_us: self.time_us, x_mm: self.x_mm(), event, random, lost_us })
     }
 
-    pub(super) fn request_record(&self, cause: PlanCause, reason: Reason) -> Record {
+    pub(super) fn abort_record(&self, cause: PlanCause, reason: Reason) -> Record {
         let mission = self.simulation.mission;
-        Record::Request(Request {
+        Record::Abort(Abort {
             t_us: self.time_us,
             x_mm: self.x_mm(),
             cause: cause.text(mission),
