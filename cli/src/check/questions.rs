@@ -89,12 +89,6 @@ fn one(text: &str, initial: bool, subject: &Subject) -> Result<Property, Failure
     })
 }
 
-/// The wish that something can always happen: `AG !deadlock`.
-fn deadlock_free() -> Question {
-    let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());
-    Question::Formula(Formula::All(Formula::Globally(alive.into()).into()))
-}
-
 fn file(path: &str, initial: bool, subject: &Subject) -> Result<Vec<Property>, Failure> {
     const WHAT: &str = "a file of properties";
     let bytes = input::bytes(path, WHAT, input::PROPERTIES_BYTES)?;
@@ -158,9 +152,6 @@ fn lines(
 /// to say of which.
 fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, PropertyError> {
     let (name, pt) = (text.trim(), subject.model.pt());
-    if name == "deadlock_free" && pt.place(name).is_none() {
-        return Ok(Property { name: name.to_owned(), question: deadlock_free() });
-    }
     let property = property::parse_with(text, pt, subject.ids())?;
     let is_state = property.question.formula().is_some_and(Formula::is_state);
     if is_state && !initial {
@@ -257,7 +248,7 @@ fn usual(pt: &Pt) -> Vec<Property> {
         property("bounds", Question::Bound((0..pt.places.len() as u32).map(PlaceId).collect()))
     };
     vec![
-        property("deadlock_free", deadlock_free()),
+        property("deadlock_free", Question::deadlock_free()),
         tokens,
         property("quasi_live", Question::QuasiLiveness),
     ]

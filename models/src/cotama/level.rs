@@ -218,23 +218,33 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<
         Situation { local, following, teleoperation, level, lost }
     }
 
+    /// The names of a net of its system and of one of that net's transitions.
+    ///
+    /// ```
+    /// use cotama_core::{net::TransitionId, system::Of, units::Millis};
+    /// use cotama_models::cotama::{DecisionalLevel, Level, recovering};
+    /// let first = |component| Of { component, id: TransitionId(0) };
+    /// let level = DecisionalLevel::default();
+    /// assert_eq!(level.named(first(0)), Some(("gs", "g1")));
+    /// assert_eq!(level.named(first(99)), None);
+    /// // Each level knows its own system: that of recovery has other transitions.
+    /// let recovers = Level::start(recovering::Program);
+    /// for (component, it) in (0..).zip(recovering::SYSTEM.components) {
+    ///     for (id, transition) in (0..).zip(it.net.transitions) {
+    ///         let at = Of { component, id: TransitionId(id) };
+    ///         assert_eq!(recovers.named(at), Some((it.name, transition.name)));
+    ///     }
+    /// }
+    /// ```
+    pub fn named(&self, transition: Of<TransitionId>) -> Option<(&str, &str)> {
+        let system = self.0.program().system();
+        let component = system.components.get(usize::from(transition.component))?;
+        let transition = component.net.transitions.get(transition.id.0 as usize)?;
+        Some((component.name, transition.name))
+    }
+
     /// The player under the names.
     pub fn player(&self) -> &Player<P, W, C, S, Cause> {
         &self.0
     }
-}
-
-/// The names of a component of [`delivery`](delivery::SYSTEM) and of one of its transitions.
-///
-/// ```
-/// use cotama_core::net::TransitionId;
-/// use cotama_core::system::Of;
-/// use cotama_models::cotama::named;
-/// assert_eq!(named(Of { component: 0, id: TransitionId(0) }), Some(("gs", "g1")));
-/// assert_eq!(named(Of { component: 99, id: TransitionId(0) }), None);
-/// ```
-pub fn named(transition: Of<TransitionId>) -> Option<(&'static str, &'static str)> {
-    let component = delivery::SYSTEM.components.get(usize::from(transition.component))?;
-    let transition = component.net.transitions.get(transition.id.0 as usize)?;
-    Some((component.name, transition.name))
 }

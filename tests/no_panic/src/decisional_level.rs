@@ -44,8 +44,8 @@ fn root_level_situation(level: &DecisionalLevel, lost: Losses) -> (Situation, Pl
 }
 
 #[unsafe(no_mangle)]
-fn root_level_named(transition: Of<TransitionId>) -> Option<(&'static str, &'static str)> {
-    cotama_models::cotama::named(transition)
+fn root_level_named(level: &DecisionalLevel, at: Of<TransitionId>) -> Option<(&str, &str)> {
+    level.named(at)
 }
 
 #[unsafe(no_mangle)]

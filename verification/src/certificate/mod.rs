@@ -58,6 +58,17 @@ pub mod verify;
 pub use build::{Answer, Uncertifiable};
 pub(crate) use read::most_markings;
 pub use verified::{Verified, VerifyError};
+/// ```
+/// use cotama_verification::certificate::verify;
+/// let door = r#"{"schema":"cotama-certificate/1","net":{"name":"door",
+///     "places":[["shut",1],["open",0]],
+///     "transitions":[{"name":"turn","take":[["shut",1]],"give":[["open",1]]}]},
+///     "property":"all fire","question":"quasi_live","verdict":true,
+///     "evidence":{"each":[{"trace":{"fire":[],"then":"state"}}]}}"#;
+/// assert!(verify(door).unwrap().verdict);
+/// // Nobody has to be believed: what is not shown is refused.
+/// assert!(verify(&door.replace("\"verdict\":true", "\"verdict\":false")).is_err());
+/// ```
 pub use verify::verify;
 
 use serde::{Deserialize, Serialize};

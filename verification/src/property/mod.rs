@@ -56,7 +56,7 @@
 //! stands inside of a quantifier; one `A` in front of a formula makes it one of LTL: `A (G F a -> G
 //! F b)`. After `F`, `AF` and `EF` may stand a limit of time: `AF<=200ms p`, in `ms` or `s`. Atoms
 //! are `true`, `false`, `deadlock`, `fireable(t1, t2)` (one of them is enabled), comparisons, and
-//! names of places: `p` says that it is marked.
+//! names of places: `p` says that it is marked. `deadlock_free` alone is the wish `AG !deadlock`.
 //!
 //! A loop that nobody would stay in is no reason for "never": what is assumed of runs stands behind
 //! a formula, `AG (asked -> AF done) assuming weak(work), strong(grant), often(idle)`. A weakly
@@ -159,6 +159,19 @@ pub enum Question {
 }
 
 impl Question {
+    /// The wish that something can always happen, `AG !deadlock`.
+    ///
+    /// ```
+    /// use cotama_models::nets::door;
+    /// use cotama_verification::{property::{self, Question}, pt::Pt};
+    /// let asked = property::parse("deadlock_free", &Pt::from(&door::NET)).unwrap();
+    /// assert_eq!(asked.question, Question::deadlock_free());
+    /// ```
+    pub fn deadlock_free() -> Self {
+        let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());
+        Self::Formula(Formula::All(Formula::Globally(alive.into()).into()))
+    }
+
     /// The formula that it asks for.
     pub fn formula(&self) -> Option<&Formula> {
         match self {

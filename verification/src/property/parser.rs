@@ -26,6 +26,10 @@ pub fn parse_with(text: &str, net: &Pt, ids: Ids<'_>) -> Result<Property, Proper
         let message = format!("the text has {} bytes, more than {MAX_TEXT}", text.len());
         return Err(located(Fault::new(0..0, message).help("ask for its parts one by one")));
     }
+    let name = text.trim();
+    if name == "deadlock_free" && net.place(name).is_none() {
+        return Ok(Property { name: name.to_owned(), question: Question::deadlock_free() });
+    }
     let mut parser = Parser {
         lexemes: &lexemes(text).map_err(located)?,
         at: 0,
@@ -35,7 +39,7 @@ pub fn parse_with(text: &str, net: &Pt, ids: Ids<'_>) -> Result<Property, Proper
         parts: Formula::MAX_PARTS,
     };
     let question = parser.question().map_err(located)?;
-    Ok(Property { name: text.trim().to_owned(), question })
+    Ok(Property { name: name.to_owned(), question })
 }
 
 /// The formula, if it is of CTL.

@@ -23,18 +23,6 @@ pub(super) use refutation::Known;
 /// # Errors
 /// When the text is no certificate, is beyond the limits of [this module](self), or does not show
 /// what it claims. A certificate that is refused does not show that its verdict is wrong.
-///
-/// ```
-/// use cotama_verification::certificate::verify;
-/// let door = r#"{"schema":"cotama-certificate/1","net":{"name":"door",
-///     "places":[["shut",1],["open",0]],
-///     "transitions":[{"name":"turn","take":[["shut",1]],"give":[["open",1]]}]},
-///     "property":"all fire","question":"quasi_live","verdict":true,
-///     "evidence":{"each":[{"trace":{"fire":[],"then":"state"}}]}}"#;
-/// assert!(verify(door).unwrap().verdict);
-/// // Nobody has to be believed: what is not shown is refused.
-/// assert!(verify(&door.replace("\"verdict\":true", "\"verdict\":false")).is_err());
-/// ```
 pub fn verify(text: &str) -> Result<Verified, VerifyError> {
     let read = read::certificate(text)?;
     let net = Numbered::new(&read.net).map_err(at("net"))?;
