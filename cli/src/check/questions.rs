@@ -174,6 +174,9 @@ fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, Prop
         let (source_name, help) = ("property".to_owned(), Some(help));
         return Err(PropertyError { source_name, at, message, help });
     }
+    if property.name == "deadlock_free" && property.question == Question::deadlock_free() {
+        return Ok(property);
+    }
     let name = property.question.display(pt).to_string();
     Ok(Property { name, ..property })
 }
