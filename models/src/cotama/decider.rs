@@ -33,7 +33,9 @@
 //! // A sonar shows its largest range for too long: without sonars, no avoidance.
 //! let (found, _) = step(300, Perceived { raised: Flags::of(&[Flag::SonarFar]), ..sound }, None);
 //! assert!(found.is_some());
-//! (400..=600).step_by(100).for_each(|now| drop(step(now, sound, None)));
+//! for now in [400, 500, 600] {
+//!     step(now, sound, None);
+//! }
 //! let (_, requests) = step(700, sound, None);
 //! assert_eq!(requests.configuration, Some(Configuration::FollowingDegraded));
 //! assert!(requests.drive && !requests.halt);
@@ -183,9 +185,16 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
     /// A robot at rest, all of which works. `objectives` is how many the global supervisor has;
     /// the configuration is that of the plan at the start, for the first drive, if there is one.
     pub fn start(program: P, objectives: u32, planned: Option<Configuration>) -> Self {
-        let level = Level::start(program);
-        let mut decider = Self {
-            situation: level.situation(Losses::NONE),
+        let mut decider = Self::resume(Level::start(program), objectives, Health::SOUND);
+        decider.do_without(planned, Cause(0));
+        decider
+    }
+
+    /// Goes on from where these supervisors are, with what is known to be broken.
+    pub fn resume(level: Level<P, W, C, S>, objectives: u32, known: Health) -> Self {
+        let lost = Losses::lacking(known.available());
+        Self {
+            situation: level.situation(lost),
             global: level.global(),
             level,
             objectives,
@@ -196,15 +205,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             found: FailureModes::NONE,
             origin: [Origin::default(); FailureMode::ALL.len()],
             findings: 0,
-            known: Health::SOUND,
+            known,
             returns: None,
-            lost: Losses::NONE,
+            lost,
             untold: Pending::default(),
             plannings_failed: 0,
             resigned: false,
-        };
-        decider.do_without(planned, Cause(0));
-        decider
+        }
     }
 
     /// What returns is used again: only with the supervisors of

@@ -29,7 +29,7 @@ pub use dependability::*;
 pub use label::Label;
 #[cfg(feature = "std")]
 pub(crate) use level::WAIT_OVER;
-pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told};
+pub use level::{Cause, DecisionalLevel, DeliveryDecider, Level, Permit, Return, Told};
 pub use modules::*;
 pub use requirements::*;
 pub use supervisors::*;

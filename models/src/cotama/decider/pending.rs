@@ -4,7 +4,7 @@ use crate::cotama::level::{Cause, Told};
 use crate::cotama::supervisors::faults;
 
 /// More than there are kinds of failures and returns, so that there is room once each waits once.
-const ROOM: usize = 32;
+const ROOM: usize = 16;
 
 const NOTHING: (Told, Cause) = (Told::Failure(faults::Event::drift), Cause(0));
 
