@@ -126,6 +126,7 @@ impl Word {
 }
 
 /// What is to be done now; it holds until the next round.
+#[allow(clippy::struct_excessive_bools, reason = "each goes to another part of the robot")]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Requests {
     /// The modules that are to run; none where nothing does.

@@ -71,8 +71,11 @@ fn what_it_is_given_are_flags_of_observers_and_no_failure() {
     let words = [Word::MissionReceived, Word::ObjectReceived, Word::ObjectDelivered];
     for word in words.into_iter().chain([Word::WaitOver, Word::PathReady]) {
         match word {
-            Word::MissionReceived | Word::ObjectReceived | Word::ObjectDelivered => {}
-            Word::WaitOver | Word::PathReady => {}
+            Word::MissionReceived
+            | Word::ObjectReceived
+            | Word::ObjectDelivered
+            | Word::WaitOver
+            | Word::PathReady => {}
             Word::Operator(it) => {
                 let _: operator::Event = it;
             }

@@ -12,6 +12,7 @@
 //! ```
 
 mod effect;
+mod laptop;
 pub mod operator;
 mod plan;
 pub mod robot;
@@ -223,6 +224,8 @@ pub struct Run {
     /// The longest time that the robot moved while a module was broken that its configuration
     /// requires.
     pub exposed: Millis,
+    /// The age of the oldest pose of localisation that a configuration with localisation moved by.
+    pub oldest_pose: Millis,
     /// The longest way that it went on after the permit to move was gone.
     pub braked: Millimetres,
     /// Whether it moved after it was safe: never, or a supervisor is wrong.

@@ -6,6 +6,7 @@
 //! each, is all that is needed to check that it is one.
 
 use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
+use super::laptop::{Disturbances, Laptop, Seen, jobs};
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
@@ -16,7 +17,9 @@ use cotama_core::net::Net;
 use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
-use cotama_models::cotama::{Decider, FailureMode, Flags, Health, Modules, local, recovering};
+use cotama_models::cotama::{
+    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, load, local, recovering,
+};
 use cotama_models::missions::Mission;
 use objective::Objective;
 
@@ -49,6 +52,14 @@ struct Failure {
     lowered: bool,
 }
 
+impl Failure {
+    /// What it does to motion; without the scheduler nothing is commanded.
+    fn motion(&self) -> Motion {
+        let scheduler = self.mode == FailureMode::Sw1 && self.part.has(Module::Sch);
+        if scheduler && !self.over { Motion::Mindless } else { effect(self.mode).motion }
+    }
+}
+
 /// A mission under way.
 pub(super) struct World<'m, P, const W: usize, const S: usize> {
     mission: &'m Mission,
@@ -61,6 +72,9 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     causes: Vec<u16>,
     now: Millis,
     robot: Robot,
+    laptop: Laptop,
+    /// Rounds since a report was told.
+    quiet: u32,
     operator: Operator,
     failures: Vec<Failure>,
     planning: Planning<'m>,
@@ -100,6 +114,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             causes: Vec::new(),
             now: Millis(0),
             robot: Robot::default(),
+            laptop: Laptop::new(),
+            quiet: 0,
             operator: Operator::new(script.answers.iter().cloned()),
             failures: Vec::new(),
             planning,
@@ -122,6 +138,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 configurations: Vec::new(),
                 plans: Vec::new(),
                 exposed: Millis(0),
+                oldest_pose: Millis(0),
                 braked: Millimetres(0),
                 moved_when_safe: false,
             },
@@ -133,7 +150,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.fail();
         self.travel();
         if self.thinks() {
-            self.observe();
+            let seen = self.compute();
+            self.observe(seen);
             self.take_a_round();
         }
         self.now.0 += PERIOD.0;
@@ -160,9 +178,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.run
     }
 
-    /// Whether the laptop is up.
+    /// Whether the laptop is up, and its scheduler.
     fn thinks(&self) -> bool {
-        !self.failures.iter().any(|it| effect(it.mode).motion == Motion::Mindless)
+        !self.failures.iter().any(|it| it.motion() == Motion::Mindless)
     }
 
     /// How a mission ends whose objectives are done.
@@ -215,6 +233,30 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         }
     }
 
+    /// The modules that were asked for compute for a period, disturbed by what fails.
+    fn compute(&mut self) -> Seen {
+        let situation = self.decider.situation();
+        let runs = situation.configuration().unwrap_or(Configuration::Security);
+        let wanted = runs.scheduled().common(self.decider.available());
+        self.laptop.run(wanted, load::PARTICLES[usize::from(situation.level.min(2))]);
+        let mut disturbed = Disturbances::default();
+        for it in self.failures.iter().filter(|it| !it.over) {
+            match it.mode {
+                FailureMode::Rt1 => disturbed.programs += 1,
+                FailureMode::Rt2 => disturbed.hiccup |= it.since == self.now,
+                FailureMode::Rt3 => disturbed.slow = disturbed.slow.union(jobs(it.part)),
+                FailureMode::Sw1 => disturbed.crashed = disturbed.crashed.union(jobs(it.part)),
+                _ => {}
+            }
+        }
+        let seen = self.laptop.work(disturbed);
+        let used = runs.facts().required.has(Module::Mcl) && self.robot.speed().0 > 0;
+        if let (true, Some(age)) = (used, self.laptop.age(Module::Mcl)) {
+            self.run.oldest_pose = self.run.oldest_pose.max(age);
+        }
+        seen
+    }
+
     /// What is broken, known or not.
     fn broken(&self) -> Health {
         let broken = self.failures.iter().filter(|it| !it.over).map(|it| it.mode.health(it.part));
@@ -238,13 +280,13 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         let mut towards = command;
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
-            match effect(failure.mode).motion {
+            match failure.motion() {
                 Motion::Blocked => {
-                    blocked |= observable(failure.mode, self.decider.situation(), true)
+                    blocked |= observable(failure.mode, self.decider.situation(), true);
                 }
                 Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
                 Motion::Runaway if !self.decider.requests().halt => {
-                    towards = self.mission.robot.speed_max
+                    towards = self.mission.robot.speed_max;
                 }
                 Motion::Silent | Motion::Mindless
                     if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 =>

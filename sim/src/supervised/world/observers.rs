@@ -1,24 +1,29 @@
 //! What observers raise, and what the decisional level makes of it.
 
-use super::{CLOCKS, World};
+use super::{CLOCKS, Failure, World};
 use crate::run::PlanCause;
 use crate::supervised::effect::observable;
+use crate::supervised::laptop::{Seen, jobs};
 use crate::supervised::plan::{Planning, Progress};
 use crate::supervised::{Decided, PERIOD};
 use cotama_core::player::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Configuration, FailureMode, Finding, Flags, Modules, NoPlanLeft, Perceived, Plans, Why,
+    Configuration, FailureMode, Finding, Flag, Flags, Module, Modules, NoPlanLeft, Perceived,
+    Plans, Why,
 };
 use cotama_models::missions::Mission;
 
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
-    /// Observers look; the decisional level diagnoses what they newly see.
-    pub(super) fn observe(&mut self) {
-        let seen = self.newly_seen();
-        let flags = |number: &usize| self.failures[*number].mode.rule().signature.always;
-        let raised = seen.iter().map(flags).fold(Flags::NONE, Flags::union);
-        let part = seen.first().map_or(Modules::NONE, |&it| self.failures[it].part);
+    /// Observers look; the decisional level diagnoses what they and the scheduler newly see.
+    pub(super) fn observe(&mut self, scheduler: Seen) {
+        let seen = self.newly_seen(scheduler);
+        let by_observers = seen.iter().map(|&it| &self.failures[it]);
+        let by_observers = by_observers.filter(|it| !is_shown(it, scheduler));
+        let flags = by_observers.map(|it| it.mode.rule().signature.always);
+        let raised = flags.fold(scheduler.flags, Flags::union);
+        let first = seen.first().map_or(Modules::NONE, |&it| self.failures[it].part);
+        let part = if scheduler.part.is_empty() { first } else { scheduler.part };
         let works = self.broken().available();
         let perceived = Perceived { raised, lowered: self.newly_lowered(), part, works };
         let at = self.progress();
@@ -29,16 +34,22 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             at,
         };
         if let Some(finding) = self.decider.perceive(self.now, perceived, &mut rest) {
-            self.note_finding(&finding, &seen);
+            // What the scheduler sees again goes back to what it was before.
+            let again = || self.failures.iter().rposition(|it| is_shown(it, scheduler));
+            let cause = seen.first().copied().or_else(again);
+            self.note_finding(&finding, &seen, cause);
         }
     }
 
     /// The failures that are seen from now on.
-    fn newly_seen(&mut self) -> Vec<usize> {
+    fn newly_seen(&mut self, scheduler: Seen) -> Vec<usize> {
         let (moving, situation) = (self.robot.speed().0 > 0, self.decider.situation());
         let mut seen = Vec::new();
         for (number, failure) in self.failures.iter_mut().enumerate() {
             let found = self.run.conduct[number].detected.is_some();
+            if !found && is_shown(failure, scheduler) {
+                seen.push(number);
+            }
             if failure.over || found || !observable(failure.mode, situation, moving) {
                 continue;
             }
@@ -68,9 +79,13 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     }
 
     /// Notes what these failures were taken for.
-    pub(super) fn note_finding(&mut self, finding: &Finding, failures: &[usize]) {
-        let first = failures.first().map_or(0, |it| *it as u16 + 1);
-        self.causes.push(first);
+    pub(super) fn note_finding(
+        &mut self,
+        finding: &Finding,
+        failures: &[usize],
+        cause: Option<usize>,
+    ) {
+        self.causes.push(cause.map_or(0, |it| it as u16 + 1));
         for &number in failures {
             let conduct = &mut self.run.conduct[number];
             conduct.detected = Some((self.now, finding.diagnosis));
@@ -85,6 +100,19 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     /// The operator's silence, if that is a failure under way.
     pub(super) fn silence(&self) -> Option<usize> {
         self.failures.iter().position(|it| it.mode == FailureMode::Opr1)
+    }
+}
+
+/// Whether a failure is what the scheduler sees.
+fn is_shown(failure: &Failure, seen: Seen) -> bool {
+    let of_part = |flag| seen.flags.has(flag) && !seen.part.common(jobs(failure.part)).is_empty();
+    match failure.mode {
+        FailureMode::Rt1 => seen.flags.has(Flag::MclLate),
+        FailureMode::Rt2 => seen.flags.has(Flag::OneLate),
+        FailureMode::Rt3 if failure.part.has(Module::Mcl) => seen.flags.has(Flag::MclLate),
+        FailureMode::Rt3 => of_part(Flag::ModuleLate),
+        FailureMode::Sw1 => of_part(Flag::ModuleSilent),
+        _ => false,
     }
 }
 
@@ -103,7 +131,7 @@ impl Plans for Rest<'_, '_> {
 
     fn plan(&mut self, why: Why, available: Modules) -> Result<bool, NoPlanLeft> {
         let hardware = |of: Modules| {
-            let names = of.iter().map(|it| it.name());
+            let names = of.iter().map(Module::name);
             { names }.find_map(|it| self.mission.hardware.iter().position(|kind| kind.name == it))
         };
         let cause = match why {

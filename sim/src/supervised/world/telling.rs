@@ -14,6 +14,9 @@ use cotama_models::cotama::{
 };
 use cotama_models::missions::Does;
 
+/// In the third round after something was told, everybody has had his turn.
+const ANSWERED: u32 = 3;
+
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The supervisors take a round, and are told one thing.
     pub(super) fn take_a_round(&mut self) {
@@ -26,12 +29,17 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         self.run.told.extend(round.told.map(|told| (self.run.rounds, told)));
         if let Some(finding) = round.finding {
             let silence: Vec<_> = self.silence().into_iter().collect();
-            self.note_finding(&finding, &silence);
+            self.note_finding(&finding, &silence, silence.first().copied());
         }
         for it in &seen {
             self.note(it);
         }
         self.arrive_at_places(before);
+        // Told in one round, decided in the next, answered in the one after: modules in fault go on.
+        self.quiet = if self.decider.listens() { self.quiet + 1 } else { 0 };
+        if self.quiet >= ANSWERED {
+            self.laptop.answered();
+        }
     }
 
     /// Where the robot is.
