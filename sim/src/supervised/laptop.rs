@@ -110,7 +110,9 @@ impl Laptop {
     /// The supervisors have answered: modules in fault go on.
     pub(super) fn answered(&mut self) {
         for task in 0..MOST {
-            let _ = self.executive.acknowledge(task, self.now);
+            if self.executive.watchdog(task) == Some(Watchdog::Fault) {
+                let _ = self.executive.acknowledge(task, self.now);
+            }
         }
     }
 
