@@ -1,7 +1,6 @@
 //! Analyses from files, and the robot's on the same path.
 #![cfg(feature = "std")]
 
-mod amounts;
 mod broken;
 mod criticality;
 mod groups;
