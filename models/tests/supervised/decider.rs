@@ -196,7 +196,9 @@ fn no_plan_that_keeps_the_limits_is_a_question_to_the_operator() {
     let seen = Perceived { raised: Flags::of(&[Flag::SonarFar]), ..QUIET };
     robot.step_with(seen, None, &mut plans);
     let left = robot.decider.available();
-    assert_eq!(plans.asked, [(Why::Lost(Modules::ALL.without(left)), left)]);
+    let modules = Modules::ALL.without(left);
+    let broken = Son1.health(Modules::NONE);
+    assert_eq!(plans.asked, [(Why::Lost { modules, broken }, left)]);
     assert!(robot.after(6).ask);
 }
 

@@ -88,7 +88,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         plans: &mut impl Plans,
     ) {
         let (before, cause) = (self.known.available(), finding.cause);
-        self.known = self.known.union(diagnosis.health(part));
+        let broken = diagnosis.health(part);
+        self.known = self.known.union(broken);
         let left = self.known.available();
         self.lose(Losses::lacking(left), cause);
         let (report, severity) = match diagnosis {
@@ -120,7 +121,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         if let Some(event) = event {
             self.untold.push(Told::Failure(event), cause);
         }
-        if left != before && self.plan_without(before.without(left), cause, plans).is_err() {
+        let gone = before.without(left);
+        if left != before && self.plan_without(gone, broken, cause, plans).is_err() {
             // The adapter has nothing to switch to: the operator is asked.
             self.untold.push(Told::Failure(faults::Event::fail_hard), cause);
         }

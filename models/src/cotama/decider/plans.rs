@@ -3,17 +3,27 @@
 use super::{Cause, Decider};
 use crate::cotama::decisions::{Loss, Losses};
 use crate::cotama::level::Told;
-use crate::cotama::modules::{Configuration, Modules};
+use crate::cotama::modules::{Configuration, Health, Modules};
 use crate::cotama::supervisors::faults;
 use cotama_core::player::Program;
 
 /// Why a plan is needed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Why {
-    /// These modules are lost.
-    Lost(Modules),
-    /// These modules have returned.
-    Returned(Modules),
+    /// Modules are lost, because this broke.
+    Lost {
+        /// The modules.
+        modules: Modules,
+        /// What was diagnosed to be broken.
+        broken: Health,
+    },
+    /// Modules have returned, because this is sound again.
+    Returned {
+        /// The modules.
+        modules: Modules,
+        /// What was broken.
+        broken: Health,
+    },
     /// The margin of this axis is below zero.
     Margin(usize),
 }
@@ -81,14 +91,15 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
     /// Plans the rest of the mission without these modules.
     pub(super) fn plan_without(
         &mut self,
-        gone: Modules,
+        modules: Modules,
+        broken: Health,
         cause: Cause,
         plans: &mut impl Plans,
     ) -> Result<(), NoPlanLeft> {
         if self.lost.has(Loss::Vital) || plans.is_over() {
             return Ok(());
         }
-        if plans.plan(Why::Lost(gone), self.known.available())? {
+        if plans.plan(Why::Lost { modules, broken }, self.known.available())? {
             self.do_without(plans.configuration(), cause);
         }
         Ok(())

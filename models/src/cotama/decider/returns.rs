@@ -76,20 +76,15 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.known.lost = self.known.lost.without(over.lost).union(known.lost);
         let left = self.known.available();
         if let Some(cause) = cause.filter(|_| left != before) {
-            self.use_again(left.without(before), left, Cause(cause), plans);
+            let why = Why::Returned { modules: left.without(before), broken: over };
+            self.use_again(why, left, Cause(cause), plans);
         }
     }
 
     /// Plans with what has returned, and tells the supervisors what the plan uses of it.
-    fn use_again(
-        &mut self,
-        returned: Modules,
-        left: Modules,
-        cause: Cause,
-        plans: &mut impl Plans,
-    ) {
+    fn use_again(&mut self, why: Why, left: Modules, cause: Cause, plans: &mut impl Plans) {
         let over = self.lost.has(Loss::Vital) || plans.is_over();
-        if over || plans.plan(Why::Returned(returned), left).is_err() {
+        if over || plans.plan(why, left).is_err() {
             return; // the plan in force goes on
         }
         let planned = plans.configuration();

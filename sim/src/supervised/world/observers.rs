@@ -1,7 +1,7 @@
 //! What observers raise, and what the decisional level makes of it.
 
 use super::{CLOCKS, Failure, World};
-use crate::run::PlanCause;
+use crate::run::{Part, PlanCause};
 use crate::supervised::effect::observable;
 use crate::supervised::laptop::{Seen, jobs};
 use crate::supervised::plan::{Planning, Progress};
@@ -130,18 +130,17 @@ impl Plans for Rest<'_, '_> {
     }
 
     fn plan(&mut self, why: Why, available: Modules) -> Result<bool, NoPlanLeft> {
-        let hardware = |of: Modules| {
-            let names = of.iter().map(Module::name);
-            { names }.find_map(|it| self.mission.hardware.iter().position(|kind| kind.name == it))
+        // Modules that the mission does not plan with change no plan.
+        let plans_with =
+            |it: &Module| self.mission.hardware.iter().any(|kind| kind.name == it.name());
+        let part = |modules: Modules, broken| {
+            let first = modules.iter().find(plans_with)?;
+            Some(Part::of(broken).unwrap_or(Part::Module(first)))
         };
         let cause = match why {
             Why::Margin(axis) => Some(PlanCause::Margin { axis }),
-            Why::Lost(modules) => {
-                hardware(modules).map(|hardware| PlanCause::Hardware { hardware, units: 1 })
-            }
-            Why::Returned(modules) => {
-                hardware(modules).map(|hardware| PlanCause::Returned { hardware })
-            }
+            Why::Lost { modules, broken } => part(modules, broken).map(PlanCause::Lost),
+            Why::Returned { modules, broken } => part(modules, broken).map(PlanCause::Back),
         };
         let Some(cause) = cause else { return Ok(false) };
         let planned = self.planning.plan(cause, self.at, available);
