@@ -4,8 +4,10 @@
 #![allow(missing_docs, clippy::pedantic, clippy::unwrap_used)]
 
 mod matrix;
+mod observers;
 mod other_missions;
 mod recovery;
+mod rules;
 mod seven_points;
 mod trace;
 mod triples;

@@ -11,7 +11,7 @@ mod table;
 
 pub use diagnosis::{
     Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose,
-    is_detectable, shared_flags, undetectable,
+    is_detectable, shared_flags, undetectable, unwatched,
 };
 pub use flags::{Flag, Flags};
 pub use rule::{Description, Persistence, Rule, Signature};

@@ -315,7 +315,7 @@ rows! {
     }
     Loc3 "LOC3" "localise" "odometry only (degraded mode)" "drift beyond the corridor width" {
         cause "time without fix", effect "collision with a wall";
-        severity Medium Weak, class Adapter, Permanent;
+        severity Hard Weak, class Local, Permanent;
         lost "-" [] [];
         seen "P3D (bumper)" "bumper in degraded mode -> hard (seed)"
              100 (flags [Bumper] without Mcl);

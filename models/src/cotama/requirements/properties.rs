@@ -1,10 +1,10 @@
 //! What the decisional level is required to do, and how each requirement is known.
 //!
 //! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation
-//! module, WD watchdog, DP the permit to move, M the robot. Texts are in the language of `cotama
-//! check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds: `round` is
-//! marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E`
-//! when it has, and `turn.outside` when every net has had its turn.
+//! module, OB observers, WD watchdog, DP the permit to move, M the robot. Texts are in the language
+//! of `cotama check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds:
+//! `round` is marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`,
+//! `after.N.E` when it has, and `turn.outside` when every net has had its turn.
 //!
 //! Where the shipped system differs from the model that Durand et al. (TAROS 2010) let us
 //! reconstruct (`verification/tests/rounds/reconstruction.rs`):
@@ -16,7 +16,8 @@
 //! - what moves the robot holds a permit, which `halt` destroys (improved);
 //! - hard failures without a report of their own are reported as `hard` (inferred);
 //! - faults and the operator are two nets; what is really lost is known to the first one alone
-//!   (improved).
+//!   (improved);
+//! - a camera that nobody watches counts as lost (inferred).
 
 use super::guarded::Guarded;
 use super::requirement::{Asked, Requirement, Watch, at_end, requirements, said};
@@ -262,7 +263,8 @@ requirements! {
                   localisation by particles nor avoidance.",
         checked "AG ((gom.mcl -> gom.sonar) & (gom.avoidance -> gom.sonar) & \
                  (turn.outside -> (gom.avoidance <-> faults.sonar & faults.avoidance) & \
-                 (gom.sonar <-> faults.sonar) & (gom.camera <-> faults.camera) & \
+                 (gom.sonar <-> faults.sonar) & \
+                 (gom.camera <-> faults.camera & faults.watch) & \
                  (gom.wifi <-> faults.wifi) & (gom.vital <-> faults.vital) & \
                  (gom.mcl -> faults.mcl)))",
         tested in "models/tests/cotama_data/availability.rs";
@@ -286,6 +288,9 @@ requirements! {
                  (gom.suspected & turn.ls.start_drive & ls.Idle -> AX !gom.suspected) & \
                  (gom.suspected & turn.outside & \
                  ls.Planning -> AX (gom.suspected <-> !ls.Following)))";
+    OB1 Inferred "Nobody drives by a camera that nobody watches, but at the ends of two rounds.",
+        checked "AG unwatched_camera <= 2",
+        watched by [used_without!("unwatched_camera", "watch", "to.Full | to.Degraded")];
     WD1 Stated "Fewer violations in a row than the limit raise no real-time fault.",
         tested in "verification/tests/tpn/watchdog.rs";
     WD2 Stated "As many violations in a row as the limit raise one before the next release.",

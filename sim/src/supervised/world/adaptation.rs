@@ -19,7 +19,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             return;
         }
         let Some(axis) = self.planning.short(at) else { return };
-        if self.planning.plan(PlanCause::Margin { axis }, at, self.known.available()).is_ok() {
+        if self.planning.plan(PlanCause::Margin { axis }, at, self.known.relied_on()).is_ok() {
             self.do_without(Cause(0));
         } else {
             self.resigned = true;
@@ -35,7 +35,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let mut new: Vec<Loss> = new.iter().collect();
         new.reverse();
         new.truncate(if new.first() == Some(&Loss::Vital) { 1 } else { new.len() });
-        self.untold.extend(new.into_iter().map(|it| (Told::Failure(lost_event(it)), cause)));
+        let known = self.known;
+        self.untold.extend(new.into_iter().map(|it| (Told::lost(it, known), cause)));
     }
 
     /// Plans the rest of the mission with the modules that are left.
@@ -50,7 +51,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         self.planning.plan(
             PlanCause::Hardware { hardware, units: 1 },
             at,
-            self.known.available(),
+            self.known.relied_on(),
         )?;
         self.do_without(cause);
         Ok(())
@@ -72,17 +73,5 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             Some(Configuration::FollowingDegraded) => Losses::of(&[Loss::Mcl, Loss::Sonar]),
             _ => Losses::NONE,
         }
-    }
-}
-
-/// The event of a loss.
-const fn lost_event(loss: Loss) -> faults::Event {
-    match loss {
-        Loss::Avoidance => faults::Event::lose_avoidance,
-        Loss::Mcl => faults::Event::lose_mcl,
-        Loss::Sonar => faults::Event::lose_sonar,
-        Loss::Camera => faults::Event::lose_camera,
-        Loss::Wifi => faults::Event::lose_wifi,
-        Loss::Vital => faults::Event::lose_vital,
     }
 }

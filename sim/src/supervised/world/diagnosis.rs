@@ -6,8 +6,8 @@ use crate::supervised::{Decided, Judged, PERIOD};
 use cotama_core::player::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Diagnosis, FailureMode, Flags, Health, Losses, Mode, Module, Modules, Report, Severity,
-    Told, by_availability, decide, diagnose, faults, is_detectable, judge,
+    Cause, Diagnosis, FailureMode, Flags, Health, Losses, Module, Modules, Report, Severity, Told,
+    by_availability, decide, diagnose, faults, is_detectable, judge,
 };
 
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
@@ -45,10 +45,10 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             _ => Vec::new(),
         };
         if modes.is_empty() {
-            self.conclude(diagnosis, cause);
+            self.conclude(diagnosis, raised, cause);
         }
         for mode in modes {
-            self.conclude(Diagnosis::Unique(mode), cause);
+            self.conclude(Diagnosis::Unique(mode), raised, cause);
         }
     }
 
@@ -62,19 +62,16 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     }
 
     /// What follows from a diagnosis: what is lost is planned around, and reported.
-    pub(super) fn conclude(&mut self, diagnosis: Diagnosis, cause: Cause) {
-        let before = self.known.available();
+    pub(super) fn conclude(&mut self, diagnosis: Diagnosis, raised: Flags, cause: Cause) {
+        let before = self.known.relied_on();
         let part = usize::from(cause.0).checked_sub(1).and_then(|it| self.failures.get(it));
         self.known = self.known.union(diagnosis.health(part.map_or(Modules::NONE, |it| it.part)));
-        let left = self.known.available();
+        let left = self.known.relied_on();
         self.lose(Losses::lacking(left), cause);
-        let (report, severity) = match diagnosis {
-            Diagnosis::None => return,
-            Diagnosis::Unique(mode) => (mode.rule().report, self.severity(mode)),
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {
-                (Some(Report::Ambiguous), Severity::Hard)
-            }
-        };
+        if diagnosis == Diagnosis::None {
+            return;
+        }
+        let (report, severity) = diagnosis.judged(raised, self.situation.mode());
         self.judge(report, severity);
         let Some(report) = report else {
             // It is recorded, and nobody has to decide.
@@ -103,7 +100,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
 
     /// Notes how what was detected now is judged.
     pub(super) fn judge(&mut self, report: Option<Report>, severity: Severity) {
-        let left = self.known.available();
+        let left = self.known.relied_on();
         let operator = left.has(Module::Lan) && report != Some(Report::Refusal);
         let situation = self.level.situation(self.lost);
         let by_availability = by_availability(situation, left, operator);
@@ -111,14 +108,6 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             self.run.conduct.iter_mut().filter(|it| it.detected.is_some_and(|it| it.0 == self.now))
         {
             it.judged.get_or_insert(Judged { report, severity, by_availability });
-        }
-    }
-
-    /// How severe a failure is where the robot is.
-    pub(super) fn severity(&self, mode: FailureMode) -> Severity {
-        match self.situation.mode() {
-            Mode::Rest | Mode::Autonomous => mode.rule().autonomous,
-            Mode::HandOver | Mode::Teleprogrammed | Mode::Teleoperated => mode.rule().operator,
         }
     }
 }

@@ -32,7 +32,7 @@ fn found(failure: &Failure, conduct: &Conduct) -> Option<Health> {
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// What is known to be lost is watched; what has been sound for long enough is used again.
     pub(super) fn recover(&mut self) {
-        let (known, now, sound) = (self.known.available(), self.now, self.broken().available());
+        let (known, now, sound) = (self.known.relied_on(), self.now, self.broken().relied_on());
         let Some(Recovery(players)) = &mut self.recovery else { return };
         let mut restored = false;
         for (player, it) in players.iter_mut().zip(Return::ALL) {
@@ -55,7 +55,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     fn restore(&mut self) {
         let Some(recovery) = self.recovery else { return };
         let has_returned = |health: Health| {
-            let left = health.available();
+            let left = health.relied_on();
             let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left));
             let for_good =
                 Losses::lacking(left).without(Losses::of(&Return::ALL.map(Return::loss)));
@@ -78,10 +78,10 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 known = known.union(health);
             }
         }
-        let before = self.known.available();
+        let before = self.known.relied_on();
         self.known.faulty = self.known.faulty.without(over.faulty).union(known.faulty);
         self.known.lost = self.known.lost.without(over.lost).union(known.lost);
-        let left = self.known.available();
+        let left = self.known.relied_on();
         if let Some(cause) = cause.filter(|_| left != before) {
             self.use_again(before, left, cause);
         }

@@ -10,8 +10,8 @@ use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, FailureMode, Module, Report, Told, faults, global, local,
-    operator,
+    Cause, Configuration, Diagnosis, FailureMode, Loss, Module, Report, Told, faults, global,
+    local, operator,
 };
 use cotama_models::missions::Does;
 
@@ -187,7 +187,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         if conduct.detected.is_none() {
             (conduct.detected, conduct.flags) =
                 (Some((self.now, diagnosis)), FailureMode::Opr1.rule().signature.always);
-            self.judge(FailureMode::Opr1.rule().report, self.severity(FailureMode::Opr1));
+            let mode = self.situation.mode();
+            self.judge(FailureMode::Opr1.rule().report, FailureMode::Opr1.severity(mode));
         }
         Cause(at as u16 + 1)
     }
@@ -207,7 +208,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             x: self.robot.x(),
             link: left.has(Module::Lan)
                 && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
-            camera: left.has(Module::Cam),
+            // Nor is he offered a camera that the robot does not rely on.
+            camera: left.has(Module::Cam) && !self.lost.has(Loss::Camera),
             planner_failed: report == Some(Report::Planner) && self.plannings_failed < 2,
             can_go_on: self.plannings_failed < 2
                 && left.covers(Configuration::FollowingOdometric.facts().required),
