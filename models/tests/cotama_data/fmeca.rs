@@ -105,16 +105,9 @@ fn rows_whose_report_is_answered_otherwise_than_printed() {
         .collect();
     let (recorded, others): (Vec<_>, Vec<_>) =
         other.iter().map(String::as_str).partition(|it| it.ends_with("adapter: Record"));
-    // The adapters of the figures have no transition for these; their reactions are settings of one
-    // module, or none.
+    // Camera and link are not used where the robot drives itself, and one late job is tolerated.
     let names: Vec<_> = recorded.iter().map(|it| it.split(' ').next().unwrap()).collect();
-    assert_eq!(
-        names,
-        [
-            "SON4", "ODO2", "ODO3", "ODO4", "CAM1", "CAM2", "MOT2", "P3D2", "RT2", "HUM1", "COM1",
-            "COM2"
-        ]
-    );
+    assert_eq!(names, ["CAM1", "RT2", "COM1"]);
     assert_eq!(
         others,
         [

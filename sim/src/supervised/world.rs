@@ -26,6 +26,7 @@ use recovery::Recovery;
 use std::collections::VecDeque;
 
 mod adaptation;
+mod adjusting;
 mod diagnosis;
 mod objective;
 mod records;
@@ -52,6 +53,9 @@ struct Failure {
     seen: Millis,
     since: Millis,
     over: bool,
+    /// An adapter has changed a setting on it, and for how long it has been over.
+    adjusted: bool,
+    past: Millis,
 }
 
 /// A mission under way.
@@ -91,6 +95,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// A limit cannot be kept, and the operator knows.
     resigned: bool,
     energy_uj: u64,
+    /// Quality of what was driven, in thousandths per mm.
+    quality: u64,
     run: Run,
 }
 
@@ -133,11 +139,13 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             plannings_failed: 0,
             resigned: false,
             energy_uj: 0,
+            quality: 0,
             run: Run {
                 outcome: Outcome::Failed,
                 time: Millis(0),
                 x: Millimetres(0),
                 used: [0; 2],
+                quality: 0,
                 operator_requests: 0,
                 told: Vec::new(),
                 rounds: 0,
@@ -157,6 +165,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
     /// One period; whether the mission is over.
     pub(super) fn period(&mut self) -> bool {
         self.fail();
+        self.outlast();
         self.travel();
         if self.thinks() {
             self.observe();
@@ -184,6 +193,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.run.time = self.now;
         self.run.x = self.robot.x();
         self.run.used = self.used();
+        self.run.quality = self.quality / 100_000;
         self.run.plans = self.planning.made;
         self.run
     }
@@ -226,6 +236,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 seen: Millis(0),
                 since: now,
                 over: false,
+                adjusted: false,
+                past: Millis(0),
             });
             self.run.conduct.push(Conduct {
                 mode,
@@ -262,12 +274,16 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         // Only who holds a permit may command motion.
         let command =
             self.level.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
+        let free = self.limited(pace);
         let mut towards = command;
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
             match effect(failure.mode).motion {
                 Motion::Blocked => blocked |= observable(failure.mode, self.situation, true),
-                Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
+                // What is asked of it is more, or already less.
+                Motion::Slowed(parts) => {
+                    towards = towards.min(MillimetresPerSecond(free.0 * u64::from(parts) / 1000));
+                }
                 Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
                 Motion::Silent | Motion::Mindless
                     if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 =>
@@ -286,7 +302,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         } else {
             self.end()
         };
+        let before = self.robot.x().0;
         self.robot.go(towards, end, PERIOD);
+        self.drive_well(activity, self.robot.x().0 - before);
         self.energy_uj += power.0 * PERIOD.0;
         self.measure();
     }
@@ -313,8 +331,13 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         [self.now.0, self.energy_uj / 1000]
     }
 
-    /// How fast the running configuration goes.
+    /// How fast the running configuration goes, as it is adjusted.
     fn speed(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
+        MillimetresPerSecond(self.limited(pace).0 * u64::from(self.adjusted().speed) / 1000)
+    }
+
+    /// How fast it could go.
+    fn limited(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
         let limit =
             self.situation.configuration().map_or(MillimetresPerSecond(0), |it| it.facts().speed);
         pace.min(limit)

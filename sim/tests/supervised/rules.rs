@@ -4,7 +4,7 @@
 use cotama_core::net::{Arc, Net, Role, Transition};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::FailureMode::{
-    self, Bat3, Bmp1, Cam1, Col1, Com1, Loc2, Loc3, Opr1, Ppl1, Rt1, Son1, Son2, Sw1,
+    self, Bat3, Bmp1, Cam1, Col1, Com1, Com2, Loc2, Loc3, Mot2, Opr1, Ppl1, Rt1, Son1, Son2, Sw1,
 };
 use cotama_models::cotama::local::State::{HandOver, Planning, Teleoperated, Teleprogrammed};
 use cotama_models::cotama::{Module, contextual, local, recovering_contextual};
@@ -87,6 +87,8 @@ fn shown(rule: &str) -> Shown {
         "hard4" => Shown::Tight(vec![at(3, Com1), at(45, Son2)]),
         "hard5" => run([at(3, Loc2), during(Teleoperated, Bmp1)]),
         "hard6" | "camera2" => Shown::Never(NO_LINK),
+        "minor1" => run([at(3, Mot2)]),
+        "minor2" => run([at(3, Loc2), during(Teleoperated, Com2)]),
         "planner1" => run([during(Planning, Ppl1)]),
         "planner2" => run([after(0, Com1), during(Planning, Ppl1)]),
         "camera1" => run([at(3, Loc2), during(Teleoperated, Cam1)]),

@@ -9,7 +9,7 @@
 
 use super::rule::{Description, Rule};
 use super::table::{FailureMode, RULES, TEXTS};
-use crate::cotama::decisions::{Class, Severity, Situation, by_availability};
+use crate::cotama::decisions::{Class, Report, Severity, Situation, by_availability};
 use crate::cotama::modules::{Health, Mode, Module, Modules};
 
 impl FailureMode {
@@ -82,10 +82,19 @@ const _: () = {
             "a failure mode raises a flag both always and sometimes"
         );
         assert!(
-            rule.report.is_some()
-                || text.silent.is_some()
-                || rule.class as u8 <= Class::Adapter as u8,
-            "a hard or fatal failure mode is detected, but reported to nobody"
+            rule.report.is_some() != (text.silent.is_some() || text.tolerated.is_some()),
+            "a failure mode is detected, but neither reported nor tolerated with a reason"
+        );
+        assert!(
+            text.tolerated.is_none() || rule.autonomous as u8 <= Severity::Weak as u8,
+            "only a weak failure mode can be tolerated"
+        );
+        assert!(
+            !matches!(rule.report, Some(Report::Minor))
+                || rule.adjustment.is_some()
+                    && rule.autonomous as u8 <= Severity::Medium as u8
+                    && rule.operator as u8 <= Severity::Medium as u8,
+            "a minor failure mode is weak or medium, and something is adjusted on it"
         );
         assert!(
             rule.class as u8 == rule.autonomous.class() as u8,

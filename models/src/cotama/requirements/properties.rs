@@ -35,6 +35,9 @@ macro_rules! used_without {
     };
 }
 
+/// Where path following runs.
+const FOLLOWING: &[&str] = &["Optimal", "Reduced", "Odometric", "Degraded"];
+
 requirements! {
     /// The requirements of [`delivery`](crate::cotama::delivery).
     REQUIREMENTS;
@@ -110,12 +113,12 @@ requirements! {
                   unanswered.",
         checked "AG (round & ls.End -> \
                  !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | \
-                 cs.hard.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
+                 cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
                  cs.slow.waiting | cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | \
                  cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
                  gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
                  gom.mcl_flag.waiting | gom.drift_flag.waiting | gom.bumper_flag.waiting | \
-                 gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting | \
+                 gom.planner_flag.waiting | gom.hard_flag.waiting | gom.minor_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
     LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, \
                 unless something vital is lost; and it ends when failures do and everybody goes \
@@ -192,6 +195,8 @@ requirements! {
                  (turn.pf.adapt_mcl & (pf.Optimal | pf.Reduced) -> AX pf.Odometric) & \
                  (after.pf.adapt_sonar -> !pf.adapt_sonar.waiting & (pf.Off | pf.Degraded)) & \
                  (after.pf.adapt_bump -> !pf.adapt_bump.waiting) & \
+                 (after.pf.adapt_minor -> !pf.adapt_minor.waiting) & \
+                 (after.to.adapt_minor -> !to.adapt_minor.waiting) & \
                  (after.to.adapt_sonar -> !to.adapt_sonar.waiting & !to.Full) & \
                  (turn.pf.adapt_rt & pf.Off -> AX pf.Off))",
         said [
@@ -201,7 +206,9 @@ requirements! {
                 &["Optimal", "Reduced", "Odometric"],
                 "limit_speed"
             )
-            .on("adapt_bump")
+            .on("adapt_bump"),
+            said("pf", FOLLOWING, FOLLOWING, "adjust").on("adapt_minor"),
+            said("to", &["Full", "Degraded"], &["Full", "Degraded"], "adjust").on("adapt_minor")
         ];
     AS6 Stated "Who runs without avoidance limits the speed.",
         said [
@@ -228,13 +235,13 @@ requirements! {
     CS3 Inferred "Every flag that tells something new is reported and decided upon in the next \
                   round, once.",
         checked "AG ((turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | \
-                 cs.collision.waiting | cs.hard.waiting | cs.mcl_lost.waiting | \
+                 cs.collision.waiting | cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | \
                  cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
                  cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | \
                  gom.vital_flag.waiting | gom.wifi_flag.waiting | gom.camera_flag.waiting | \
                  gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | \
                  gom.drift_flag.waiting | gom.bumper_flag.waiting | gom.planner_flag.waiting | \
-                 gom.hard_flag.waiting | gom.deadline_flag.waiting)) & \
+                 gom.hard_flag.waiting | gom.minor_flag.waiting | gom.deadline_flag.waiting)) & \
                  (turn.gom.vital_flag & gom.vital -> AX cs.vital.waiting) & \
                  (turn.gom.wifi_flag & gom.wifi -> AX cs.wifi_lost.waiting) & \
                  (turn.gom.camera_flag & gom.camera -> AX cs.camera.waiting) & \
@@ -245,11 +252,13 @@ requirements! {
                  (turn.gom.bumper_flag -> AX cs.collision.waiting) & \
                  (turn.gom.planner_flag -> AX cs.planner.waiting) & \
                  (turn.gom.hard_flag -> AX cs.hard.waiting) & \
+                 (turn.gom.minor_flag -> AX cs.minor.waiting) & \
                  (turn.gom.deadline_flag -> AX cs.slow.waiting))";
     CS4 Inferred "The adapters are asked only for what they have the modules for.",
         checked "AG (turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | \
-                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting) & !faults.vital) & \
-                 !(to.adapt_sonar.waiting & !(faults.camera & faults.wifi & faults.vital)))";
+                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting | pf.adapt_minor.waiting) & \
+                 !faults.vital) & \
+                 !((to.adapt_sonar.waiting | to.adapt_minor.waiting) & !(faults.camera & faults.wifi & faults.vital)))";
     CS5 Inferred "No operator is asked who cannot be reached, and none is waited for during more \
                   than two rounds.",
         checked "AG ((turn.outside -> !(ls.local_event.waiting & !faults.wifi)) & alone <= 2)",
@@ -280,7 +289,7 @@ requirements! {
                  (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & \
                  (turn.gom.drift_flag & gom.suspected -> AX !cs.ambiguous.waiting) & \
                  cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + \
-                 cs.hard.waiting + cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + \
+                 cs.hard.waiting + cs.minor.waiting + cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + \
                  cs.slow.waiting + cs.sonar.waiting + cs.vital.waiting + cs.wifi_lost.waiting + \
                  cs.avoidance.waiting <= 1 & \
                  (gom.suspected & turn.outside & !ls.Planning & \
@@ -341,6 +350,11 @@ const DECISIONS: &str = "AG (\
     (after.cs.collision -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | pf.Degraded)) & \
         (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | pf.Degraded)) & \
         (pf.adapt_bump.waiting <-> ls.Following & !pf.Degraded)) & \
+    (after.cs.minor -> (pf.adapt_minor.waiting <-> ls.Following) & \
+        (to.adapt_minor.waiting <-> ls.Teleoperated) & \
+        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + \
+        pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + \
+        to.adapt_sonar.waiting = 0) & \
     (after.cs.hard -> (ls.local_event.waiting <-> gom.wifi & \
         (ls.Planning | ls.Following | ls.Teleoperated)) & \
         (gs.global_event.waiting <-> !gom.wifi & \
@@ -359,7 +373,7 @@ const DECISIONS: &str = "AG (\
     (after.cs.ambiguous | after.cs.collision | after.cs.hard | after.cs.planner | \
         after.cs.camera | after.cs.vital | after.cs.refusal -> \
         pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + \
-        to.adapt_sonar.waiting = 0) & \
+        pf.adapt_minor.waiting + to.adapt_sonar.waiting + to.adapt_minor.waiting = 0) & \
     (turn.outside -> gs.global_event.waiting + ls.local_event.waiting + pf.adapt_rt.waiting + \
         pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + \
-        to.adapt_sonar.waiting <= 1))";
+        pf.adapt_minor.waiting + to.adapt_sonar.waiting + to.adapt_minor.waiting <= 1))";

@@ -35,6 +35,8 @@ net! {
             /// Any other hard failure; also: no plan is left that keeps the limits of the
             /// mission.
             fail_hard,
+            /// Any other weak or medium failure.
+            fail_slightly,
             overload,
             /// The observer of the camera stops observing, which is known at once. It is told as
             /// the loss of the camera.
@@ -42,7 +44,7 @@ net! {
         }
         outputs {
             vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
-            drift_flag, bumper_flag, planner_flag, hard_flag, deadline_flag,
+            drift_flag, bumper_flag, planner_flag, hard_flag, minor_flag, deadline_flag,
         }
         transitions {
             vital on lose_vital [vital]: Ready => Ready do vital = false emit vital_flag;
@@ -60,6 +62,7 @@ net! {
             bump on bump: Ready => Ready emit bumper_flag;
             no_path on no_path: Ready => Ready emit planner_flag;
             hard on fail_hard: Ready => Ready emit hard_flag;
+            minor on fail_slightly: Ready => Ready emit minor_flag;
             slow on overload: Ready => Ready emit deadline_flag;
         }
         laws { left_to_checker; }

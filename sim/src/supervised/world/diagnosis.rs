@@ -1,7 +1,7 @@
 //! What observers see, and what follows from it.
 
 use super::{CLOCKS, World};
-use crate::supervised::effect::observable;
+use crate::supervised::effect::{observable, raises};
 use crate::supervised::{Decided, Judged, PERIOD};
 use cotama_core::player::Program;
 use cotama_core::units::Millis;
@@ -14,6 +14,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     /// Observers look; what they newly see is diagnosed.
     pub(super) fn observe(&mut self) {
         let moving = self.robot.speed().0 > 0;
+        let can_see = Flags::seen_by(self.observing());
         let mut raised = Flags::NONE;
         let mut seen = Vec::new();
         for (number, failure) in self.failures.iter_mut().enumerate() {
@@ -23,7 +24,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             }
             failure.seen.0 += PERIOD.0;
             if failure.seen >= Millis(u64::from(failure.mode.rule().latency_ms)) {
-                raised = raised.union(failure.mode.rule().signature.always);
+                raised = raised.union(raises(failure.mode, can_see));
                 seen.push(number);
             }
         }
@@ -120,6 +121,7 @@ const fn passing_event(report: Report) -> Option<faults::Event> {
         Report::Collision => Some(faults::Event::bump),
         Report::Planner => Some(faults::Event::no_path),
         Report::Hard => Some(faults::Event::fail_hard),
+        Report::Minor => Some(faults::Event::fail_slightly),
         _ => None,
     }
 }

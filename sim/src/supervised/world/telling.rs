@@ -80,6 +80,9 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                         conduct.answered.get_or_insert(at);
                     }
                 }
+                if name == "pf" || name == "to" {
+                    self.adjust(carries);
+                }
             }
             Seen::Ignored(event, carries) => {
                 let contextual = system
@@ -117,6 +120,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             }
         }
         if after.1 != before.1 {
+            self.start_adjusted();
             self.run.configurations.push((self.now, after.1));
         }
         let global = self.level.global();
