@@ -42,7 +42,7 @@
 //! ```
 
 use super::decisions::{Losses, Situation};
-use super::dependability::{FailureMode, FailureModes, Flags};
+use super::dependability::{Adjusted, FailureMode, FailureModes, Flags};
 use super::level::{Cause, Level, Permit, Told};
 use super::modules::{Configuration, Health, Modules};
 use super::supervisors::{faults, global, local, operator};
@@ -53,11 +53,13 @@ pub use findings::{Finding, Judged};
 use pending::Pending;
 pub use plans::{NoPlanLeft, NoPlans, Plans, Why};
 use returns::Returns;
+use settings::{Acting, Settings};
 
 mod findings;
 mod pending;
 mod plans;
 mod returns;
+mod settings;
 
 /// How long the robot waits for the operator before it gives up: assumed (FMECA, row OPR1).
 pub const PATIENCE: Millis = Millis(120_000);
@@ -135,6 +137,8 @@ pub struct Requests {
     pub drive: bool,
     /// The fastest it may go.
     pub speed: MillimetresPerSecond,
+    /// What adapted settings leave of speed and quality.
+    pub adjusted: Adjusted,
     /// Motor power is to be cut for good.
     pub halt: bool,
     /// The operator is asked.
@@ -165,7 +169,8 @@ pub struct Decider<P, const W: usize, const C: usize, const S: usize> {
     origin: [Origin; FailureMode::ALL.len()],
     findings: u16,
     /// What is diagnosed to be broken.
-    known: Health,
+    known: Known,
+    settings: Settings,
     returns: Option<Returns>,
     /// What the supervisors take for lost: what is diagnosed, and what the plan does without.
     lost: Losses,
@@ -173,6 +178,20 @@ pub struct Decider<P, const W: usize, const C: usize, const S: usize> {
     plannings_failed: u32,
     /// A limit cannot be kept, and the operator knows.
     resigned: bool,
+}
+
+/// What is known to be broken, and what follows from it; both change rarely.
+#[derive(Clone, Copy, Debug)]
+struct Known {
+    health: Health,
+    available: Modules,
+    relied_on: Modules,
+}
+
+impl From<Health> for Known {
+    fn from(health: Health) -> Self {
+        Self { health, available: health.available(), relied_on: health.relied_on() }
+    }
 }
 
 /// Where a diagnosis comes from.
@@ -193,7 +212,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
 
     /// Goes on from where these supervisors are, with what is known to be broken.
     pub fn resume(level: Level<P, W, C, S>, objectives: u32, known: Health) -> Self {
-        let lost = Losses::lacking(known.available());
+        let known = Known::from(known);
+        let lost = Losses::lacking(known.relied_on);
         Self {
             situation: level.situation(lost),
             global: level.global(),
@@ -207,6 +227,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             origin: [Origin::default(); FailureMode::ALL.len()],
             findings: 0,
             known,
+            settings: Settings::default(),
             returns: None,
             lost,
             untold: Pending::default(),
@@ -235,6 +256,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.up = self.up.union(seen.raised).without(seen.lowered);
         let finding =
             (!seen.raised.is_empty()).then(|| self.diagnose(seen.raised, seen.part, plans));
+        self.settings.see(now, self.up);
         self.use_what_returns(seen.works, plans);
         if second_ended {
             self.watch_margins(plans);
@@ -265,17 +287,20 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         if self.listens() {
             (word, round.finding) = self.word(said, body);
         }
-        let _ = self.level.round(now, observer);
+        let mut acting = Acting::new(observer);
+        let _ = self.level.round(now, &mut acting);
         while let Some((told, cause)) = self.untold.pop().or_else(|| word.take()) {
-            if self.level.tell(now, told, cause, observer).fired() {
+            if self.level.tell(now, told, cause, &mut acting).fired() {
                 round.told = Some(told);
                 break;
             }
         }
-        let before = self.situation.local;
+        let before = self.situation;
         self.situation = self.level.situation(self.lost);
+        let starts = self.situation.configuration() != before.configuration();
+        self.settings.change(acting.acted(), starts, self.up);
         self.global = self.level.global();
-        if self.situation.local != before {
+        if self.situation.local != before.local {
             (self.since, self.stands_since) = (now, now);
             self.found = self.found.without(FailureModes::of(&[FailureMode::Opr1]));
         }
@@ -291,6 +316,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             configuration,
             drive,
             speed: speed.unwrap_or(MillimetresPerSecond(0)),
+            adjusted: self.settings.effect(self.now, self.situation.mode()),
             halt: self.level.halted(),
             ask: self.situation.local == local::State::HandOver,
             alarm: self.global.0 == self.objectives + 3,
@@ -353,7 +379,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
     /// The modules that can be used, as far as is known.
     #[must_use]
     pub const fn available(&self) -> Modules {
-        self.known.available()
+        self.known.available
+    }
+
+    /// Those of them that can be relied on: somebody would see them fail.
+    #[must_use]
+    pub const fn relied_on(&self) -> Modules {
+        self.known.relied_on
     }
 }
 

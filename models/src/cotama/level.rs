@@ -3,7 +3,7 @@
 
 use super::decider::Decider;
 use super::decisions::{Loss, Losses, Situation};
-use super::modules::{Configuration, Module, Modules};
+use super::modules::{Configuration, Health, Module, Modules};
 use super::supervisors::{
     delivery, faults, global, local, operator, path_following, permit, recovering,
     recovering_faults,
@@ -104,6 +104,28 @@ pub enum Told {
 }
 
 impl Told {
+    /// How a loss is told when this is diagnosed. A camera that works as far as is known, and that
+    /// nobody watches, is told as the loss of its watch.
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Health, Loss, Module, Modules, Told, faults};
+    /// let crashed = |it| Health { faulty: Modules::of(&[it]), ..Health::SOUND };
+    /// let told = |it| Told::lost(Loss::Camera, crashed(it));
+    /// assert_eq!(told(Module::Cam), Told::Failure(faults::Event::lose_camera));
+    /// assert_eq!(told(Module::OSen), Told::Failure(faults::Event::lose_watch));
+    /// ```
+    pub const fn lost(loss: Loss, known: Health) -> Self {
+        Self::Failure(match loss {
+            Loss::Avoidance => faults::Event::lose_avoidance,
+            Loss::Mcl => faults::Event::lose_mcl,
+            Loss::Sonar => faults::Event::lose_sonar,
+            Loss::Camera if known.available().has(Module::Cam) => faults::Event::lose_watch,
+            Loss::Camera => faults::Event::lose_camera,
+            Loss::Wifi => faults::Event::lose_wifi,
+            Loss::Vital => faults::Event::lose_vital,
+        })
+    }
+
     /// Its event in [`delivery`](delivery::SYSTEM).
     pub fn event(&self) -> Of<EventId> {
         match *self {

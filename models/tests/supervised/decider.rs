@@ -195,7 +195,7 @@ fn no_plan_that_keeps_the_limits_is_a_question_to_the_operator() {
     let mut plans = Tight { asked: Vec::new(), short: None };
     let seen = Perceived { raised: Flags::of(&[Flag::SonarFar]), ..QUIET };
     robot.step_with(seen, None, &mut plans);
-    let left = robot.decider.available();
+    let left = robot.decider.relied_on();
     let modules = Modules::ALL.without(left);
     let broken = Son1.health(Modules::NONE);
     assert_eq!(plans.asked, [(Why::Lost { modules, broken }, left)]);

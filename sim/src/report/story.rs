@@ -137,6 +137,9 @@ fn decision(chain: &Chain<'_>) -> Option<&'static str> {
         ("adapter", Some("adapt_rt")) => "the adapter took fewer particles",
         ("adapter", Some("adapt_mcl")) => "the adapter took odometry",
         ("adapter", Some("adapt_bump")) => "the adapter slowed the robot down",
+        ("adapter", Some("adapt_minor" | "adapt_minor_teleoperation")) => {
+            "the adapter changed a setting"
+        }
         ("adapter", _) => "the adapter went on without sonars",
         ("local", _) => "the operator was asked",
         ("global", _) => "the mission was ended safely",

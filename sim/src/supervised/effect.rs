@@ -2,7 +2,9 @@
 //! the rows of the FMECA.
 
 use cotama_core::units::Millis;
-use cotama_models::cotama::{Configuration, FailureMode, Module, Situation, local};
+use cotama_models::cotama::{
+    Configuration, FailureMode, Flag, Flags, Module, Modules, Situation, local,
+};
 
 /// What a failure does to motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +81,19 @@ pub const fn effect(mode: FailureMode) -> Effect {
         _ => Ends::Never,
     };
     Effect { motion, ends }
+}
+
+/// The flags that a failure raises while these modules observe: all that it always does, and of the
+/// others those that this simulation has. Encoders that lose ticks are seen by the filter on the
+/// wheels too, which tells them from a lost localisation (assumed).
+pub(super) fn raises(mode: FailureMode, observing: Modules) -> Flags {
+    let always = mode.rule().signature.always;
+    match mode {
+        FailureMode::Odo2 if Flags::seen_by(observing).covers(always) => {
+            always.with(Flag::WheelResidual)
+        }
+        _ => always,
+    }
 }
 
 /// Whether the observer of a failure can see it now: what is not used is not observed.

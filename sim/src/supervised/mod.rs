@@ -207,6 +207,8 @@ pub struct Run {
     pub x: Millimetres,
     /// Duration and energy used, in ms and mJ.
     pub used: [u64; 2],
+    /// The quality of what was driven: that of each configuration per 100 mm, as it was adjusted.
+    pub quality: u64,
     /// How often the operator was asked by the supervisors.
     pub operator_requests: u64,
     /// What the supervisors were told, with the number of the round after which.

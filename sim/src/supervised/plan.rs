@@ -13,7 +13,7 @@ use cotama_core::problem::{Candidate, Problem};
 use cotama_core::units::{MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::cotama::{Configuration, Modules};
 use cotama_models::missions::Mission;
-use cotama_models::missions::tables::{Activity, Rest};
+use cotama_models::missions::tables::{Activity, Alternative, Rest};
 
 /// How far a mission has come.
 #[derive(Clone, Copy, Debug)]
@@ -170,12 +170,21 @@ impl<'m> Planning<'m> {
         activity: usize,
         configuration: Option<Configuration>,
     ) -> (MillimetresPerSecond, Milliwatts) {
+        let alternative = self.driven(activity, configuration);
+        (alternative.speed, alternative.power)
+    }
+
+    /// The quality per 100 mm of a configuration; that of the planned alternative when none has it.
+    pub(super) fn quality(&self, activity: usize, configuration: Option<Configuration>) -> u32 {
+        self.driven(activity, configuration).quality
+    }
+
+    fn driven(&self, activity: usize, configuration: Option<Configuration>) -> &Alternative {
         let with = self.configurations[activity]
             .iter()
             .position(|it| it.is_some() && *it == configuration);
         let at = with.unwrap_or_else(|| usize::from(self.choice[activity]));
-        let alternative = &self.activities[activity].alternatives[at];
-        (alternative.speed, alternative.power)
+        &self.activities[activity].alternatives[at]
     }
 
     /// The activity of an objective that holds a place of the path.

@@ -300,6 +300,9 @@ impl Point<'_> {
                 Some("adapt_rt") => "the adapter takes fewer particles",
                 Some("adapt_mcl") => "the adapter takes odometry",
                 Some("adapt_bump") => "the adapter slows down",
+                Some("adapt_minor" | "adapt_minor_teleoperation") => {
+                    "the adapter changes a setting"
+                }
                 _ => "the adapter does without sonars",
             },
             "local" => "the operator is asked",
@@ -353,7 +356,9 @@ impl Point<'_> {
         };
         let event = chain.decision.and_then(|it| it.event.as_deref());
         let mut rungs = match event {
-            Some("adapt_rt" | "adapt_bump") => vec![Rung::Parameter],
+            Some("adapt_rt" | "adapt_bump" | "adapt_minor" | "adapt_minor_teleoperation") => {
+                vec![Rung::Parameter]
+            }
             Some("global_event") => vec![Rung::Mission],
             Some("local_event") => vec![Rung::Activity],
             Some(_) => vec![Rung::Set],

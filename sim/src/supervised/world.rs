@@ -77,6 +77,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     quiet: u32,
     operator: Operator,
     failures: Vec<Failure>,
+    /// What is broken, and what works in spite of it.
+    works: (Health, Modules),
     planning: Planning<'m>,
     /// Since when the global supervisor is where it is, and when each place of the local one was
     /// first reached.
@@ -87,6 +89,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     withdrawn: Option<Millimetres>,
     exposed: Millis,
     energy_uj: u64,
+    /// Quality of what was driven, in thousandths per mm.
+    quality: u64,
     run: Run,
 }
 
@@ -118,6 +122,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             quiet: 0,
             operator: Operator::new(script.answers.iter().cloned()),
             failures: Vec::new(),
+            works: (Health::SOUND, Modules::ALL),
             planning,
             global_since: Millis(0),
             first: Vec::new(),
@@ -125,11 +130,13 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             withdrawn: None,
             exposed: Millis(0),
             energy_uj: 0,
+            quality: 0,
             run: Run {
                 outcome: Outcome::Failed,
                 time: Millis(0),
                 x: Millimetres(0),
                 used: [0; 2],
+                quality: 0,
                 operator_requests: 0,
                 told: Vec::new(),
                 rounds: 0,
@@ -174,6 +181,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.run.time = self.now;
         self.run.x = self.robot.x();
         self.run.used = self.used();
+        self.run.quality = self.quality / 100_000;
         self.run.plans = self.planning.made;
         self.run
     }
@@ -277,6 +285,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         // Only who holds a permit may command motion.
         let command =
             self.decider.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
+        let free = self.limited(pace);
         let mut towards = command;
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
@@ -284,7 +293,10 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 Motion::Blocked => {
                     blocked |= observable(failure.mode, self.decider.situation(), true);
                 }
-                Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
+                // What is asked of it is more, or already less.
+                Motion::Slowed(parts) => {
+                    towards = towards.min(MillimetresPerSecond(free.0 * u64::from(parts) / 1000));
+                }
                 Motion::Runaway if !self.decider.requests().halt => {
                     towards = self.mission.robot.speed_max;
                 }
@@ -305,9 +317,18 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         } else {
             self.end()
         };
+        let before = self.robot.x().0;
         self.robot.go(towards, end, PERIOD);
+        self.drive_well(activity, self.robot.x().0 - before);
         self.energy_uj += power.0 * PERIOD.0;
         self.measure();
+    }
+
+    /// So much of the path was driven.
+    fn drive_well(&mut self, activity: usize, way_mm: u64) {
+        let quality = self.planning.quality(activity, self.decider.situation().configuration());
+        let adjusted = self.decider.requests().adjusted;
+        self.quality += way_mm * u64::from(quality) * u64::from(adjusted.quality);
     }
 
     /// The end of the drive, or where the robot stands.
@@ -332,8 +353,14 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         [self.now.0, self.energy_uj / 1000]
     }
 
-    /// How fast the running configuration goes.
+    /// How fast the running configuration goes, as it is adjusted.
     fn speed(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
+        let adjusted = self.decider.requests().adjusted;
+        MillimetresPerSecond(self.limited(pace).0 * u64::from(adjusted.speed) / 1000)
+    }
+
+    /// How fast it could go.
+    fn limited(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
         let limit = self
             .decider
             .situation()

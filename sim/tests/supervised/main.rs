@@ -3,10 +3,13 @@
 //! `UPDATE_GOLDEN=1 cargo test -p cotama-sim --test supervised` rewrites the golden files.
 #![allow(missing_docs, clippy::pedantic, clippy::unwrap_used)]
 
+mod answers;
 mod matrix;
+mod observers;
 mod other_missions;
 mod pairs;
 mod recovery;
+mod rules;
 mod seven_points;
 mod trace;
 mod triples;

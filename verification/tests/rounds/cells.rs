@@ -72,7 +72,9 @@ const fn emits(decision: Decision) -> Option<&'static str> {
         Decision::AdaptMcl => Some("adapt_mcl"),
         Decision::AdaptSonar => Some("adapt_sonar"),
         Decision::AdaptBump => Some("adapt_bump"),
+        Decision::AdaptMinor => Some("adapt_minor"),
         Decision::AdaptSonarTeleoperation => Some("adapt_sonar_teleoperation"),
+        Decision::AdaptMinorTeleoperation => Some("adapt_minor_teleoperation"),
         Decision::Local => Some("local_event"),
         Decision::Global => Some("global_event"),
     }

@@ -36,14 +36,14 @@ fn requirement(id: &str) -> &'static Requirement {
 }
 
 #[test]
-fn the_shipped_supervisors_have_31266_states_between_rounds() {
+fn the_shipped_supervisors_have_53858_states_between_rounds() {
     let rounds = rounds(&delivery::SYSTEM).unwrap();
     let net = rounds.net().unwrap();
     assert_eq!(net.view().net().defect(), None);
     let (pt, graph) = explored(&rounds);
-    assert_eq!((pt.places.len(), pt.transitions.len()), (212, 1_943));
-    assert_eq!((graph.states(), graph.arcs()), (95_210, 125_304));
-    assert_eq!(rounds.size(&graph), Size { states: 31_266, edges: 327_040 });
+    assert_eq!((pt.places.len(), pt.transitions.len()), (231, 2_107));
+    assert_eq!((graph.states(), graph.arcs()), (165_446, 217_436));
+    assert_eq!(rounds.size(&graph), Size { states: 53_858, edges: 629_896 });
 }
 
 /// By which engine, among how many markings, with which evidence; `said` counts what transitions
@@ -139,7 +139,7 @@ fn the_small_checker_is_convinced_of_27_requirements_at_once() {
         other => panic!("{other:?}"),
     });
     let formulas: Vec<_> = formulas.collect();
-    assert_eq!((formulas.len(), graph.states()), (27, 95_210));
+    assert_eq!((formulas.len(), graph.states()), (27, 165_446));
     let question = Question::Formula(Formula::And(formulas));
     let certificate = Certificate::of(&pt, "all", question, true, Evidence::graph(&graph));
     assert!(verify(&certificate.text()).unwrap().verdict);
@@ -202,6 +202,12 @@ fn what_is_lost_is_used_for_two_rounds_at_most() {
 #[test]
 fn nobody_waits_for_an_operator_who_cannot_be_reached_for_more_than_two_rounds() {
     assert_eq!(worst("CS5"), [2]);
+}
+
+/// OB1.
+#[test]
+fn nobody_drives_by_a_camera_that_nobody_watches_for_more_than_two_rounds() {
+    assert_eq!(worst("OB1"), [2]);
 }
 
 /// AS5 and CS3: in the round after it was mailed an adapter event is read before the contextual

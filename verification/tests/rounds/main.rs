@@ -10,6 +10,7 @@ mod asked;
 mod breaks;
 mod cells;
 mod conformance;
+mod corrections;
 mod delivery;
 mod delivery_mutants;
 mod liveness;

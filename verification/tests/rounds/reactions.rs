@@ -28,13 +28,14 @@ const PERIOD_MS: u32 = 100;
 
 /// By the event from outside, the report whose rows of the FMECA it stands for. A hard failure
 /// without one can be that of any row that is answered by the local supervisor.
-const CLASSES: [(&str, Option<Report>); 11] = [
+const CLASSES: [(&str, Option<Report>); 12] = [
     ("faults.overload", Some(Report::Slow)),
     ("faults.lose_mcl", Some(Report::Mcl)),
     ("faults.lose_sonar", Some(Report::Sonar)),
     ("faults.drift", Some(Report::Ambiguous)),
     ("faults.fail_hard", None),
     ("faults.bump", Some(Report::Collision)),
+    ("faults.fail_slightly", Some(Report::Minor)),
     ("faults.no_path", Some(Report::Planner)),
     ("faults.lose_camera", Some(Report::Camera)),
     ("faults.lose_wifi", Some(Report::Wifi)),
@@ -46,7 +47,7 @@ const MODES: [&str; 5] =
     ["ls.Planning", "ls.Following", "ls.HandOver", "ls.Teleprogrammed", "ls.Teleoperated"];
 
 /// A decision: what waits, in whose turn it is read, and where the reader is afterwards.
-const DECISIONS: [(&str, &str, &[&str]); 7] = [
+const DECISIONS: [(&str, &str, &[&str]); 9] = [
     ("adapter (fewer particles)", "pf.adapt_rt.waiting", &["pf.Reduced", "pf.Off"]),
     ("adapter (odometry)", "pf.adapt_mcl.waiting", &["pf.Odometric", "pf.Degraded", "pf.Off"]),
     ("adapter (no avoidance)", "pf.adapt_sonar.waiting", &["pf.Degraded", "pf.Off"]),
@@ -55,7 +56,13 @@ const DECISIONS: [(&str, &str, &[&str]); 7] = [
         "pf.adapt_bump.waiting",
         &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Off"],
     ),
+    (
+        "adapter (a setting)",
+        "pf.adapt_minor.waiting",
+        &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Degraded", "pf.Off"],
+    ),
     ("adapter (no avoidance)", "to.adapt_sonar.waiting", &["to.Degraded", "to.Off"]),
+    ("adapter (a setting)", "to.adapt_minor.waiting", &["to.Full", "to.Degraded", "to.Off"]),
     ("local", "ls.local_event.waiting", &["ls.HandOver", "gs.Security", "gs.Safe"]),
     ("global", "gs.global_event.waiting", &["gs.Security", "gs.Safe"]),
 ];

@@ -6,7 +6,7 @@ use crate::cotama::dependability::{
     Diagnosis, FailureMode, FailureModes, Flag, Flags, diagnose, is_detectable,
 };
 use crate::cotama::level::Told;
-use crate::cotama::modules::{Health, Mode, Module, Modules};
+use crate::cotama::modules::{Health, Module, Modules};
 use crate::cotama::supervisors::faults;
 use cotama_core::player::Program;
 
@@ -72,7 +72,8 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
 
     /// The modules that work as far as is known: what has passed, or was set right, is not held
     /// against its observers.
-    fn observing(&self) -> Modules {
+    #[must_use]
+    pub fn observing(&self) -> Modules {
         let shows = |it: &FailureMode| !it.rule().signature.always.common(self.up).is_empty();
         let under_way = self.found.iter().filter(shows);
         let broken = under_way.map(|it| it.health(self.origin[it as usize].part));
@@ -87,22 +88,21 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         finding: &mut Finding,
         plans: &mut impl Plans,
     ) {
-        let (before, cause) = (self.known.available(), finding.cause);
+        let (before, cause) = (self.known.relied_on, finding.cause);
         let broken = diagnosis.health(part);
-        self.known = self.known.union(broken);
-        let left = self.known.available();
+        self.known = self.known.health.union(broken).into();
+        let left = self.known.relied_on;
         self.lose(Losses::lacking(left), cause);
-        let (report, severity) = match diagnosis {
+        match diagnosis {
             Diagnosis::None => return,
             Diagnosis::Unique(mode) => {
                 self.found = self.found.with(mode);
                 self.origin[mode as usize] = Origin { cause, part };
-                (mode.rule().report, self.severity(mode))
             }
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {
-                (Some(Report::Ambiguous), Severity::Hard)
-            }
-        };
+            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {}
+        }
+        self.settings.found(diagnosis, finding.flags, cause);
+        let (report, severity) = diagnosis.judged(finding.flags, self.situation.mode());
         let judged = self.judge(report, severity);
         finding.judged.get_or_insert(judged);
         let Some(report) = report else {
@@ -138,7 +138,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         let (cause, flags) = (self.next_cause(), Flags::of(&[Flag::OperatorSilent]));
         self.found = self.found.with(mode);
         self.origin[mode as usize] = Origin { cause, part: Modules::NONE };
-        let judged = Some(self.judge(mode.rule().report, self.severity(mode)));
+        let judged = Some(self.judge(mode.rule().report, mode.severity(self.situation.mode())));
         let (diagnosis, recorded) = (Diagnosis::Unique(mode), false);
         Some(Finding { cause, flags, diagnosis, judged, recorded })
     }
@@ -149,19 +149,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
     }
 
     fn judge(&self, report: Option<Report>, severity: Severity) -> Judged {
-        let left = self.known.available();
+        let left = self.known.relied_on;
         let operator = left.has(Module::Lan) && report != Some(Report::Refusal);
         let situation = self.level.situation(self.lost);
         let by_availability = by_availability(situation, left, operator);
         Judged { report, severity, by_availability }
-    }
-
-    /// How severe a failure is where the robot is.
-    fn severity(&self, mode: FailureMode) -> Severity {
-        match self.situation.mode() {
-            Mode::Rest | Mode::Autonomous => mode.rule().autonomous,
-            Mode::HandOver | Mode::Teleprogrammed | Mode::Teleoperated => mode.rule().operator,
-        }
     }
 }
 
@@ -173,6 +165,7 @@ const fn passing_event(report: Report) -> Option<faults::Event> {
         Report::Collision => Some(faults::Event::bump),
         Report::Planner => Some(faults::Event::no_path),
         Report::Hard => Some(faults::Event::fail_hard),
+        Report::Minor => Some(faults::Event::fail_slightly),
         _ => None,
     }
 }

@@ -80,7 +80,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             return;
         }
         let Some(axis) = plans.short() else { return };
-        if plans.plan(Why::Margin(axis), self.known.available()).is_ok() {
+        if plans.plan(Why::Margin(axis), self.known.relied_on).is_ok() {
             self.do_without(plans.configuration(), Cause(0));
         } else {
             self.resigned = true;
@@ -99,7 +99,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         if self.lost.has(Loss::Vital) || plans.is_over() {
             return Ok(());
         }
-        if plans.plan(Why::Lost { modules, broken }, self.known.available())? {
+        if plans.plan(Why::Lost { modules, broken }, self.known.relied_on)? {
             self.do_without(plans.configuration(), cause);
         }
         Ok(())
@@ -111,11 +111,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.lost = self.lost.union(new);
         // The most severe first; without vital parts nothing else matters.
         if new.has(Loss::Vital) {
-            self.untold.push(Told::Failure(event(Loss::Vital)), cause);
+            self.untold.push(Told::lost(Loss::Vital, self.known.health), cause);
             return;
         }
         for &it in Loss::ALL.iter().rev().filter(|it| new.has(**it)) {
-            self.untold.push(Told::Failure(event(it)), cause);
+            self.untold.push(Told::lost(it, self.known.health), cause);
         }
     }
 
@@ -132,17 +132,5 @@ pub(super) const fn unused(planned: Option<Configuration>) -> Losses {
         Some(Configuration::FollowingOdometric) => Losses::of(&[Loss::Mcl]),
         Some(Configuration::FollowingDegraded) => Losses::of(&[Loss::Mcl, Loss::Sonar]),
         _ => Losses::NONE,
-    }
-}
-
-/// The event of a loss.
-const fn event(loss: Loss) -> faults::Event {
-    match loss {
-        Loss::Avoidance => faults::Event::lose_avoidance,
-        Loss::Mcl => faults::Event::lose_mcl,
-        Loss::Sonar => faults::Event::lose_sonar,
-        Loss::Camera => faults::Event::lose_camera,
-        Loss::Wifi => faults::Event::lose_wifi,
-        Loss::Vital => faults::Event::lose_vital,
     }
 }

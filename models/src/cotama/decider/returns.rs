@@ -21,7 +21,7 @@ impl Returns {
 
     /// Whether all that is lost with this has returned.
     fn have(&self, health: Health) -> bool {
-        let left = health.available();
+        let left = health.relied_on();
         let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left));
         let for_good = Losses::lacking(left).without(Losses::of(&Return::ALL.map(Return::loss)));
         let returned = match lost.next() {
@@ -36,7 +36,7 @@ impl Returns {
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decider<P, W, C, S> {
     /// What is known to be lost is watched; what has been sound for long enough is used again.
     pub(super) fn use_what_returns(&mut self, sound: Modules, plans: &mut impl Plans) {
-        let (known, now) = (self.known.available(), self.now);
+        let (known, now) = (self.known.relied_on, self.now);
         let Some(Returns(players)) = &mut self.returns else { return };
         let mut restored = false;
         for (player, it) in players.iter_mut().zip(Return::ALL) {
@@ -58,7 +58,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
     /// last, since only with them can the others be used.
     fn restore(&mut self, plans: &mut impl Plans) {
         let Some(returns) = self.returns else { return };
-        let before = self.known.available();
+        let before = self.known.relied_on;
         let (mut over, mut known, mut cause) = (Health::SOUND, Health::SOUND, None);
         for mode in self.found.iter() {
             let origin = self.origin[mode as usize];
@@ -72,9 +72,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
                 known = known.union(health);
             }
         }
-        self.known.faulty = self.known.faulty.without(over.faulty).union(known.faulty);
-        self.known.lost = self.known.lost.without(over.lost).union(known.lost);
-        let left = self.known.available();
+        let Health { faulty, lost, suspected } = self.known.health;
+        let faulty = faulty.without(over.faulty).union(known.faulty);
+        let lost = lost.without(over.lost).union(known.lost);
+        self.known = Health { faulty, lost, suspected }.into();
+        let left = self.known.relied_on;
         if let Some(cause) = cause.filter(|_| left != before) {
             let why = Why::Returned { modules: left.without(before), broken: over };
             self.use_again(why, left, Cause(cause), plans);

@@ -26,6 +26,8 @@ members! {
         Collision = "collision",
         /// Any other failure that is hard where it happens.
         Hard = "hard",
+        /// Any other failure that is weak or medium where it happens, and takes nothing that runs.
+        Minor = "minor",
         /// No path was found.
         Planner = "planner",
         /// The camera is lost.
@@ -83,8 +85,12 @@ pub enum Decision {
     AdaptSonar,
     /// `adapt_bump` to it: slower.
     AdaptBump,
+    /// `adapt_minor` to it: a setting of a module changes, which one the failure says.
+    AdaptMinor,
     /// `adapt_sonar` to the adapter of teleoperation.
     AdaptSonarTeleoperation,
+    /// `adapt_minor` to it.
+    AdaptMinorTeleoperation,
     /// `local_event` to the local supervisor.
     Local,
     /// `global_event` to the global supervisor.
@@ -100,7 +106,9 @@ impl Decision {
             | Self::AdaptMcl
             | Self::AdaptSonar
             | Self::AdaptBump
-            | Self::AdaptSonarTeleoperation => Class::Adapter,
+            | Self::AdaptMinor
+            | Self::AdaptSonarTeleoperation
+            | Self::AdaptMinorTeleoperation => Class::Adapter,
             Self::Local => Class::Local,
             Self::Global => Class::Global,
         }
@@ -121,6 +129,7 @@ impl Report {
             | Self::Ambiguous
             | Self::Collision
             | Self::Hard
+            | Self::Minor
             | Self::Planner
             | Self::Refusal => None,
         }
@@ -207,6 +216,10 @@ pub(super) const fn adaptation(report: Report, situation: Situation) -> Option<D
             Some(Decision::AdaptSonarTeleoperation)
         }
         (Report::Collision, _) if following && !degraded => Some(Decision::AdaptBump),
+        (Report::Minor, _) if following => Some(Decision::AdaptMinor),
+        (Report::Minor, _) if matches!(situation.local, local::State::Teleoperated) => {
+            Some(Decision::AdaptMinorTeleoperation)
+        }
         _ => None,
     }
 }

@@ -7,10 +7,11 @@
 //! that come and go is a candidate with any part of them (inferred), and two faults at once are
 //! unexplained unless one of them covers both.
 
-use super::flags::Flags;
+use super::flags::{Flag, Flags};
 use super::table::{FailureMode, FailureModes, RULES};
+use crate::cotama::decisions::{Report, Severity};
 use crate::cotama::members::members;
-use crate::cotama::modules::{Health, Module, Modules, available};
+use crate::cotama::modules::{Health, Mode, Module, Modules, available};
 
 /// What the raised flags mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -94,6 +95,50 @@ pub const fn undetectable(status: Modules) -> FailureModes {
     set
 }
 
+/// What may break and would be seen by nobody, though it is on a sound robot: an observer that
+/// stops observing is a known fact, and what it alone watches is not known to be sound (inferred).
+/// Faults of whichever module stand apart, since the scheduler sees those that matter.
+///
+/// ```
+/// use cotama_models::cotama::{Module, Modules, Resource, Resources, available, unwatched};
+/// let blind = unwatched(Modules::ALL.without(Modules::of(&[Module::OSen])));
+/// assert_eq!(blind.lost, Resources::of(&[Resource::SonarArrays, Resource::Camera]));
+/// // Lost sonars take the checks on sonars along, and no other: the camera is watched as before.
+/// let no_sonars = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
+/// assert_eq!(unwatched(no_sonars).lost, Resources::NONE);
+/// ```
+#[must_use]
+pub const fn unwatched(status: Modules) -> Health {
+    let unseen = undetectable(status).without(undetectable(Modules::ALL));
+    let (mut health, mut at) = (Health::SOUND, 0);
+    while at < RULES.len() {
+        if unseen.has(FailureMode::ALL[at]) {
+            health = health.union(FailureMode::ALL[at].health(Modules::NONE));
+        }
+        at += 1;
+    }
+    health
+}
+
+impl Health {
+    /// The modules that can be relied on: those that can be used, less what stands on something
+    /// that nobody would see fail ([`unwatched`]).
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Configuration, Health, Losses, Module, Modules};
+    /// let crashed = |it| Health { faulty: Modules::of(&[it]), ..Health::SOUND };
+    /// let lost = |it| Losses::lacking(crashed(it).relied_on()).to_string();
+    /// assert_eq!(lost(Module::OSen), "avoidance mcl sonar camera");
+    /// assert_eq!(lost(Module::OLoc), "mcl");
+    /// assert_eq!(lost(Module::OCom), "camera wifi");
+    /// assert_eq!(lost(Module::OEff), "-"); // O-LOC, O-PF and the stall flag see what it saw
+    /// ```
+    #[must_use]
+    pub const fn relied_on(self) -> Modules {
+        self.union(unwatched(self.available())).available()
+    }
+}
+
 /// Whether some flags leave it open which of two failure modes it is.
 pub const fn are_confusable(a: FailureMode, b: FailureMode, status: Modules) -> bool {
     let ((least_a, most_a), (least_b, most_b)) = (bounds(a, status), bounds(b, status));
@@ -164,6 +209,44 @@ pub fn confusable_pairs(status: Modules) -> impl Iterator<Item = (FailureMode, F
 }
 
 impl Diagnosis {
+    /// What is reported of it to the contextual supervisor, and how severe it is in an autonomy
+    /// mode.
+    ///
+    /// One failure mode is reported as its row says, and so are several whose rows say the same. Of
+    /// others a closed bumper is reported as a collision, whatever closed it: in a degraded
+    /// sub-objective that rule decides (stated, Durand et al., TAROS 2010, Section VI.A.4). What is
+    /// left is for the operator, since no unique diagnosis can be made (stated, Section VI.A.2).
+    ///
+    /// ```
+    /// use cotama_models::cotama::{Diagnosis, FailureMode, FailureModes, Flag, Flags};
+    /// use cotama_models::cotama::{Mode::Autonomous, Report, Severity};
+    /// let (bump, drift) = (Flags::of(&[Flag::Bumper]), Flags::of(&[Flag::PoseGrowth]));
+    /// let several = |modes| Diagnosis::Ambiguous(FailureModes::of(modes));
+    /// let wall_or_bumper = several(&[FailureMode::Bmp2, FailureMode::Loc3]);
+    /// let collision = (Some(Report::Collision), Severity::Hard);
+    /// assert_eq!(wall_or_bumper.judged(bump, Autonomous), collision);
+    /// let lost = several(&[FailureMode::Odo2, FailureMode::Loc1]);
+    /// assert_eq!(lost.judged(drift, Autonomous), (Some(Report::Ambiguous), Severity::Hard));
+    /// ```
+    pub fn judged(self, raised: Flags, mode: Mode) -> (Option<Report>, Severity) {
+        match self {
+            Self::None => (None, Severity::Weak),
+            Self::Unique(it) => (it.rule().report, it.severity(mode)),
+            Self::Ambiguous(candidates) => {
+                let report = candidates.first().and_then(|it| it.rule().report);
+                let worst = candidates.iter().map(|it| it.severity(mode)).max();
+                if candidates.iter().all(|it| it.rule().report == report) {
+                    (report, worst.unwrap_or(Severity::Hard))
+                } else if raised.has(Flag::Bumper) {
+                    (Some(Report::Collision), Severity::Hard)
+                } else {
+                    (Some(Report::Ambiguous), Severity::Hard)
+                }
+            }
+            Self::Unexplained => (Some(Report::Ambiguous), Severity::Hard),
+        }
+    }
+
     /// What is broken by it. `part` is the module of a fault of one module. An ambiguous one breaks
     /// nothing, but every module that a candidate would take is suspected. One broken sonar takes
     /// the arrays as a whole: the coarse rule of the publication, whose failure mode has the arrays

@@ -9,9 +9,8 @@
 
 use super::rule::{Description, Rule};
 use super::table::{FailureMode, RULES, TEXTS};
-use crate::cotama::decisions::{Class, Situation, by_availability};
-use crate::cotama::modules::Mode::{Autonomous, Rest};
-use crate::cotama::modules::{Health, Module, Modules};
+use crate::cotama::decisions::{Class, Report, Severity, Situation, by_availability};
+use crate::cotama::modules::{Health, Mode, Module, Modules};
 
 impl FailureMode {
     /// What reacts to it needs to know.
@@ -22,6 +21,14 @@ impl FailureMode {
     /// Its words.
     pub const fn description(self) -> &'static Description {
         &TEXTS[self as usize]
+    }
+
+    /// How severe it is in an autonomy mode: the operator's column wherever the operator decides.
+    pub const fn severity(self, mode: Mode) -> Severity {
+        match mode {
+            Mode::Rest | Mode::Autonomous => self.rule().autonomous,
+            Mode::HandOver | Mode::Teleprogrammed | Mode::Teleoperated => self.rule().operator,
+        }
     }
 
     /// What is broken with it; `part` is the module of a fault of one module, and does not matter
@@ -47,12 +54,7 @@ impl FailureMode {
     /// assert_eq!(FailureMode::Odo1.effective(Modules::NONE, driving), Class::Global);
     /// ```
     pub const fn effective(self, part: Modules, situation: Situation) -> Class {
-        let rule = self.rule();
-        let severity = if matches!(situation.mode(), Autonomous | Rest) {
-            rule.autonomous
-        } else {
-            rule.operator
-        };
+        let severity = self.severity(situation.mode());
         let left = situation.lost.health().union(self.health(part)).available();
         let operator = left.has(Module::Lan);
         match severity.class().worse(by_availability(situation, left, operator)) {
@@ -80,10 +82,19 @@ const _: () = {
             "a failure mode raises a flag both always and sometimes"
         );
         assert!(
-            rule.report.is_some()
-                || text.silent.is_some()
-                || rule.class as u8 <= Class::Adapter as u8,
-            "a hard or fatal failure mode is detected, but reported to nobody"
+            rule.report.is_some() != (text.silent.is_some() || text.tolerated.is_some()),
+            "a failure mode is detected, but neither reported nor tolerated with a reason"
+        );
+        assert!(
+            text.tolerated.is_none() || rule.autonomous as u8 <= Severity::Weak as u8,
+            "only a weak failure mode can be tolerated"
+        );
+        assert!(
+            !matches!(rule.report, Some(Report::Minor))
+                || rule.adjustment.is_some()
+                    && rule.autonomous as u8 <= Severity::Medium as u8
+                    && rule.operator as u8 <= Severity::Medium as u8,
+            "a minor failure mode is weak or medium, and something is adjusted on it"
         );
         assert!(
             rule.class as u8 == rule.autonomous.class() as u8,

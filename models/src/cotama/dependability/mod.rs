@@ -3,15 +3,17 @@
 #[macro_use]
 mod rows;
 
+mod adjustment;
 mod diagnosis;
 mod flags;
 mod fmeca;
 mod rule;
 mod table;
 
+pub use adjustment::{Adjusted, Adjustment, Adjustments};
 pub use diagnosis::{
     Diagnosis, Probe, Probes, ambiguity_groups, are_confusable, confusable_pairs, diagnose,
-    is_detectable, shared_flags, undetectable,
+    is_detectable, shared_flags, undetectable, unwatched,
 };
 pub use flags::{Flag, Flags};
 pub use rule::{Description, Persistence, Rule, Signature};

@@ -3,7 +3,7 @@
 //! A row is: name, id, function, component, failure { cause, effect; severity (autonomous,
 //! operator), class, persistence; lost (words, modules, resources); seen by (words, words, latency
 //! in ms; flags always, flags sometimes, modules without which and with which it cannot be); answer
-//! (report, words); rate (MTBF in thousandths of an hour, label, source), injection }.
+//! (report, words, what an adapter changes or why nothing is); rate (MTBF in thousandths of an hour, label, source), injection }.
 
 macro_rules! rows {
     ($($mode:ident $id:literal $function:literal $component:literal $failure:literal {
@@ -11,7 +11,8 @@ macro_rules! rows {
         severity $autonomous:ident $operator:ident, class $class:ident, $persistence:ident;
         lost $modules:literal $faulty:tt [$($lost:ident),*];
         seen $observer:literal $detection:literal $latency:literal ($($signature:tt)*);
-        answer $report:tt $reaction:literal;
+        answer $report:tt $reaction:literal
+        $(, adjusts $adjustment:ident)? $(, tolerated $tolerated:literal)?;
         rate $mtbf:literal $label:ident $rate:literal, injection $injection:literal;
     })+) => {
         members! {
@@ -33,6 +34,7 @@ macro_rules! rows {
             latency_ms: $latency,
             signature: signature!($($signature)*),
             report: report!($report),
+            adjustment: adjustment!($($adjustment)?),
         }),+];
 
         /// The words of the FMECA, in the order of [`FailureMode`].
@@ -47,6 +49,7 @@ macro_rules! rows {
             detection: $detection,
             silent: silent!($($signature)*),
             reaction: $reaction,
+            tolerated: tolerated!($($tolerated)?),
             mtbf_mh: $mtbf,
             rate_label: Label::$label,
             rate: $rate,
@@ -91,5 +94,23 @@ macro_rules! report {
     };
     ($report:ident) => {
         Some(Report::$report)
+    };
+}
+
+macro_rules! adjustment {
+    () => {
+        None
+    };
+    ($adjustment:ident) => {
+        Some(Adjustment::$adjustment)
+    };
+}
+
+macro_rules! tolerated {
+    () => {
+        None
+    };
+    ($reason:literal) => {
+        Some($reason)
     };
 }

@@ -1,5 +1,6 @@
 //! What a row of the FMECA says: the rule that firmware needs, and the words.
 
+use super::adjustment::Adjustment;
 use super::flags::Flags;
 use crate::cotama::decisions::{Class, Report, Severity};
 use crate::cotama::label::Label;
@@ -67,6 +68,8 @@ pub struct Rule {
     /// each mode what [`decide`](crate::cotama::decide) says. Hard faults without a report of their
     /// own ask for judgement: [`Report::Ambiguous`] (inferred).
     pub report: Option<Report>,
+    /// What an adapter changes, if that is a setting.
+    pub adjustment: Option<Adjustment>,
 }
 
 /// The words of a row.
@@ -92,6 +95,8 @@ pub struct Description {
     pub silent: Option<&'static str>,
     /// What is done.
     pub reaction: &'static str,
+    /// Why nothing is changed on a failure that is detected: it is recorded, and the robot goes on.
+    pub tolerated: Option<&'static str>,
     /// Mean time between failures, in thousandths of an hour.
     pub mtbf_mh: u32,
     /// How well the rate is known; stated: by a data sheet.

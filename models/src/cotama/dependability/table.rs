@@ -4,6 +4,7 @@
 //! they name a fault; the others fill the same form for a Pioneer 3-DX and are assumed, with shares
 //! and common causes after Carlson and Murphy, IEEE Trans. Robotics 21, 2005, where a row says so.
 
+use super::adjustment::Adjustment;
 use super::flags::{Flag, Flags};
 use super::rule::{Description, Persistence, Rule, Signature};
 use crate::cotama::decisions::{Class, Report, Severity};
@@ -50,7 +51,7 @@ rows! {
         lost "-" [] [];
         seen "O-SEN" "share of rejected readings above threshold over 2 s"
              2_000 (flags [SonarOutliers] with Ust);
-        answer - "raise the rejection threshold or fewer weights in MCL";
+        answer Minor "reject more readings, fewer weights in MCL", adjusts RejectReadings;
         rate 10_000 Assumed "assumed", injection "with p replace a reading by U(0.1,5)";
     }
     Odo1 "ODO1" "estimate motion" "encoder (left or right)" "no ticks" {
@@ -68,7 +69,7 @@ rows! {
         lost "ODO" [Odo] [];
         seen "O-LOC; O-EFF" "odometry-MCL distance growth above rate limit"
              6_000 (flags [PoseGrowth] sometimes [WheelResidual, Backward] with Odo);
-        answer - "use MCL pose, inflate odometry noise";
+        answer Minor "use MCL pose, inflate odometry noise", adjusts TrustLocalisation;
         rate 300_000 Assumed "assumed", injection "ticks*=1-u, u in 0.05..0.3";
     }
     Odo3 "ODO3" "estimate motion" "wheels" "slip on a threshold, cable or wet floor" {
@@ -77,7 +78,7 @@ rows! {
         lost "-" [] [];
         seen "O-LOC; O-EFF" "residual peak then back to normal"
              2_000 (flags [PosePeak] sometimes [WheelPeak]);
-        answer - "inflate odometry noise for some seconds";
+        answer Minor "inflate odometry noise for some seconds", adjusts WidenNoise;
         rate 3_000 Assumed "assumed", injection "add pose jump 0.05-0.3 m or 5-20 deg";
     }
     Odo4 "ODO4" "estimate motion" "wheels" "unequal diameters (tyre pressure, load)" {
@@ -85,7 +86,7 @@ rows! {
         severity Weak Weak, class Adapter, Permanent;
         lost "-" [] [];
         seen "O-LOC" "slow odometry-MCL drift of constant sign" 30_000 (flags [SlowDrift]);
-        answer - "recalibrate drift factor on line";
+        answer Minor "recalibrate drift factor on line", adjusts Recalibrate;
         rate 150_000 Assumed "assumed", injection "diameter ratio 1.01";
     }
     Bmp1 "BMP1" "detect contact" "bumper ring" "contact missed" {
@@ -116,10 +117,10 @@ rows! {
     Cam2 "CAM2" "let the operator see" "camera or WiFi" "frozen or late image" {
         cause "bandwidth, driver", effect "operator acts on old images";
         severity Weak Medium, class Adapter, Transient;
-        lost "CAM" [Cam] [];
+        lost "-" [] [];
         seen "O-COM; O-SEN" "frame age above 0.5 s"
              500 (flags [OldFrame] sometimes [LinkPoor] with Cam);
-        answer - "lower frame rate and speed limit";
+        answer Minor "lower frame rate and speed limit", adjusts FewerFrames;
         rate 20_000 Assumed "assumed; limited bandwidth for video is a listed common cause in \
                              Carlson & Murphy 2005",
         injection "frame age += 0.5..3 s";
@@ -140,7 +141,7 @@ rows! {
         severity Medium Weak, class Adapter, Permanent;
         lost "-" [] [];
         seen "O-EFF" "gain of the estimated actuator below 0.8" 3_000 (flags [WheelGain]);
-        answer - "lower the speed and acceleration limits";
+        answer Minor "lower the speed and acceleration limits", adjusts LowerLimits;
         rate 300_000 Assumed "assumed", injection "wheel gain 0.6";
     }
     Mot3 "MOT3" "move" "drive motor" "stall" {
@@ -228,7 +229,7 @@ rows! {
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
         seen "P3D" "checksum errors above 5 % in 2 s" 2_000 (flags [PacketErrors]);
-        answer - "extend the tolerance of the watchdog";
+        answer Minor "extend the tolerance of the watchdog", adjusts WidenTolerance;
         rate 10_000 Assumed "assumed", injection "drop with p=0.05..0.5";
     }
     P3d3 "P3D3" "talk to the robot" "micro-controller" "reset" {
@@ -254,7 +255,8 @@ rows! {
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
         seen "SCH" "one violation inside the extra time" 100 (flags [OneLate]);
-        answer - "tolerated";
+        answer - "tolerated", tolerated "one job inside its extra time is what the extra time is for \
+                                       (Section VI.A.1)";
         rate 500 Assumed "assumed", injection "job time += 30 ms once";
     }
     Rt3 "RT3" "schedule" "any other module" "deadline missed again and again" {
@@ -315,7 +317,7 @@ rows! {
     }
     Loc3 "LOC3" "localise" "odometry only (degraded mode)" "drift beyond the corridor width" {
         cause "time without fix", effect "collision with a wall";
-        severity Medium Weak, class Adapter, Permanent;
+        severity Hard Weak, class Local, Permanent;
         lost "-" [] [];
         seen "P3D (bumper)" "bumper in degraded mode -> hard (seed)"
              100 (flags [Bumper] without Mcl);
@@ -335,7 +337,8 @@ rows! {
         severity Medium Medium, class Adapter, Transient;
         lost "-" [] [];
         seen "P3D (bumper)" "bumper closed" 100 (flags [Bumper] with Smz);
-        answer Collision "stop, back off, slower; hard if avoidance is already off (seed)";
+        answer Collision "stop, back off, slower; hard if avoidance is already off (seed)",
+               adjusts GoCarefully;
         rate 20_000 Assumed "assumed", injection "glass wall invisible to sonar";
     }
     Hum1 "HUM1" "avoid obstacles" "people" "person steps in the way" {
@@ -343,7 +346,7 @@ rows! {
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
         seen "O-PF" "progress below limit for 5 s" 5_000 (flags [NoProgress]);
-        answer - "wait, slow";
+        answer Minor "wait, slow", adjusts GiveWay;
         rate 200 Assumed "assumed", injection "moving disc obstacles";
     }
     Com1 "COM1" "talk to the operator" "WiFi" "link lost" {
@@ -363,7 +366,7 @@ rows! {
         lost "-" [] [];
         seen "O-COM" "level or noise out of interval"
              1_000 (flags [LinkPoor] sometimes [OldFrame] with Lan);
-        answer - "lower image rate and speed limit";
+        answer Minor "lower image rate and speed limit", adjusts FewerFrames;
         rate 1_000 Assumed "assumed", injection "delay 0.2..2 s, loss 1..30 %";
     }
     Opr1 "OPR1" "decide" "operator" "no answer" {

@@ -1,10 +1,10 @@
 //! What the decisional level is required to do, and how each requirement is known.
 //!
 //! Numbers follow the supervisors: GS global, LS local, AS adapters, CS contextual, GM observation
-//! module, WD watchdog, DP the permit to move, M the robot. Texts are in the language of `cotama
-//! check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds: `round` is
-//! marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`, `after.N.E`
-//! when it has, and `turn.outside` when every net has had its turn.
+//! module, OB observers, WD watchdog, DP the permit to move, M the robot. Texts are in the language
+//! of `cotama check`, about [`delivery`](crate::cotama::delivery) as one net that acts in rounds:
+//! `round` is marked between two rounds, `turn.N.E` when the net `N` is to read the mailbox `E`,
+//! `after.N.E` when it has, and `turn.outside` when every net has had its turn.
 //!
 //! Where the shipped system differs from the model that Durand et al. (TAROS 2010) let us
 //! reconstruct (`verification/tests/rounds/reconstruction.rs`):
@@ -16,7 +16,8 @@
 //! - what moves the robot holds a permit, which `halt` destroys (improved);
 //! - hard failures without a report of their own are reported as `hard` (inferred);
 //! - faults and the operator are two nets; what is really lost is known to the first one alone
-//!   (improved).
+//!   (improved);
+//! - a camera that nobody watches counts as lost (inferred).
 
 use super::guarded::Guarded;
 use super::requirement::{Asked, Requirement, Watch, at_end, requirements, said};
@@ -33,6 +34,9 @@ macro_rules! used_without {
         )
     };
 }
+
+/// Where path following runs.
+const FOLLOWING: &[&str] = &["Optimal", "Reduced", "Odometric", "Degraded"];
 
 requirements! {
     /// The requirements of [`delivery`](crate::cotama::delivery).
@@ -109,12 +113,12 @@ requirements! {
                   unanswered.",
         checked "AG (round & ls.End -> \
                  !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | \
-                 cs.hard.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
+                 cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
                  cs.slow.waiting | cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | \
                  cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
                  gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
                  gom.mcl_flag.waiting | gom.drift_flag.waiting | gom.bumper_flag.waiting | \
-                 gom.planner_flag.waiting | gom.hard_flag.waiting | gom.deadline_flag.waiting | \
+                 gom.planner_flag.waiting | gom.hard_flag.waiting | gom.minor_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
     LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, \
                 unless something vital is lost; and it ends when failures do and everybody goes \
@@ -191,6 +195,8 @@ requirements! {
                  (turn.pf.adapt_mcl & (pf.Optimal | pf.Reduced) -> AX pf.Odometric) & \
                  (after.pf.adapt_sonar -> !pf.adapt_sonar.waiting & (pf.Off | pf.Degraded)) & \
                  (after.pf.adapt_bump -> !pf.adapt_bump.waiting) & \
+                 (after.pf.adapt_minor -> !pf.adapt_minor.waiting) & \
+                 (after.to.adapt_minor -> !to.adapt_minor.waiting) & \
                  (after.to.adapt_sonar -> !to.adapt_sonar.waiting & !to.Full) & \
                  (turn.pf.adapt_rt & pf.Off -> AX pf.Off))",
         said [
@@ -200,7 +206,9 @@ requirements! {
                 &["Optimal", "Reduced", "Odometric"],
                 "limit_speed"
             )
-            .on("adapt_bump")
+            .on("adapt_bump"),
+            said("pf", FOLLOWING, FOLLOWING, "adjust").on("adapt_minor"),
+            said("to", &["Full", "Degraded"], &["Full", "Degraded"], "adjust").on("adapt_minor")
         ];
     AS6 Stated "Who runs without avoidance limits the speed.",
         said [
@@ -227,13 +235,13 @@ requirements! {
     CS3 Inferred "Every flag that tells something new is reported and decided upon in the next \
                   round, once.",
         checked "AG ((turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | \
-                 cs.collision.waiting | cs.hard.waiting | cs.mcl_lost.waiting | \
+                 cs.collision.waiting | cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | \
                  cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
                  cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | \
                  gom.vital_flag.waiting | gom.wifi_flag.waiting | gom.camera_flag.waiting | \
                  gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | \
                  gom.drift_flag.waiting | gom.bumper_flag.waiting | gom.planner_flag.waiting | \
-                 gom.hard_flag.waiting | gom.deadline_flag.waiting)) & \
+                 gom.hard_flag.waiting | gom.minor_flag.waiting | gom.deadline_flag.waiting)) & \
                  (turn.gom.vital_flag & gom.vital -> AX cs.vital.waiting) & \
                  (turn.gom.wifi_flag & gom.wifi -> AX cs.wifi_lost.waiting) & \
                  (turn.gom.camera_flag & gom.camera -> AX cs.camera.waiting) & \
@@ -244,11 +252,13 @@ requirements! {
                  (turn.gom.bumper_flag -> AX cs.collision.waiting) & \
                  (turn.gom.planner_flag -> AX cs.planner.waiting) & \
                  (turn.gom.hard_flag -> AX cs.hard.waiting) & \
+                 (turn.gom.minor_flag -> AX cs.minor.waiting) & \
                  (turn.gom.deadline_flag -> AX cs.slow.waiting))";
     CS4 Inferred "The adapters are asked only for what they have the modules for.",
         checked "AG (turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | \
-                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting) & !faults.vital) & \
-                 !(to.adapt_sonar.waiting & !(faults.camera & faults.wifi & faults.vital)))";
+                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting | pf.adapt_minor.waiting) & \
+                 !faults.vital) & \
+                 !((to.adapt_sonar.waiting | to.adapt_minor.waiting) & !(faults.camera & faults.wifi & faults.vital)))";
     CS5 Inferred "No operator is asked who cannot be reached, and none is waited for during more \
                   than two rounds.",
         checked "AG ((turn.outside -> !(ls.local_event.waiting & !faults.wifi)) & alone <= 2)",
@@ -262,7 +272,8 @@ requirements! {
                   localisation by particles nor avoidance.",
         checked "AG ((gom.mcl -> gom.sonar) & (gom.avoidance -> gom.sonar) & \
                  (turn.outside -> (gom.avoidance <-> faults.sonar & faults.avoidance) & \
-                 (gom.sonar <-> faults.sonar) & (gom.camera <-> faults.camera) & \
+                 (gom.sonar <-> faults.sonar) & \
+                 (gom.camera <-> faults.camera & faults.watch) & \
                  (gom.wifi <-> faults.wifi) & (gom.vital <-> faults.vital) & \
                  (gom.mcl -> faults.mcl)))",
         tested in "models/tests/cotama_data/availability.rs";
@@ -278,7 +289,7 @@ requirements! {
                  (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & \
                  (turn.gom.drift_flag & gom.suspected -> AX !cs.ambiguous.waiting) & \
                  cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + \
-                 cs.hard.waiting + cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + \
+                 cs.hard.waiting + cs.minor.waiting + cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + \
                  cs.slow.waiting + cs.sonar.waiting + cs.vital.waiting + cs.wifi_lost.waiting + \
                  cs.avoidance.waiting <= 1 & \
                  (gom.suspected & turn.outside & !ls.Planning & \
@@ -286,6 +297,9 @@ requirements! {
                  (gom.suspected & turn.ls.start_drive & ls.Idle -> AX !gom.suspected) & \
                  (gom.suspected & turn.outside & \
                  ls.Planning -> AX (gom.suspected <-> !ls.Following)))";
+    OB1 Inferred "Nobody drives by a camera that nobody watches, but at the ends of two rounds.",
+        checked "AG unwatched_camera <= 2",
+        watched by [used_without!("unwatched_camera", "watch", "to.Full | to.Degraded")];
     WD1 Stated "Fewer violations in a row than the limit raise no real-time fault.",
         tested in "verification/tests/tpn/watchdog.rs";
     WD2 Stated "As many violations in a row as the limit raise one before the next release.",
@@ -336,6 +350,11 @@ const DECISIONS: &str = "AG (\
     (after.cs.collision -> (ls.local_event.waiting <-> gom.wifi & (ls.Planning | pf.Degraded)) & \
         (gs.global_event.waiting <-> !gom.wifi & (ls.Planning | pf.Degraded)) & \
         (pf.adapt_bump.waiting <-> ls.Following & !pf.Degraded)) & \
+    (after.cs.minor -> (pf.adapt_minor.waiting <-> ls.Following) & \
+        (to.adapt_minor.waiting <-> ls.Teleoperated) & \
+        ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + \
+        pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + \
+        to.adapt_sonar.waiting = 0) & \
     (after.cs.hard -> (ls.local_event.waiting <-> gom.wifi & \
         (ls.Planning | ls.Following | ls.Teleoperated)) & \
         (gs.global_event.waiting <-> !gom.wifi & \
@@ -354,7 +373,7 @@ const DECISIONS: &str = "AG (\
     (after.cs.ambiguous | after.cs.collision | after.cs.hard | after.cs.planner | \
         after.cs.camera | after.cs.vital | after.cs.refusal -> \
         pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + \
-        to.adapt_sonar.waiting = 0) & \
+        pf.adapt_minor.waiting + to.adapt_sonar.waiting + to.adapt_minor.waiting = 0) & \
     (turn.outside -> gs.global_event.waiting + ls.local_event.waiting + pf.adapt_rt.waiting + \
         pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + \
-        to.adapt_sonar.waiting <= 1))";
+        pf.adapt_minor.waiting + to.adapt_sonar.waiting + to.adapt_minor.waiting <= 1))";

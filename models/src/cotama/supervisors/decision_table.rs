@@ -23,11 +23,17 @@ net! {
             hard,
             /// The operator's avoidance is lost, and the sonars are not.
             avoidance,
-            mcl_lost, planner, refusal, slow, sonar, vital, wifi_lost,
+            mcl_lost,
+            /// Any other failure that is weak or medium where it happens.
+            minor,
+            planner, refusal, slow, sonar, vital, wifi_lost,
         }
         outputs {
             global_event, local_event, adapt_rt, adapt_mcl, adapt_sonar, adapt_bump,
             adapt_sonar_teleoperation,
+            /// A setting of a module is to change; the cause says which.
+            adapt_minor,
+            adapt_minor_teleoperation,
         }
         transitions {
             slow1 on slow [optimal & level >= 1]: Ready => Ready emit adapt_rt;
@@ -54,6 +60,8 @@ net! {
             hard4 on hard [following & !wifi]: Ready => Ready emit global_event;
             hard5 on hard [teleoperated & wifi]: Ready => Ready emit local_event;
             hard6 on hard [teleoperated & !wifi]: Ready => Ready emit global_event;
+            minor1 on minor [following]: Ready => Ready emit adapt_minor;
+            minor2 on minor [teleoperated]: Ready => Ready emit adapt_minor_teleoperation;
             planner1 on planner [planning & wifi]: Ready => Ready emit local_event;
             planner2 on planner [planning & !wifi]: Ready => Ready emit global_event;
             camera1 on camera [teleoperated & wifi]: Ready => Ready emit local_event;

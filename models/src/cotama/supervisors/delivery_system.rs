@@ -38,12 +38,15 @@ system! {
             cs.adapt_mcl => pf.adapt_mcl mail 1;
             cs.adapt_sonar => pf.adapt_sonar mail 1;
             cs.adapt_bump => pf.adapt_bump mail 1;
+            cs.adapt_minor => pf.adapt_minor mail 1;
             cs.adapt_sonar_teleoperation => to.adapt_sonar mail 1;
+            cs.adapt_minor_teleoperation => to.adapt_minor mail 1;
             gom.slow => cs.slow mail 1;
             gom.ambiguous => cs.ambiguous mail 1;
             gom.collision => cs.collision mail 1;
             gom.planner => cs.planner mail 1;
             gom.hard => cs.hard mail 1;
+            gom.minor => cs.minor mail 1;
             gom.mcl_lost => cs.mcl_lost mail 1;
             gom.sonar_lost => cs.sonar mail 1;
             gom.avoidance_lost => cs.avoidance mail 1;
@@ -107,6 +110,7 @@ system! {
             faults.bumper_flag => gom.bumper_flag mail 1;
             faults.planner_flag => gom.planner_flag mail 1;
             faults.hard_flag => gom.hard_flag mail 1;
+            faults.minor_flag => gom.minor_flag mail 1;
             faults.deadline_flag => gom.deadline_flag mail 1;
             operator.op_teleprogram => ls.op_teleprogram now;
             operator.op_teleoperate => ls.op_teleoperate now;

@@ -165,8 +165,17 @@ net! {
             level: 2 of 2,
         }
         shared { sonar: true, mcl: true }
-        events { adapt_rt, adapt_mcl, adapt_sonar, adapt_bump, pf_start, pf_stop }
-        outputs { limit_speed, reduce_particles }
+        events {
+            adapt_rt, adapt_mcl, adapt_sonar, adapt_bump,
+            /// A setting of a module is to change.
+            adapt_minor,
+            pf_start, pf_stop,
+        }
+        outputs {
+            limit_speed, reduce_particles,
+            /// A setting of a module changes, as long as its cause lasts.
+            adjust,
+        }
         transitions {
             a1 on pf_start [sonar & mcl]: Off => Optimal;
             a2 on pf_start [sonar & !mcl]: Off => Odometric;
@@ -181,6 +190,10 @@ net! {
             a11 on adapt_bump: Optimal => Optimal emit limit_speed;
             a12 on adapt_bump: Reduced => Reduced emit limit_speed;
             a13 on adapt_bump: Odometric => Odometric emit limit_speed;
+            m1 on adapt_minor: Optimal => Optimal emit adjust;
+            m2 on adapt_minor: Reduced => Reduced emit adjust;
+            m3 on adapt_minor: Odometric => Odometric emit adjust;
+            m4 on adapt_minor: Degraded => Degraded emit adjust;
             as1 on pf_stop: Optimal => Off do level = 2;
             as2 on pf_stop: Reduced => Off do level = 2;
             as3 on pf_stop: Odometric => Off;
@@ -191,6 +204,7 @@ net! {
             adapt_mcl in Off;
             adapt_sonar in Off;
             adapt_bump in Off;
+            adapt_minor in Off;
             pf_stop in Off;
         }
         laws {
@@ -235,16 +249,27 @@ net! {
             Degraded,
         }
         shared { sonar: true }
-        events { adapt_sonar, to_start, to_stop }
-        outputs { limit_speed }
+        events {
+            adapt_sonar,
+            /// A setting of a module is to change.
+            adapt_minor,
+            to_start, to_stop,
+        }
+        outputs {
+            limit_speed,
+            /// A setting of a module changes, as long as its cause lasts.
+            adjust,
+        }
         transitions {
             b1 on to_start [sonar]: Off => Full;
             b2 on to_start [!sonar]: Off => Degraded emit limit_speed;
             b3 on adapt_sonar: Full => Degraded emit limit_speed;
+            m1 on adapt_minor: Full => Full emit adjust;
+            m2 on adapt_minor: Degraded => Degraded emit adjust;
             bs1 on to_stop: Full => Off;
             bs2 on to_stop: Degraded => Off;
         }
-        ignore { adapt_sonar in Off; to_stop in Off; }
+        ignore { adapt_sonar in Off; adapt_minor in Off; to_stop in Off; }
         laws {
             invariant(Off & Full & Degraded = 1);
             always_can(Off);

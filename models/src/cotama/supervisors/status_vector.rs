@@ -42,6 +42,8 @@ net! {
             bumper_flag, planner_flag,
             /// Any other failure whose severity is hard where it happens.
             hard_flag,
+            /// Any other failure whose severity is weak or medium where it happens.
+            minor_flag,
             /// Localisation misses its deadline persistently.
             deadline_flag,
             /// A path is planned or followed anew: what was suspected is settled, and may
@@ -50,7 +52,7 @@ net! {
         }
         outputs {
             vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision,
-            planner, hard, slow,
+            planner, hard, minor, slow,
         }
         transitions {
             vital on vital_flag [vital]: Watching => Watching do vital = false emit vital;
@@ -67,6 +69,7 @@ net! {
             bumper on bumper_flag: Watching => Watching emit collision;
             planner on planner_flag: Watching => Watching emit planner;
             hard on hard_flag: Watching => Watching emit hard;
+            minor on minor_flag: Watching => Watching emit minor;
             slow on deadline_flag: Watching => Watching emit slow;
             settled on settle [suspected]: Watching => Watching do suspected = false;
         }

@@ -24,6 +24,8 @@ net! {
             wifi: true,
             /// Power, micro-controller and effectors work.
             vital: true,
+            /// Somebody would see the camera fail.
+            watch: true,
         }
         events {
             lose_vital, lose_wifi, lose_camera, lose_sonar, lose_avoidance, lose_mcl,
@@ -33,16 +35,25 @@ net! {
             /// Any other hard failure; also: no plan is left that keeps the limits of the
             /// mission.
             fail_hard,
+            /// Any other weak or medium failure.
+            fail_slightly,
             overload,
+            /// The observer of the camera stops observing, which is known at once. It is told as
+            /// the loss of the camera.
+            lose_watch,
         }
         outputs {
             vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
-            drift_flag, bumper_flag, planner_flag, hard_flag, deadline_flag,
+            drift_flag, bumper_flag, planner_flag, hard_flag, minor_flag, deadline_flag,
         }
         transitions {
             vital on lose_vital [vital]: Ready => Ready do vital = false emit vital_flag;
             wifi on lose_wifi [wifi]: Ready => Ready do wifi = false emit wifi_flag;
-            camera on lose_camera [camera]: Ready => Ready do camera = false emit camera_flag;
+            camera on lose_camera [camera & watch]:
+                Ready => Ready do camera = false emit camera_flag;
+            /// The camera counts as lost from here on: whether it fails makes no difference.
+            watch on lose_watch [watch & camera]:
+                Ready => Ready do watch = false emit camera_flag;
             sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
             avoidance on lose_avoidance [avoidance]:
                 Ready => Ready do avoidance = false emit avoidance_flag;
@@ -51,6 +62,7 @@ net! {
             bump on bump: Ready => Ready emit bumper_flag;
             no_path on no_path: Ready => Ready emit planner_flag;
             hard on fail_hard: Ready => Ready emit hard_flag;
+            minor on fail_slightly: Ready => Ready emit minor_flag;
             slow on overload: Ready => Ready emit deadline_flag;
         }
         laws { left_to_checker; }

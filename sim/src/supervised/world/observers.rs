@@ -2,7 +2,7 @@
 
 use super::{CLOCKS, Failure, World};
 use crate::run::{Part, PlanCause};
-use crate::supervised::effect::observable;
+use crate::supervised::effect::{observable, raises};
 use crate::supervised::laptop::{Seen, jobs};
 use crate::supervised::plan::{Planning, Progress};
 use crate::supervised::{Decided, PERIOD};
@@ -20,11 +20,11 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let seen = self.newly_seen(scheduler);
         let by_observers = seen.iter().map(|&it| &self.failures[it]);
         let by_observers = by_observers.filter(|it| !is_shown(it, scheduler));
-        let flags = by_observers.map(|it| it.mode.rule().signature.always);
+        let flags = by_observers.map(|it| raises(it.mode, self.decider.observing()));
         let raised = flags.fold(scheduler.flags, Flags::union);
         let first = seen.first().map_or(Modules::NONE, |&it| self.failures[it].part);
         let part = if scheduler.part.is_empty() { first } else { scheduler.part };
-        let works = self.broken().available();
+        let works = self.works();
         let perceived = Perceived { raised, lowered: self.newly_lowered(), part, works };
         let at = self.progress();
         let mut rest = Rest {
@@ -39,6 +39,15 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             let cause = seen.first().copied().or_else(again);
             self.note_finding(&finding, &seen, cause);
         }
+    }
+
+    /// The modules that work, and that somebody would see fail.
+    fn works(&mut self) -> Modules {
+        let broken = self.broken();
+        if self.works.0 != broken {
+            self.works = (broken, broken.relied_on());
+        }
+        self.works.1
     }
 
     /// The failures that are seen from now on.

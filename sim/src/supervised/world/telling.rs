@@ -10,7 +10,7 @@ use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Body, Cause, Configuration, FailureMode, Module, Report, Situation, Word, local,
+    Body, Cause, Configuration, FailureMode, Loss, Module, Report, Situation, Word, local,
 };
 use cotama_models::missions::Does;
 
@@ -179,7 +179,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             x: self.robot.x(),
             link: left.has(Module::Lan)
                 && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
-            camera: left.has(Module::Cam),
+            // Nor is he offered a camera that the robot does not rely on.
+            camera: left.has(Module::Cam) && !self.decider.situation().lost.has(Loss::Camera),
             planner_failed: report == Some(Report::Planner) && self.decider.plannings_failed() < 2,
             can_go_on: self.decider.plannings_failed() < 2
                 && left.covers(Configuration::FollowingOdometric.facts().required),

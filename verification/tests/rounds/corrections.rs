@@ -1,0 +1,89 @@
+//! The decisional level with one rule of the papers taken back at a time: a requirement is broken,
+//! and the shortest way there is named, one event from outside a round.
+
+use crate::delivery::watched;
+use crate::steps::in_one_marking;
+use cotama_core::net::{Arc, Net, Role, Transition};
+use cotama_core::system::{Component, System};
+use cotama_models::cotama::{REQUIREMENTS, delivery};
+use cotama_verification::explicit::{Goal, Graph, Limits};
+use cotama_verification::flat::rounds;
+use cotama_verification::property::{Formula, Question, parse};
+use cotama_verification::pt::Pt;
+
+/// The events from outside on a shortest way to where a requirement is broken; none if it holds.
+fn counterexample(system: &System<'_>, id: &str) -> Option<Vec<String>> {
+    let asked = REQUIREMENTS.iter().find(|it| it.id == id).unwrap().asked.unwrap();
+    let rounds = watched(&rounds(system).unwrap(), asked.watches).unwrap();
+    let pt = Pt::from(&rounds.net().unwrap().view().net());
+    let Question::Formula(formula) = parse(asked.text, &pt).unwrap().question else { panic!() };
+    let Formula::All(path) = formula.simplified() else { panic!("{id}") };
+    let Formula::Globally(law) = *path else { panic!("{id}") };
+    let never = Formula::Not(in_one_marking(&law, &pt).unwrap().into());
+    let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
+    let way = rounds.way(&graph, Goal::new(&never).unwrap())?;
+    let event = |it: Option<(Option<String>, String)>| match it {
+        Some((Some(event), _)) => event.split('.').next_back().unwrap().to_owned(),
+        _ => "idle".to_owned(),
+    };
+    Some(rounds.told(&way).into_iter().map(|it| event(it.outside)).collect())
+}
+
+/// The shipped system with one transition, `net.transition`, and its variants changed; test data,
+/// which lives to the end.
+fn with(
+    name: &str,
+    change: impl Fn(&'static Net<'static>, &mut Transition<'static>),
+) -> System<'static> {
+    let (net, transition) = name.split_once('.').unwrap();
+    let mut components = delivery::SYSTEM.components.to_vec();
+    let it = components.iter_mut().find(|it| it.name == net).unwrap();
+    let mut transitions = it.net.transitions.to_vec();
+    let named = transitions.iter_mut().filter(|it| it.name.split('.').next() == Some(transition));
+    assert_ne!(named.map(|of| change(it.net, of)).count(), 0, "{name}");
+    let net = Box::leak(Box::new(Net { transitions: transitions.leak(), ..*it.net }));
+    *it = Component { name: it.name, net };
+    System { components: components.leak(), ..delivery::SYSTEM }
+}
+
+/// It says nothing.
+fn silent(name: &str) -> System<'static> {
+    with(name, |_, it| it.emits = &[])
+}
+
+/// It does not look at this flag.
+fn without(name: &str, flag: &str) -> System<'static> {
+    with(name, |net, it| {
+        let is_it = |arc: &Arc| {
+            let place = &net.places[arc.place.0 as usize];
+            let of = if let Role::Complement(of) = place.role { of } else { arc.place };
+            net.places[of.0 as usize].name == flag
+        };
+        let kept: Vec<_> = it.read.iter().copied().filter(|arc| !is_it(arc)).collect();
+        assert_ne!(kept.len(), it.read.len(), "{name} does not look at {flag}");
+        it.read = kept.leak();
+    })
+}
+
+/// What was changed, the requirement that it breaks, and how.
+fn found(what: &str, system: &System<'_>, id: &str, way: &str) {
+    let expected: Vec<_> = way.split(' ').map(str::to_owned).collect();
+    assert_eq!(counterexample(system, id), Some(expected), "{what}: {id}");
+}
+
+/// The table as it was: an observer that stops observing is nobody's news.
+#[test]
+fn a_watch_that_is_lost_in_silence_lets_the_operator_drive_blind() {
+    let mutant = silent("faults.watch");
+    let way = "mission_received drift lose_watch teleoperate idle idle";
+    found("nobody is told", &mutant, "OB1", way);
+    found("nobody is told", &mutant, "GM1", "lose_watch idle");
+}
+
+/// It is told, and the operator may drive all the same.
+#[test]
+fn a_start_of_the_operator_that_does_not_ask_for_the_camera_is_found() {
+    let mutant = without("ls.l7", "camera");
+    let way = "mission_received drift lose_watch teleoperate idle idle";
+    found("camera not asked for", &mutant, "OB1", way);
+}
