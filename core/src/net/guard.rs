@@ -44,10 +44,18 @@ impl Source<'_> {
     /// The place of such a pair.
     #[track_caller]
     pub(super) const fn ignored_in(&self, it: &Ignore<'_>, named: usize, pair: usize) -> PlaceId {
-        let text = Text::new().with("net ").name(self.name).with(", ignore: ");
-        match self.find(it.places[named]) {
-            Found::Group(group) => self.place(text, self.groups[group].members[pair], Meant::Place),
-            _ => self.place(text, it.places[named], Meant::AnyOrGroup),
+        let name = it.places[named];
+        let found = match self.find(name) {
+            Found::Group(group) => self.find(self.groups[group].members[pair]),
+            found => found,
+        };
+        match found {
+            Found::Place(place) | Found::Data(place, _) => PlaceId(place as u32),
+            // A text takes time to make: only what is not there needs it.
+            _ => {
+                let text = Text::new().with("net ").name(self.name).with(", ignore: ");
+                self.place(text, name, Meant::AnyOrGroup)
+            }
         }
     }
 

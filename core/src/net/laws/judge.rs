@@ -279,8 +279,11 @@ impl<const W: usize> Graph<W> {
     ) -> bool {
         let mut at = 0;
         while at < net.ignored.len() {
-            let it = net.ignored[at];
-            if it.event.0 as usize == event && self.tokens(code, it.place, class) > 0 {
+            // Most are of other events: as little as possible is read of them.
+            if net.ignored[at].event.0 as usize == event
+                && self.tokens(code, net.ignored[at].place, class) > 0
+            {
+                let it = &net.ignored[at];
                 let mut asked = 0;
                 while asked < it.guard.len()
                     && self.tokens(code, it.guard[asked].place, class) >= it.guard[asked].weight
