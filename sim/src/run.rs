@@ -1,7 +1,7 @@
 //! What a run comes to.
 
 use cotama_core::units::Millis;
-use cotama_models::cotama::FailureMode;
+use cotama_models::cotama::{FailureMode, Health, Module, Resource};
 use cotama_models::missions::infeasible::amount;
 use cotama_models::missions::{AXES, Mission};
 use serde::{Deserialize, Serialize};
@@ -152,13 +152,42 @@ pub enum PlanCause {
         /// The index of the hardware.
         hardware: usize,
     },
+    /// A part of a supervised robot is known to be broken.
+    Lost(Part),
+    /// It is known to be sound again.
+    Back(Part),
     /// The margins leave room for a better plan.
     Room,
 }
 
+/// What broke: a thing, or else a module.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Part {
+    /// A thing that modules stand on, as the sonar arrays.
+    Resource(Resource),
+    /// A module itself.
+    Module(Module),
+}
+
+impl Part {
+    /// What is broken first of all; none when nothing is.
+    pub fn of(broken: Health) -> Option<Self> {
+        let resource = broken.lost.first().map(Self::Resource);
+        resource.or_else(|| broken.faulty.first().map(Self::Module))
+    }
+
+    /// Its name: `sonar arrays`, `MCL`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Resource(it) => it.name(),
+            Self::Module(it) => it.name(),
+        }
+    }
+}
+
 impl PlanCause {
-    /// In words: `start`, `energy margin below zero`, `one laser lost`, `UST back`, `room for a
-    /// better plan`.
+    /// In words: `start`, `energy margin below zero`, `one laser lost`, `sonar arrays
+    /// lost`, `MCL back`, `room for a better plan`.
     pub fn text(self, mission: &Mission) -> String {
         match self {
             Self::Start => "start".into(),
@@ -174,6 +203,8 @@ impl PlanCause {
                 let name = mission.hardware.get(hardware).map_or("hardware", |it| it.name.as_str());
                 format!("{name} back")
             }
+            Self::Lost(part) => format!("{} lost", part.name()),
+            Self::Back(part) => format!("{} back", part.name()),
             Self::Room => "room for a better plan".into(),
         }
     }

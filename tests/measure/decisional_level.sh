@@ -43,9 +43,9 @@ size() {
     printf '  %-42s %6d + %5d = %6d\n' "$1" "$code" "$tables" $((code + tables))
 }
 echo "code + tables, each linked alone, in bytes; what they share counts in each"
-level=(new tell round observe schedule watch)
+level=(new perceive decide schedule watch)
 size "supervisors: event and round" tell round
-size "diagnosis and decision" observe
+size "the decider: from flags to requests" perceive decide
 size "executive: schedule and watchdogs" schedule
 size "margins" watch
 size "allocation by the rule, mission tables" plan_by_rule

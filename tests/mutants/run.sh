@@ -10,16 +10,16 @@
 #
 #   mutant: what is wrong, in plain words
 #   file: path below verification/src
-#   test: the target that kills it, where it is not the one of the engine
-#   by: the test that kills it, tried first; the whole test target is run only when it does not;
-#       `time` when the target hangs
+#   test: the module of tests/engines.rs that kills it, where it is not the one of the engine
+#   by: the test that kills it, tried first; the whole module is run only when it does not;
+#       `time` when the module hangs
 #   - text that occurs exactly once in the file, of one or more lines
 #   + text in its place
 #   equivalent: why no test can tell the difference; then it is not run
 #
-# Each mutant costs one incremental build of the crate and of one test target, and one test. Before,
-# the tests that are named in a list are run once without a defect; a test that kills and is not
-# named is run again without the defect, after it. SECONDS_PER_RUN (default 120) is how long tests
+# Each mutant costs one incremental build of the crate and of its test program, and one test.
+# Before, the tests that are named in a list are run once without a defect; a test that kills and is
+# not named is run again without the defect, after it. SECONDS_PER_RUN (default 120) is how long tests
 # may take: one that hangs is killed by time. Exits 1 when a mutant survives, does not compile, or
 # its text is not found, or when a test fails without a defect.
 set -euo pipefail
@@ -34,9 +34,9 @@ limit=${SECONDS_PER_RUN:-120}
 declare -A target_of=([explicit]=statespace [certificate]=certificates)
 bad=0
 
-# Builds the tests of a target; prints where they are.
+# Builds the tests of the engines; prints where they are.
 build() {
-    (cd "$copy" && cargo test --offline -p cotama-verification --test "$1" --no-run \
+    (cd "$copy" && cargo test --offline -p cotama-verification --test engines --no-run \
         --message-format=json) \
         2>"$work/build.log" | sed -n 's/.*"executable":"\([^"]*\)".*/\1/p' | tail -1
 }
@@ -58,12 +58,12 @@ first_failure() {
     case $status in 0) ;; 124) echo time ;; *) echo "a crash" ;; esac
 }
 
-# Ends it all when tests of a target fail without a defect.
+# Ends it all when tests of these names, or with these beginnings, fail without a defect.
 sound() {
     local tests failure
-    tests=$(build "$1")
-    failure=$(first_failure "$tests" "${@:2}")
-    [[ -z $failure ]] || { echo "$engine: without a defect $failure fails in $1" >&2; exit 1; }
+    tests=$(build)
+    failure=$(first_failure "$tests" "$@")
+    [[ -z $failure ]] || { echo "$engine: without a defect $failure fails" >&2; exit 1; }
 }
 
 report() { printf '%s: %s: %s\n' "$engine" "$mutant" "$1"; }
@@ -85,19 +85,20 @@ try() {
     fi
     cp -p "$path" "$work/original"
     printf %s "$before$new${after%x}" >"$path"
-    if tests=$(build "$target") && [[ -n $tests ]]; then
-        [[ -z $by || $by == time ]] || killer=$(first_failure "$tests" --exact "$by")
+    if tests=$(build) && [[ -n $tests ]]; then
+        [[ -z $by || $by == time ]] ||
+            killer=$(first_failure "$tests" --exact "$target::$by")
         if [[ -z $killer ]]; then
-            killer=$(first_failure "$tests")
+            killer=$(first_failure "$tests" "$target::")
             cat "$work/original" >"$path"
             case $killer in
                 '') ;;
-                time | 'a crash') sound "$target" ;;
-                *) sound "$target" --exact "$killer" ;;
+                time | 'a crash') sound "$target::" ;;
+                *) sound --exact "$killer" ;;
             esac
         fi
         if [[ -n $killer ]]; then
-            report "killed by $killer"
+            report "killed by ${killer#"$target"::}"
         else
             report SURVIVED
             bad=1
@@ -117,9 +118,10 @@ run() {
         mapfile -t names < <(awk -v usual="$usual" -v wanted="$name" '
             /^mutant: / { target = usual }
             /^test: / { target = $2 }
-            /^by: / && $2 != "time" && target == wanted { print $2 }' "$lists/$engine.txt" |
+            /^by: / && $2 != "time" && target == wanted { print wanted "::" $2 }' \
+            "$lists/$engine.txt" |
             sort -u)
-        [[ ${#names[@]} == 0 ]] || sound "$name" --exact "${names[@]}"
+        [[ ${#names[@]} == 0 ]] || sound --exact "${names[@]}"
     done
     mutant=
     while IFS= read -r line; do

@@ -1,12 +1,10 @@
 //! Drawings of small nets, byte for byte, and what holds for drawings of any net.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test drawings` writes the expected files
-//! anew.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test nets drawings` writes the expected
+//! files anew.
 
-#[path = "drawings/nets.rs"]
 mod nets;
-#[path = "drawings/xml.rs"]
-mod xml;
+pub(crate) mod xml;
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, Role, TransitionId};

@@ -1,5 +1,5 @@
 //! Broken PNML files and what is said about them. The messages are in
-//! `tests/golden/pnml/broken.txt`; `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test
+//! `tests/golden/pnml/broken.txt`; `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test nets
 //! pnml_broken` writes them again.
 
 use cotama_verification::pnml::{self, Limits, PnmlErrors};

@@ -56,6 +56,7 @@
 //! ```
 
 mod latest;
+mod requests;
 mod response;
 mod scheduler;
 mod task;
@@ -63,6 +64,7 @@ mod task;
 mod tests;
 
 pub use latest::{Latest, Publication};
+pub use requests::Request;
 pub use response::{Overruns, Unschedulable};
 pub use scheduler::{Executive, Happening, NotRunning, Watchdog, What};
 pub use task::{ITERATIONS, Senseless, Task, TaskError, TaskSet};

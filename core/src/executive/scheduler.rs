@@ -98,16 +98,19 @@ impl core::error::Error for NotRunning {}
 
 /// The watchdog and the job of one module.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Module {
-    watchdog: Watchdog,
+pub(super) struct Module {
+    pub(super) watchdog: Watchdog,
     /// Deadlines missed in a row; at most the patience of the task.
-    misses: u8,
+    pub(super) misses: u8,
     /// Of the job under way.
     released: Micros,
-    /// Processor time of the job under way; at most the budget of the task.
+    /// Processor time of the job under way; at most the budget of the task, where it is bounded.
     used: Micros,
-    /// The next release; `None` when there is none in 64 bits.
-    release: Option<Micros>,
+    /// The next release; `None` when there is none in 64 bits, or the module is stopped.
+    pub(super) release: Option<Micros>,
+    /// The next job has a deadline and a limit of processor time; so has the job under way.
+    pub(super) constrained: bool,
+    bounded: bool,
 }
 
 /// The scheduler of `N` periodic modules and their watchdogs.
@@ -136,9 +139,9 @@ struct Module {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Executive<const N: usize> {
-    tasks: [Task; N],
-    modules: [Module; N],
-    now: Micros,
+    pub(super) tasks: [Task; N],
+    pub(super) modules: [Module; N],
+    pub(super) now: Micros,
 }
 
 impl<const N: usize> Executive<N> {
@@ -154,6 +157,8 @@ impl<const N: usize> Executive<N> {
             released: Micros::ZERO,
             used: Micros::ZERO,
             release: Some(task.offset),
+            constrained: true,
+            bounded: true,
         });
         Ok(Self { tasks, modules, now: Micros::ZERO })
     }
@@ -278,12 +283,12 @@ impl<const N: usize> Executive<N> {
         let running = self.running();
         let mut first: Option<(Micros, usize, Due)> = None;
         for (at, task, module) in self.numbered() {
-            let exhausted = (running == Some(at))
+            let exhausted = (running == Some(at) && module.bounded)
                 .then(|| {
                     self.now.checked_add(Micros(task.budget().0.saturating_sub(module.used.0)))
                 })
                 .flatten();
-            let deadline = (module.watchdog == Watchdog::Run)
+            let deadline = (module.watchdog == Watchdog::Run && module.bounded)
                 .then(|| module.released.checked_add(task.deadline))
                 .flatten();
             // Fits, in a task that makes sense.
@@ -330,6 +335,7 @@ impl<const N: usize> Executive<N> {
                             watchdog: Watchdog::Run,
                             released: now,
                             used: Micros::ZERO,
+                            bounded: module.constrained,
                             ..*module
                         };
                         What::Released
@@ -343,7 +349,7 @@ impl<const N: usize> Executive<N> {
     }
 
     /// Lets time pass, during which nothing is due: the job that has the processor uses it.
-    fn pass(&mut self, now: Micros) {
+    pub(super) fn pass(&mut self, now: Micros) {
         let passed = now.0.saturating_sub(self.now.0);
         let running = self.running().and_then(|task| self.modules.get_mut(task));
         if let Some(module) = running {
@@ -360,7 +366,7 @@ impl Module {
     }
 
     const fn wants_processor(&self, task: &Task) -> bool {
-        self.is_at_work() && self.used.0 < task.budget().0
+        self.is_at_work() && (!self.bounded || self.used.0 < task.budget().0)
     }
 
     /// Ends a late job; whether that is a fault.

@@ -60,6 +60,10 @@ impl Task {
         Micros(self.cost.0.saturating_add(self.extra.0))
     }
 
+    pub(super) const fn is_senseless(&self) -> bool {
+        self.flaw().is_some()
+    }
+
     /// Why it makes no sense, if it does not.
     const fn flaw(&self) -> Option<Senseless> {
         let Some(end) = self.deadline.checked_add(self.extra) else {

@@ -1,6 +1,7 @@
 //! The decisional level with names in place of numbers: what the robot tells it, and what it
 //! decided.
 
+use super::decider::Decider;
 use super::decisions::{Loss, Losses, Situation};
 use super::modules::{Configuration, Module, Modules};
 use super::supervisors::{
@@ -155,6 +156,14 @@ pub struct Level<P, const W: usize, const C: usize, const S: usize>(Player<P, W,
 /// assert!(level.permit().is_some());
 /// ```
 pub type DecisionalLevel = Level<
+    delivery::Program,
+    { delivery::SIZE.words },
+    { delivery::SIZE.clocks },
+    { delivery::SIZE.slots },
+>;
+
+/// All of it, from flags to requests.
+pub type DeliveryDecider = Decider<
     delivery::Program,
     { delivery::SIZE.words },
     { delivery::SIZE.clocks },

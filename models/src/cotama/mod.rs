@@ -10,6 +10,7 @@
 //! the diagnosis of flags ([`diagnose`]). Every fact says whether it is stated, inferred or
 //! assumed, by its [`Label`] or in its documentation.
 
+mod decider;
 mod decisions;
 mod dependability;
 mod label;
@@ -19,12 +20,16 @@ mod modules;
 mod requirements;
 mod supervisors;
 
+pub use decider::{
+    Body, Decider, Finding, Judged, NoPlanLeft, NoPlans, PATIENCE, PATIENCE_WITH_PLANNER,
+    Perceived, Plans, Requests, Round, Why, Word,
+};
 pub use decisions::*;
 pub use dependability::*;
 pub use label::Label;
 #[cfg(feature = "std")]
 pub(crate) use level::WAIT_OVER;
-pub use level::{Cause, DecisionalLevel, Level, Permit, Return, Told};
+pub use level::{Cause, DecisionalLevel, DeliveryDecider, Level, Permit, Return, Told};
 pub use modules::*;
 pub use requirements::*;
 pub use supervisors::*;

@@ -72,6 +72,7 @@ fn its_script_is_the_timeline_of_the_seven_points() {
         .collect();
     let timeline = [
         "3000 RT1",
+        "11000 RT1 ends",
         "12000 LOC2",
         "12000 teleoperate teleprogram path",
         "26000 SON1",

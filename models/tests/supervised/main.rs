@@ -5,6 +5,7 @@
 #![cfg(feature = "std")]
 
 mod broken;
+mod decider;
 mod delivery;
 mod file;
 mod nets;

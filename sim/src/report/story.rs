@@ -105,7 +105,8 @@ fn planned(view: &View<'_>) -> String {
             "duration margin below zero" => "as the duration margin had come below zero".to_owned(),
             "room for a better plan" => "as the margins had grown".to_owned(),
             cause if cause.ends_with(" lost") => {
-                format!("as {} was lost", &cause[..cause.len() - 5])
+                let what = &cause[..cause.len() - 5];
+                format!("as {what} {} lost", if what.ends_with('s') { "were" } else { "was" })
             }
             cause => format!("because of {cause}"),
         };

@@ -89,13 +89,15 @@ pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool) 
     match mode {
         F::Son1 | F::Son3 | F::Odo1 | F::Odo2 | F::Odo3 | F::Odo4 | F::Mot2 => moving,
         F::Mot1 | F::Mot3 | F::Whl1 | F::Bmp1 | F::Bmp2 | F::Col1 => wants_to_move(running),
-        F::Rt1 | F::Loc1 => uses(Module::Mcl),
+        F::Loc1 => uses(Module::Mcl),
         F::Loc2 | F::Hum1 => matches!(situation.local, local::State::Following),
         F::Loc3 => {
             matches!(running, Some(Configuration::FollowingDegraded)) && wants_to_move(running)
         }
         F::Ppl1 => matches!(situation.local, local::State::Planning),
-        F::Opr1 => false, // the patience of the robot is the operator's side of the simulation
+        // The scheduler sees what arises from the modules at work, and the decider misses the
+        // operator.
+        F::Rt1 | F::Rt2 | F::Rt3 | F::Sw1 | F::Opr1 => false,
         F::Cam2 => matches!(situation.local, local::State::Teleoperated),
         _ => true,
     }

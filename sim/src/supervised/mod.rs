@@ -12,6 +12,7 @@
 //! ```
 
 mod effect;
+mod laptop;
 pub mod operator;
 mod plan;
 pub mod robot;
@@ -19,6 +20,7 @@ pub mod story;
 mod summary;
 mod world;
 
+pub use cotama_models::cotama::Judged;
 pub use effect::{Effect, Ends, Motion, effect};
 pub use operator::Answers;
 pub use world::{PERIOD, PLANNING};
@@ -32,8 +34,8 @@ use cotama_core::player::{Packed, Program};
 use cotama_core::system::{Component, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
-    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Report, Severity, Told,
-    delivery, global, local, recovering,
+    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Told, delivery, global,
+    local, recovering,
 };
 use cotama_models::missions::faults::{Faults, IncidentKind};
 use cotama_models::missions::{Does, Mission};
@@ -157,18 +159,6 @@ pub struct Conduct {
     pub exposed: Millis,
 }
 
-/// How a diagnosis was judged: the two rules of the contextual supervisor (Durand et al., TAROS
-/// 2010, Sections III.C and V.B; that the worse class wins is inferred).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Judged {
-    /// The report to the contextual supervisor; none for what is recorded only.
-    pub report: Option<Report>,
-    /// How severe it is in the autonomy mode of the robot.
-    pub severity: Severity,
-    /// The class by what is still available there.
-    pub by_availability: Class,
-}
-
 /// What the contextual supervisor made of a report.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Decided {
@@ -234,6 +224,8 @@ pub struct Run {
     /// The longest time that the robot moved while a module was broken that its configuration
     /// requires.
     pub exposed: Millis,
+    /// The age of the oldest pose of localisation that a configuration with localisation moved by.
+    pub oldest_pose: Millis,
     /// The longest way that it went on after the permit to move was gone.
     pub braked: Millimetres,
     /// Whether it moved after it was safe: never, or a supervisor is wrong.

@@ -7,8 +7,6 @@ use std::collections::VecDeque;
 
 /// How long he takes to answer a request, to look around, and to edit: assumed.
 pub const ANSWERS_AFTER: Millis = Millis(8_000);
-/// How long the robot waits for him before it gives up: assumed (FMECA, row OPR1).
-pub const PATIENCE: Millis = Millis(120_000);
 
 /// What he answers to a request.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -28,8 +26,6 @@ pub(super) struct Operator {
     next: VecDeque<Answer>,
     delay: Millis,
     since: Millis,
-    /// Since when the robot has stood while he drives it.
-    stands_since: Millis,
     place: local::State,
 }
 
@@ -50,8 +46,6 @@ pub(super) struct View {
     pub(super) can_go_on: bool,
     /// The goal of the drive is reached.
     pub(super) at_goal: bool,
-    /// The robot moves.
-    pub(super) moves: bool,
 }
 
 impl Operator {
@@ -59,35 +53,19 @@ impl Operator {
     pub(super) fn new(script: impl IntoIterator<Item = Answers>) -> Self {
         let place = local::State::Idle;
         let script = script.into_iter().collect();
-        Self {
-            script,
-            next: VecDeque::new(),
-            delay: ANSWERS_AFTER,
-            since: Millis(0),
-            stands_since: Millis(0),
-            place,
-        }
+        Self { script, next: VecDeque::new(), delay: ANSWERS_AFTER, since: Millis(0), place }
     }
 
     /// What he says now, if anything.
     pub(super) fn says(&mut self, now: Millis, view: View) -> Option<operator::Event> {
         use local::State as Place;
         if view.place != self.place {
-            (self.place, self.since, self.stands_since) = (view.place, now, now);
+            (self.place, self.since) = (view.place, now);
             if view.place == Place::HandOver {
                 self.hear(view);
             }
         }
         let waited = now.0.saturating_sub(self.since.0);
-        if view.moves {
-            self.stands_since = now;
-        }
-        let stood = now.0.saturating_sub(self.stands_since.0);
-        // That he is silent is noticed on the robot, whether he hears of it or not; that it does
-        // not obey him, by him.
-        if waited >= PATIENCE.0 && stood >= PATIENCE.0 {
-            return Some(operator::Event::gives_up);
-        }
         let goes = view.place == Place::Teleoperated && self.next.front() == Some(&Answer::Goal);
         if !view.link || waited < self.delay.0 || (goes && !view.at_goal) {
             return None;

@@ -157,9 +157,10 @@ impl<'m> Planning<'m> {
         scenario.order.into_iter().find(|&axis| at.used[axis] + rest[axis] > scenario.limits[axis])
     }
 
-    /// The configuration that is planned for an activity; none for one that does not drive.
-    pub(super) fn configuration(&self, activity: usize) -> Option<Configuration> {
-        self.configurations[activity][usize::from(self.choice[activity])]
+    /// The configuration that is planned for the first drive from an activity on.
+    pub(super) fn next_drive(&self, activity: usize) -> Option<Configuration> {
+        let planned = self.configurations.iter().zip(&self.choice).skip(activity);
+        { planned }.find_map(|(it, choice)| it[usize::from(*choice)])
     }
 
     /// What an activity takes in a configuration: speed and power; the planned alternative when

@@ -109,7 +109,7 @@ impl Rung {
 /// assert_eq!(points[1].title(), "RT1: MCL, deadline missed again and again");
 /// assert_eq!(
 ///     points[1].decided().unwrap(),
-///     "after 0.3 s: medium, so the adapter takes fewer particles (slow1)"
+///     "after 0.4 s: medium, so the adapter takes fewer particles (slow1)"
 /// );
 /// ```
 pub fn points(records: &[Record]) -> Vec<Point<'_>> {

@@ -1,35 +1,31 @@
 //! One supervised mission, period after period.
 //!
-//! In each period, in this order: what is to fail fails; the robot goes on; observers raise their
-//! flags, which are diagnosed; the supervisors take one round and are then told *one* thing, the
-//! oldest failure first, else what the mission or the operator has to say. So a run is a run of the
-//! system that was checked: [`Told`] is its alphabet, and the list of what was told, a round each,
-//! is all that is needed to check that it is one.
+//! In each period, in this order: what is to fail fails; the robot goes on; observers raise and
+//! lower their flags; the [`Decider`], which the microcontroller runs as well, makes requests of
+//! them. So a run is a run of the system that was checked, and the list of what was told, a round
+//! each, is all that is needed to check that it is one.
 
 use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
+use super::laptop::{Disturbances, Laptop, Seen, jobs};
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
 use super::{Conduct, Injection, Run, Script, When, shipped};
 use crate::options::Planner;
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
-use cotama_core::net::{Net, PlaceId};
+use cotama_core::net::Net;
 use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Cause, FailureMode, Flags, Health, Level, Losses, Modules, Situation, Told, local, recovering,
+    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, load, local, recovering,
 };
 use cotama_models::missions::Mission;
 use objective::Objective;
-use recovery::Recovery;
-use std::collections::VecDeque;
 
-mod adaptation;
-mod diagnosis;
 mod objective;
+mod observers;
 mod records;
-mod recovery;
 mod telling;
 
 pub(super) use records::Recorded;
@@ -52,6 +48,16 @@ struct Failure {
     seen: Millis,
     since: Millis,
     over: bool,
+    /// Its flags have gone back.
+    lowered: bool,
+}
+
+impl Failure {
+    /// What it does to motion; without the scheduler nothing is commanded.
+    fn motion(&self) -> Motion {
+        let scheduler = self.mode == FailureMode::Sw1 && self.part.has(Module::Sch);
+        if scheduler && !self.over { Motion::Mindless } else { effect(self.mode).motion }
+    }
 }
 
 /// A mission under way.
@@ -61,35 +67,25 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     system: System<'static>,
     global_net: Net<'m>,
     waiting: Vec<Injection>,
-    level: Level<P, W, CLOCKS, S>,
+    decider: Decider<P, W, CLOCKS, S>,
+    /// Which failure each finding of the decisional level goes back to, from 1; 0 for none.
+    causes: Vec<u16>,
     now: Millis,
     robot: Robot,
+    laptop: Laptop,
+    /// Rounds since a report was told.
+    quiet: u32,
     operator: Operator,
     failures: Vec<Failure>,
-    /// What is diagnosed.
-    known: Health,
-    /// The hysteresis of what may return; none where nothing does.
-    recovery: Option<Recovery>,
-    /// What the supervisors take for lost: what is diagnosed, and what the plan does without.
-    lost: Losses,
-    /// What the supervisors are still to be told.
-    untold: VecDeque<(Told, Cause)>,
     planning: Planning<'m>,
-    situation: Situation,
-    /// Since when the local supervisor and the global one are where they are, and when each place
-    /// was first reached.
-    local_since: Millis,
-    global: PlaceId,
+    /// Since when the global supervisor is where it is, and when each place of the local one was
+    /// first reached.
     global_since: Millis,
     first: Vec<(local::State, Millis)>,
     permitted: bool,
     /// The place at which the permit was withdrawn.
     withdrawn: Option<Millimetres>,
     exposed: Millis,
-    /// How often the planner gave no answer.
-    plannings_failed: u32,
-    /// A limit cannot be kept, and the operator knows.
-    resigned: bool,
     energy_uj: u64,
     run: Run,
 }
@@ -106,32 +102,28 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         let mut planning = Planning::new(mission, planner);
         let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
         planning.plan(PlanCause::Start, start, Modules::ALL)?;
-        let level = Level::start(program);
-        let mut world = Self {
+        let objectives = mission.objectives.len() as u32;
+        let decider = Decider::start(program, objectives, planning.next_drive(0));
+        let decider = if mission.recovery { decider.with_returns() } else { decider };
+        Ok(Self {
             mission,
             system: shipped(mission),
             global_net,
             waiting: script.injections.clone(),
-            situation: level.situation(Losses::NONE),
-            global: level.global(),
-            level,
+            decider,
+            causes: Vec::new(),
             now: Millis(0),
             robot: Robot::default(),
+            laptop: Laptop::new(),
+            quiet: 0,
             operator: Operator::new(script.answers.iter().cloned()),
             failures: Vec::new(),
-            known: Health::SOUND,
-            recovery: mission.recovery.then(Recovery::default),
-            lost: Losses::NONE,
-            untold: VecDeque::new(),
             planning,
-            local_since: Millis(0),
             global_since: Millis(0),
             first: Vec::new(),
             permitted: false,
             withdrawn: None,
             exposed: Millis(0),
-            plannings_failed: 0,
-            resigned: false,
             energy_uj: 0,
             run: Run {
                 outcome: Outcome::Failed,
@@ -146,12 +138,11 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 configurations: Vec::new(),
                 plans: Vec::new(),
                 exposed: Millis(0),
+                oldest_pose: Millis(0),
                 braked: Millimetres(0),
                 moved_when_safe: false,
             },
-        };
-        world.do_without(Cause(0));
-        Ok(world)
+        })
     }
 
     /// One period; whether the mission is over.
@@ -159,9 +150,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.fail();
         self.travel();
         if self.thinks() {
-            self.observe();
-            self.recover();
-            self.watch_margins();
+            let seen = self.compute();
+            self.observe(seen);
             self.take_a_round();
         }
         self.now.0 += PERIOD.0;
@@ -188,9 +178,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.run
     }
 
-    /// Whether the laptop is up.
+    /// Whether the laptop is up, and its scheduler.
     fn thinks(&self) -> bool {
-        !self.failures.iter().any(|it| effect(it.mode).motion == Motion::Mindless)
+        !self.failures.iter().any(|it| it.motion() == Motion::Mindless)
     }
 
     /// How a mission ends whose objectives are done.
@@ -226,12 +216,13 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 seen: Millis(0),
                 since: now,
                 over: false,
+                lowered: false,
             });
             self.run.conduct.push(Conduct {
                 mode,
                 injected: now,
                 x,
-                during: self.situation.local,
+                during: self.decider.situation().local,
                 detected: None,
                 flags: Flags::NONE,
                 judged: None,
@@ -240,6 +231,30 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 exposed: Millis(0),
             });
         }
+    }
+
+    /// The modules that were asked for compute for a period, disturbed by what fails.
+    fn compute(&mut self) -> Seen {
+        let situation = self.decider.situation();
+        let runs = situation.configuration().unwrap_or(Configuration::Security);
+        let wanted = runs.scheduled().common(self.decider.available());
+        self.laptop.run(wanted, load::PARTICLES[usize::from(situation.level.min(2))]);
+        let mut disturbed = Disturbances::default();
+        for it in self.failures.iter().filter(|it| !it.over) {
+            match it.mode {
+                FailureMode::Rt1 => disturbed.programs += 1,
+                FailureMode::Rt2 => disturbed.hiccup |= it.since == self.now,
+                FailureMode::Rt3 => disturbed.slow = disturbed.slow.union(jobs(it.part)),
+                FailureMode::Sw1 => disturbed.crashed = disturbed.crashed.union(jobs(it.part)),
+                _ => {}
+            }
+        }
+        let seen = self.laptop.work(disturbed);
+        let used = runs.facts().required.has(Module::Mcl) && self.robot.speed().0 > 0;
+        if let (true, Some(age)) = (used, self.laptop.age(Module::Mcl)) {
+            self.run.oldest_pose = self.run.oldest_pose.max(age);
+        }
+        seen
     }
 
     /// What is broken, known or not.
@@ -258,17 +273,21 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             return;
         };
         let activity = self.activity();
-        let (pace, power) = self.planning.pace(activity, self.situation.configuration());
+        let (pace, power) = self.planning.pace(activity, self.decider.situation().configuration());
         // Only who holds a permit may command motion.
         let command =
-            self.level.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
+            self.decider.permit().map_or(MillimetresPerSecond(0), |_permit| self.speed(pace));
         let mut towards = command;
         let mut blocked = false;
         for failure in self.failures.iter().filter(|it| !it.over) {
-            match effect(failure.mode).motion {
-                Motion::Blocked => blocked |= observable(failure.mode, self.situation, true),
+            match failure.motion() {
+                Motion::Blocked => {
+                    blocked |= observable(failure.mode, self.decider.situation(), true);
+                }
                 Motion::Slowed(parts) => towards.0 = towards.0 * u64::from(parts) / 1000,
-                Motion::Runaway if !self.level.halted() => towards = self.mission.robot.speed_max,
+                Motion::Runaway if !self.decider.requests().halt => {
+                    towards = self.mission.robot.speed_max;
+                }
                 Motion::Silent | Motion::Mindless
                     if self.now.0 >= failure.since.0 + FIRMWARE_WATCHDOG.0 =>
                 {
@@ -281,7 +300,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 }
             }
         }
-        let end = if blocked && self.situation.local != local::State::Teleoperated {
+        let end = if blocked && self.decider.situation().local != local::State::Teleoperated {
             self.robot.x()
         } else {
             self.end()
@@ -315,16 +334,22 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
 
     /// How fast the running configuration goes.
     fn speed(&self, pace: MillimetresPerSecond) -> MillimetresPerSecond {
-        let limit =
-            self.situation.configuration().map_or(MillimetresPerSecond(0), |it| it.facts().speed);
+        let limit = self
+            .decider
+            .situation()
+            .configuration()
+            .map_or(MillimetresPerSecond(0), |it| it.facts().speed);
         pace.min(limit)
     }
 
     /// What must never happen, or not for long.
     fn measure(&mut self) {
         let moving = self.robot.speed().0 > 0;
-        let required =
-            self.situation.configuration().map_or(Modules::NONE, |it| it.facts().required);
+        let required = self
+            .decider
+            .situation()
+            .configuration()
+            .map_or(Modules::NONE, |it| it.facts().required);
         let exposed = moving && !self.broken().available().covers(required);
         self.exposed = if exposed { Millis(self.exposed.0 + PERIOD.0) } else { Millis(0) };
         self.run.exposed = self.run.exposed.max(self.exposed);
@@ -336,7 +361,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 it.exposed.0 += PERIOD.0;
             }
         }
-        let permitted = self.level.permit().is_some();
+        let permitted = self.decider.permit().is_some();
         if self.permitted && !permitted {
             self.withdrawn = Some(self.robot.x());
         }

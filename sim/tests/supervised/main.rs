@@ -5,6 +5,7 @@
 
 mod matrix;
 mod other_missions;
+mod pairs;
 mod recovery;
 mod seven_points;
 mod trace;

@@ -157,7 +157,7 @@ fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
         .records
         .iter()
         .filter_map(|it| if let Record::Plan(it) = it { Some(&it.cause) } else { None });
-    assert_eq!(plans.collect::<Vec<_>>(), ["start", "one SIM lost", "SIM back"]);
+    assert_eq!(plans.collect::<Vec<_>>(), ["start", "sonar arrays lost", "sonar arrays back"]);
     let told = trace
         .records
         .iter()

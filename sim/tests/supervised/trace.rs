@@ -83,7 +83,7 @@ fn recording_changes_nothing() {
 fn a_changed_trace_is_not_identical() {
     let text = record(FaultChoice::Script).to_json_lines();
     for (from, to) in
-        [("\"slow1\"", "\"slow2\""), ("\"SON1\"", "\"SON2\""), ("\"round\":130", "\"round\":131")]
+        [("\"slow1\"", "\"slow2\""), ("\"SON1\"", "\"SON2\""), ("\"round\":131", "\"round\":132")]
     {
         let changed = Trace::parse("changed", &text.replacen(from, to, 1)).unwrap();
         assert!(!replay(&changed).unwrap().identical, "{from}");

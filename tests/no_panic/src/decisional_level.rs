@@ -9,11 +9,12 @@ use cotama_core::net::TransitionId;
 use cotama_core::player::{Outcome, Round};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
+use cotama_models::cotama::Round as Decided;
 use cotama_models::cotama::{
-    Cause, Configuration, Configurations, Decision, DecisionalLevel, Diagnosis, FailureMode,
-    FailureModes, Flags, Health, Losses, Modules, Report, Resources, Severity, Situation,
-    StatusVector, Told, available, by_rules, decide, delivery, diagnose, judge, lost_after,
-    undetectable,
+    Body, Cause, Configuration, Configurations, Decision, DecisionalLevel, DeliveryDecider,
+    Diagnosis, FailureMode, FailureModes, Finding, Flags, Health, Losses, Modules, NoPlanLeft,
+    Perceived, Plans, Report, Requests, Resources, Severity, Situation, StatusVector, Told, Why,
+    Word, available, by_rules, decide, delivery, diagnose, judge, lost_after, undetectable,
 };
 
 #[unsafe(no_mangle)]
@@ -105,4 +106,64 @@ fn root_configurations(
     situation: Situation,
 ) -> (Configurations, Option<Configuration>) {
     (Configuration::running_on(left), situation.configuration())
+}
+
+/// A mission whose plan answers as it likes.
+struct AnyPlans<'p>(&'p mut [Option<Configuration>; 2], Option<usize>, bool);
+
+impl Plans for AnyPlans<'_> {
+    fn is_over(&self) -> bool {
+        self.2
+    }
+
+    fn plan(&mut self, _: Why, _: Modules) -> Result<bool, NoPlanLeft> {
+        self.0.swap(0, 1);
+        if self.0[0].is_some() { Ok(self.2) } else { Err(NoPlanLeft) }
+    }
+
+    fn configuration(&self) -> Option<Configuration> {
+        self.0[1]
+    }
+
+    fn short(&self) -> Option<usize> {
+        self.1
+    }
+}
+
+#[unsafe(no_mangle)]
+fn root_decider_new(objectives: u32, planned: Option<Configuration>) -> DeliveryDecider {
+    DeliveryDecider::start(delivery::Program, objectives, planned).with_returns()
+}
+
+#[unsafe(no_mangle)]
+fn root_decider_resume(
+    level: DecisionalLevel,
+    objectives: u32,
+    known: Health,
+) -> DeliveryDecider {
+    DeliveryDecider::resume(level, objectives, known)
+}
+
+#[unsafe(no_mangle)]
+fn root_decider_perceive(
+    decider: &mut DeliveryDecider,
+    now: Millis,
+    seen: Perceived,
+    configurations: &mut [Option<Configuration>; 2],
+    short: Option<usize>,
+    over: bool,
+) -> Option<Finding> {
+    decider.perceive(now, seen, &mut AnyPlans(configurations, short, over))
+}
+
+#[unsafe(no_mangle)]
+fn root_decider_round(
+    decider: &mut DeliveryDecider,
+    now: Millis,
+    said: Option<Word>,
+    body: Body,
+    seen: &mut Option<(Of<TransitionId>, Cause)>,
+) -> (Decided, Requests) {
+    let mut see = |it: &delivery::Firing<'_, Cause>| *seen = Some((it.id, it.carries));
+    (decider.round(now, said, body, &mut see), decider.requests())
 }

@@ -1,7 +1,7 @@
 //! All reachable markings.
 
-use crate::stories::*;
-use crate::{all_refused, shown};
+use crate::certificates::stories::*;
+use crate::certificates::{all_refused, shown};
 use cotama_verification::certificate::*;
 use cotama_verification::explicit;
 use cotama_verification::pt::Pt;

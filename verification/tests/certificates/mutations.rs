@@ -1,10 +1,10 @@
 //! Certificates with something changed at random: they never stop the checker, and never make it
 //! believe what is not so.
 
-use crate::graph::graph;
-use crate::random::{self, Dice};
-use crate::search::Space;
-use crate::stories::*;
+use crate::certificates::graph::graph;
+use crate::certificates::random::{self, Dice};
+use crate::certificates::search::Space;
+use crate::certificates::stories::*;
 use cotama_verification::certificate::*;
 use serde_json::{Value, json};
 

@@ -1,7 +1,7 @@
 //! Questions about the whole net, from parts.
 
-use crate::stories::*;
-use crate::{all_refused, shown};
+use crate::certificates::stories::*;
+use crate::certificates::{all_refused, shown};
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::certificate::*;
 use cotama_verification::property::{self, Atom, Property};

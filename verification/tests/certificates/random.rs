@@ -1,9 +1,9 @@
 //! Random nets and formulas: the checker finds what a plain search finds.
 
-use crate::graph::graph;
-use crate::search::Space;
-use crate::shown;
-use crate::stories::*;
+use crate::certificates::graph::graph;
+use crate::certificates::search::Space;
+use crate::certificates::shown;
+use crate::certificates::stories::*;
 use cotama_verification::certificate::{Certificate, Formula, Question};
 use cotama_verification::pt::Pt;
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Proofs without markings: inequalities, traps, cases.
 
-use crate::stories::*;
-use crate::{all_refused, shown};
+use crate::certificates::stories::*;
+use crate::certificates::{all_refused, shown};
 use cotama_verification::certificate::*;
 use serde_json::json;
 

@@ -1,7 +1,7 @@
 //! Ways to a marking.
 
-use crate::stories::*;
-use crate::{all_refused, shown};
+use crate::certificates::stories::*;
+use crate::certificates::{all_refused, shown};
 use cotama_verification::certificate::{Certificate, Evidence, Formula, Question};
 use serde_json::json;
 

@@ -1,6 +1,6 @@
 //! The public verdicts of the Model Checking Contest.
 
-use crate::{folder, replay};
+use crate::check::{folder, replay};
 use cotama_verification::certificate::verify;
 use cotama_verification::check::{Model, Options, Verdict, check_all};
 use cotama_verification::pnml::{Limits, read_within};

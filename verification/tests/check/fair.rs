@@ -1,7 +1,7 @@
 //! What is assumed of runs.
 
-use crate::random::{Random, branching, net as small, state};
-use crate::{named, replay};
+use crate::check::{named, replay};
+use crate::properties::random::{Random, branching, net as small, state};
 use cotama_core::net;
 use cotama_core::net::TransitionId;
 use cotama_verification::assert_holds;

@@ -1,8 +1,8 @@
 //! Certificates with something changed: refused, unless what they then claim is so.
 
-use crate::nets::markings;
-use crate::oracle;
-use crate::random::Random;
+use crate::check::nets::markings;
+use crate::properties::oracle;
+use crate::properties::random::Random;
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::certificate::{self, Certificate, verify};
 use cotama_verification::property::{Atom, Formula, Linear, Question};

@@ -1,6 +1,6 @@
 //! Small random nets.
 
-use crate::random::Random;
+use crate::properties::random::Random;
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;

@@ -1,6 +1,6 @@
 //! Nets with more markings than anybody passes through: what the structure and a few firings say.
 
-use crate::{folder, replay};
+use crate::check::{folder, replay};
 use cotama_models::nets::find;
 use cotama_verification::certificate::verify;
 use cotama_verification::check::{Model, Options, Verdict, check};

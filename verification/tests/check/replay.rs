@@ -1,6 +1,6 @@
 //! Runs, fired step by step, and whether they show what they are said to show.
 
-use crate::oracle::{self, Space};
+use crate::properties::oracle::{self, Space};
 use cotama_core::net::TransitionId;
 use cotama_verification::check::{Answer, Extent, Verdict};
 use cotama_verification::property::{Atom, Formula, Question, Reachability};

@@ -1,8 +1,8 @@
 //! Small time nets: what is answered is what integer clocks that tick together say.
 
-use crate::discrete::{self, State, States};
-use crate::random::Random;
-use crate::schedule;
+use crate::properties::random::Random;
+use crate::tpn::discrete::{self, State, States};
+use crate::tpn::replay as schedule;
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use cotama_verification::certificate::verify;
 use cotama_verification::check::{Answer, Extent, Model, Options, Verdict, check_all};

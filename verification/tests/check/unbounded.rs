@@ -1,8 +1,8 @@
 //! Nets with infinitely many markings: what is answered is never at odds with the markings that are
 //! met first, and a run or a certificate shows it.
 
-use crate::random::{self, Random};
-use crate::{nets, replay};
+use crate::check::{nets, replay};
+use crate::properties::random::{self, Random};
 use cotama_core::net::PlaceId;
 use cotama_verification::certificate::verify;
 use cotama_verification::check::{Extent, Model, Options, Verdict, check_all};
@@ -43,7 +43,7 @@ fn questions(random: &mut Random, pt: &Pt) -> Vec<Property> {
         Question::StableMarking,
         Question::OneSafe,
     ]);
-    all.into_iter().map(|question| crate::named(question, pt)).collect()
+    all.into_iter().map(|question| crate::check::named(question, pt)).collect()
 }
 
 #[derive(Debug, Default, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! What is printed, of ten small nets.
 
-use crate::{diagnosis, golden, nets, parse, timed_diagnosis};
+use crate::diagnosis::{diagnosis, golden, nets, parse, timed_diagnosis};
 use cotama_core::net::TransitionId;
 use cotama_verification::diagnosis::{Case, Diagnosis, Run, Unused, vacuous};
 use cotama_verification::explicit::{Graph, Limits};

@@ -1,6 +1,7 @@
 //! Pages, as far as a program can look at them.
 
-use crate::{diagnosis, golden, nets, timed_diagnosis, xml};
+use crate::diagnosis::{diagnosis, golden, nets, timed_diagnosis};
+use crate::drawings::xml;
 use cotama_verification::diagnosis::Diagnosis;
 
 /// The elements of each picture, and of the page without what only HTML knows.

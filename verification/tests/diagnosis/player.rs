@@ -1,6 +1,6 @@
 //! The player of the core fires what a diagnosis says.
 
-use crate::{checked, nets, parse, timed};
+use crate::diagnosis::{checked, nets, parse, timed};
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::player::{Firing, Loaded, Outcome, Packed, Player, words};

@@ -1,6 +1,6 @@
 //! What is no run is refused, and no run or net leads to a panic or a wide line.
 
-use crate::{nets, parse};
+use crate::diagnosis::{nets, parse};
 use cotama_core::net::TransitionId;
 use cotama_verification::diagnosis::{Case, Diagnosis, NotARun, Run};
 use cotama_verification::pt::Pt;

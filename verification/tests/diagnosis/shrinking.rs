@@ -1,6 +1,6 @@
 //! Counterexamples lose what they do not need.
 
-use crate::nets;
+use crate::diagnosis::nets;
 use cotama_core::net::TransitionId;
 use cotama_verification::diagnosis::{Run, shrink};
 use cotama_verification::pt::Pt;

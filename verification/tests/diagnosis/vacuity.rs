@@ -1,6 +1,6 @@
 //! Which questions tell that a property holds for a reason that is none.
 
-use crate::{nets, parse};
+use crate::diagnosis::{nets, parse};
 use cotama_verification::diagnosis::vacuous;
 use cotama_verification::property::Question;
 use cotama_verification::pt::Pt;

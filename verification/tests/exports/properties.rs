@@ -1,6 +1,6 @@
 //! What holds of the exports of every net.
 
-use crate::random::{PLACES, SIGNALS, complemented, machine, net, net_reaching};
+use crate::exports::random::{PLACES, SIGNALS, complemented, machine, net, net_reaching};
 use cotama_core::net::owned::OwnedTransition;
 use cotama_core::net::{Arc, Net};
 use cotama_verification::export::{jani, json, matrix, scxml};

@@ -4,7 +4,7 @@
 //! `COTAMA_MCC_DIR` names: `*.pnml`, and `properties` with files `NET.EXAMINATION.xml` and
 //! `verdicts.tsv`, whose columns start with file, property and verdict.
 
-use crate::oracle::{self, Space};
+use crate::properties::oracle::{self, Space};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::pnml::{Limits, read_within};

@@ -1,6 +1,6 @@
 //! Broken texts and files of all kinds: they are read or refused, and nothing else happens.
 
-use crate::random::{NAMES, Random, branching, net, path, quantified};
+use crate::properties::random::{NAMES, Random, branching, net, path, quantified};
 use cotama_verification::property::{Ids, Question, mcc, parse};
 
 const WORDS: [&str; 51] = [

@@ -1,5 +1,5 @@
 //! The property language. What is said of broken texts is in `tests/golden/properties/errors.txt`;
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test properties` writes it again.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test engines properties` writes it again.
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};

@@ -1,8 +1,8 @@
 //! Simpler formulas and normal forms say what the formula said, in every reachable marking of
 //! random nets.
 
-use crate::oracle::{self, Space};
-use crate::random::{Random, branching, net, path, quantified, state};
+use crate::properties::oracle::{self, Space};
+use crate::properties::random::{Random, branching, net, path, quantified, state};
 use cotama_core::net::PlaceId;
 use cotama_verification::property::{
     Atom, Condition, Ctl, CtlNode, Formula, Kind, Linear, Ltl, LtlNode, Reachability,

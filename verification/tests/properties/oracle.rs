@@ -323,7 +323,7 @@ fn truth(
 #[cfg(test)]
 mod tests {
     use super::{Space, lasso};
-    use crate::random::{Random, net, path};
+    use crate::properties::random::{Random, net, path};
     use cotama_verification::property::Formula;
 
     /// Whether some run of at most `longest` different positions is as a formula says.

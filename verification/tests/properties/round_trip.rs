@@ -1,6 +1,6 @@
 //! A formula that is written and read is the same formula.
 
-use crate::random::{NAMES, Random, branching, net, path, quantified, state};
+use crate::properties::random::{NAMES, Random, branching, net, path, quantified, state};
 use cotama_core::net::TransitionId;
 use cotama_verification::property::{Assumptions, Formula, Question, parse};
 use cotama_verification::pt::Pt;

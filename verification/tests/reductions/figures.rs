@@ -2,8 +2,8 @@
 //!
 //! What a rule keeps when a condition is left out is caught here and by the random nets.
 
-use crate::net::{keep, net, reduced, text};
-use crate::space::{is_dead, run};
+use crate::reductions::net::{keep, net, reduced, text};
+use crate::reductions::space::{is_dead, run};
 use cotama_core::net::TransitionId;
 use cotama_verification::pt::Pt;
 use cotama_verification::reductions::Goal::{

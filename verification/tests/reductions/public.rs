@@ -1,6 +1,6 @@
 //! Nets of others; the folder of them is given by the environment variable `COTAMA_MCC_DIR`.
 
-use crate::space::{Space, is_dead, run};
+use crate::reductions::space::{Space, is_dead, run};
 use cotama_verification::pnml;
 use cotama_verification::pt::Pt;
 use cotama_verification::reductions::{Goal, Keep, reduce};

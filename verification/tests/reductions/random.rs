@@ -1,7 +1,7 @@
 //! Random nets: the same answers before and after, and runs that lift.
 
-use crate::net::{reduced, text};
-use crate::space::{Seen, Space, bisimilar, is_dead, run, same_stutter_runs};
+use crate::reductions::net::{reduced, text};
+use crate::reductions::space::{Seen, Space, bisimilar, is_dead, run, same_stutter_runs};
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;

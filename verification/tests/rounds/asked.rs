@@ -179,10 +179,9 @@ fn the_decisional_level_has_4166_states_between_rounds() {
 
 /// By which engine, with which evidence, of which the small checker is convinced, and with how many
 /// transitions.
-#[test]
-fn all_ten_properties_hold() {
+fn known(asked: &[Asked]) -> Vec<String> {
     let options = Options { evidence: true, ..Options::default() };
-    let known = ASKED.map(|asked| {
+    let known = |asked: &Asked| {
         let (_, pt, property) = asked.of(&reconstruction::SYSTEM);
         let model = Model::from(pt);
         let answer = Checker::new(&model).answer(&property, &options);
@@ -196,7 +195,19 @@ fn all_ten_properties_hold() {
             _ => "other",
         };
         format!("{} {} {evidence} {}", asked.name, answer.engine(), model.pt().transitions.len())
-    });
+    };
+    asked.iter().map(known).collect()
+}
+
+#[test]
+fn the_first_three_properties_hold() {
+    let by = ["GS2 explicit graph 830", "GS4 explicit graph 830", "LS1 structural refutation 830"];
+    assert_eq!(known(&ASKED[..3]), by);
+}
+
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn all_ten_properties_hold() {
     let by = [
         "GS2 explicit graph 830",
         "GS4 explicit graph 830",
@@ -209,5 +220,5 @@ fn all_ten_properties_hold() {
         "CS4 explicit graph 830",
         "CS5 explicit graph 858",
     ];
-    assert_eq!(known, by);
+    assert_eq!(known(&ASKED), by);
 }

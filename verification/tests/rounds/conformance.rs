@@ -233,6 +233,12 @@ fn players_and_nets_of_rounds_agree() {
 
 #[test]
 fn players_and_nets_of_rounds_agree_with_shared_places() {
+    assert_eq!(compared(40, true), (37, 535, 3));
+}
+
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn players_and_nets_of_rounds_agree_with_shared_places_400_times() {
     assert_eq!(compared(400, true), (364, 2_706, 36));
 }
 

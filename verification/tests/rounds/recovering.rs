@@ -43,6 +43,7 @@ fn what_is_required_without_returns_still_is_but_two() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn what_is_required_of_returns_holds() {
     assert_eq!(broken(RECOVERY_REQUIREMENTS), [] as [&str; 0]);
     for it in REQUIREMENTS.iter().chain(RECOVERY_REQUIREMENTS) {
@@ -79,7 +80,13 @@ fn duties(id: &str) -> Vec<u32> {
 
 #[test]
 fn no_duty_takes_longer_where_modules_return() {
-    assert_eq!(["GS3", "LS3", "LS4", "CS5"].map(duties), [[1], [1], [2], [2]]);
+    assert_eq!(["GS3", "LS3"].map(duties), [[1], [1]]);
+}
+
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn the_longer_duties_do_not_either() {
+    assert_eq!(["LS4", "CS5"].map(duties), [[2], [2]]);
     assert_eq!(duties("AS2"), [2, 2, 2, 2, 2, 2]);
 }
 

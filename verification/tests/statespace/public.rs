@@ -91,7 +91,7 @@ fn public_nets_of_up_to_a_million_markings_have_all_known_properties() {
 
 #[test]
 #[ignore = "takes a minute with optimisation and 2 GB: cargo test --release -p cotama-verification \
-    --test statespace -- --ignored"]
+    --test engines statespace -- --ignored"]
 fn public_nets_of_up_to_twenty_million_markings_have_all_known_properties() {
     let checked = check(1_000_000..20_000_000, 2);
     assert!(checked == 0 || checked == 5, "{checked} nets");

@@ -1,8 +1,8 @@
 //! Random nets, textbook nets, and limits.
 
-use super::oracle::Space;
-use super::random::{Random, net, state};
 use super::{ends_in, fired};
+use crate::properties::oracle::Space;
+use crate::properties::random::{Random, net, state};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_models::nets::families::{kanban, philosophers};

@@ -1,8 +1,8 @@
 //! Formulas of CTL.
 
-use super::oracle::{Space, lasso};
-use super::random::{Random, branching, net};
 use super::{formula, lamp, replayed};
+use crate::properties::oracle::{Space, lasso};
+use crate::properties::random::{Random, branching, net};
 use cotama_core::net::TransitionId;
 use cotama_verification::explicit::{Graph, Limits};
 use cotama_verification::property::{Ctl, CtlNode, Formula};
@@ -93,8 +93,8 @@ fn witnesses_of_one_quantifier_are_runs_as_the_formula_says() {
     while compared < 3_000 {
         let pt = net(&mut random);
         let space = Space::new(&pt);
-        let a = super::random::state(&mut random, &pt, 1);
-        let b = super::random::state(&mut random, &pt, 1);
+        let a = crate::properties::random::state(&mut random, &pt, 1);
+        let b = crate::properties::random::state(&mut random, &pt, 1);
         let path = match random.below(4) {
             0 => Formula::Finally(a.into()),
             1 => Formula::Globally(a.into()),

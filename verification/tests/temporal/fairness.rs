@@ -1,8 +1,8 @@
 //! Fair runs, compared with all sets of markings that a run can stay in.
 
-use super::oracle::Space;
-use super::random::{Random, branching, net, state};
 use super::{formula, lamp};
+use crate::properties::oracle::Space;
+use crate::properties::random::{Random, branching, net, state};
 use cotama_core::net::TransitionId;
 use cotama_verification::explicit::{Goal, Graph, Limits};
 use cotama_verification::property::{Ctl, CtlNode, Formula};

@@ -1,8 +1,8 @@
 //! Formulas of LTL.
 
-use super::oracle::{Space, lasso};
-use super::random::{Random, atom, net, path, state};
 use super::{formula, lamp, replayed};
+use crate::properties::oracle::{Space, lasso};
+use crate::properties::random::{Random, atom, net, path, state};
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::explicit::{Limit, Limits};

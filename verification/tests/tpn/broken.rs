@@ -1,5 +1,5 @@
 //! Broken files and what is said about them. The messages are in `tests/golden/tina/broken.txt`;
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test tpn` writes them again.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test engines tpn` writes them again.
 
 use cotama_verification::tina;
 use std::fmt::Write as _;

@@ -1,6 +1,6 @@
 //! Time nets from nets with events, and back.
 
-use crate::{bound, net};
+use crate::tpn::{bound, net};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use cotama_verification::tpn::{Difference, Interval, NotANet, TimeNetDefect, from_net, to_net};

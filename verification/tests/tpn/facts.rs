@@ -1,6 +1,6 @@
 //! Published and confirmed answers.
 
-use crate::{bound, discrete, folder, net};
+use crate::tpn::{bound, discrete, folder, net};
 use cotama_verification::tpn::{self, Limits, Stop, TimeNet};
 use std::collections::BTreeMap;
 use std::fs;

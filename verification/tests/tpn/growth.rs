@@ -1,6 +1,6 @@
 //! Nets with and without a limit to their tokens.
 
-use crate::net;
+use crate::tpn::net;
 use cotama_verification::tpn::{self, Limits, Stop};
 
 const LIMITS: Limits<'_> = Limits { classes: 2_000, bytes: 1 << 26, stop: &|| false };

@@ -1,6 +1,6 @@
 //! Small nets by chance, with answers by two or three independent ways.
 
-use crate::{discrete, regions, replay, shown, textbook};
+use crate::tpn::{discrete, regions, replay, shown, textbook};
 use cotama_core::net::{Arc, PlaceId, TransitionId};
 use cotama_verification::tpn::{self, Interval, Limits, Reach, TimeNet, TimePlace, TimeTransition};
 use std::collections::BTreeSet;

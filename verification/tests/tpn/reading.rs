@@ -1,6 +1,6 @@
 //! Files that are read, and written again.
 
-use crate::{folder, net};
+use crate::tpn::{folder, net};
 use cotama_core::net::{Arc, PlaceId};
 use cotama_verification::tina::{self, Limits};
 use cotama_verification::tpn::{Interval, TimeNet, TimePlace, TimeTransition};

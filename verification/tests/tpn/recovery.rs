@@ -1,7 +1,7 @@
 //! RC2: the hysteresis before a module counts as available again, whatever its observer says and
 //! when.
 
-use crate::bound;
+use crate::tpn::bound;
 use cotama_core::net;
 use cotama_core::net::{Arc, Net, PlaceId};
 use cotama_models::cotama::recovery::{self, NET};

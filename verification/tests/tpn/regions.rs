@@ -1,7 +1,7 @@
 //! A second meaning of a time net with open bounds: clock regions. Of a clock counts how many whole
 //! units it shows, and where its rest comes among the rests of the others (Alur and Dill 1994).
 
-use crate::discrete::{enabled, fire};
+use crate::tpn::discrete::{enabled, fire};
 use cotama_verification::tpn::{Interval, TimeNet};
 use std::collections::{BTreeSet, HashMap, HashSet};
 

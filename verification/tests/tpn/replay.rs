@@ -1,6 +1,6 @@
 //! Plays a schedule by the rules of time nets, clock by clock.
 
-use crate::discrete::{enabled, fire};
+use crate::tpn::discrete::{enabled, fire};
 use cotama_verification::tpn::{Date, Schedule, TimeNet};
 
 /// The marking at the end; or which rule is broken.

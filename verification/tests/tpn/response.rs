@@ -1,6 +1,6 @@
 //! How long a place takes to be marked after a firing.
 
-use crate::{bound, finite, net, shown};
+use crate::tpn::{bound, finite, net, shown};
 use cotama_verification::tpn::{self, Interval, Limits, Response, Stop, Time};
 
 #[test]
@@ -39,7 +39,7 @@ fn clocks_that_run_since_before_count() {
          clock (1)",
     );
     assert_eq!(bound(&net, "fault", "alarm"), "10..10"); // a read arc enables it no sooner
-    let polled = crate::net(
+    let polled = crate::tpn::net(
         "tr fault [2,7] sane -> faulty  tr look [10,10] clock -> looked  tr tell [0,0] looked \
          faulty -> alarm\n\
                              pl sane (1)  pl clock (1)",
@@ -52,12 +52,14 @@ fn a_cycle_on_the_way_makes_it_endless() {
     let net = net("tr go [1,1] p -> a  tr spin [2,2] a -> a  tr leave [1,3] a -> b  pl p (1)");
     assert_eq!(bound(&net, "go", "b"), "1..inf");
     // Also in no time.
-    let zeno =
-        crate::net("tr go [1,1] p -> a  tr spin [0,0] a -> a  tr leave [0,3] a -> b  pl p (1)");
+    let zeno = crate::tpn::net(
+        "tr go [1,1] p -> a  tr spin [0,0] a -> a  tr leave [0,3] a -> b  pl p (1)",
+    );
     assert_eq!(bound(&zeno, "go", "b"), "0..inf");
     // A cycle that time forbids is none.
-    let late =
-        crate::net("tr go [1,1] p -> a  tr spin [4,4] a -> a  tr leave [1,3] a -> b  pl p (1)");
+    let late = crate::tpn::net(
+        "tr go [1,1] p -> a  tr spin [4,4] a -> a  tr leave [1,3] a -> b  pl p (1)",
+    );
     assert_eq!(bound(&late, "go", "b"), "1..3");
 }
 
@@ -65,10 +67,11 @@ fn a_cycle_on_the_way_makes_it_endless() {
 fn a_deadlock_and_a_time_without_end_are_endless() {
     let net = net("tr go [1,1] p -> a  tr stop [1,2] a -> dead  tr leave [1,3] a -> b  pl p (1)");
     assert_eq!(bound(&net, "go", "b"), "1..inf");
-    let waits = crate::net("tr go [1,1] p -> a  tr leave [7,w[ a -> b  pl p (1)");
+    let waits = crate::tpn::net("tr go [1,1] p -> a  tr leave [7,w[ a -> b  pl p (1)");
     assert_eq!(bound(&waits, "go", "b"), "7..inf");
-    let kept =
-        crate::net("tr go [1,1] p -> a  tr leave [7,w[ a -> b  tr force [5,9] a -> b  pl p (1)");
+    let kept = crate::tpn::net(
+        "tr go [1,1] p -> a  tr leave [7,w[ a -> b  tr force [5,9] a -> b  pl p (1)",
+    );
     assert_eq!(bound(&kept, "go", "b"), "5..9");
 }
 
@@ -113,7 +116,7 @@ fn limits_end_the_work_with_an_answer() {
         tpn::bound(&net, a, p, &limits),
         Response::Unknown { stop: Stop::Classes, explored: 2 }
     );
-    let unbounded = crate::net("tr a -> p");
+    let unbounded = crate::tpn::net("tr a -> p");
     let (a, p) = (unbounded.transition("a").unwrap(), unbounded.place("p").unwrap());
     let unknown = tpn::bound(&unbounded, a, p, &Limits::default());
     assert!(matches!(unknown, Response::Unknown { stop: Stop::Unbounded, .. }), "{unknown:?}");

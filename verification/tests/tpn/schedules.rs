@@ -1,7 +1,7 @@
 //! Dates for firing sequences.
 
-use crate::net;
-use crate::replay::replay;
+use crate::tpn::net;
+use crate::tpn::replay::replay;
 use cotama_verification::tpn::{
     Date, Limits, NoSchedule, Reach, Schedule, TimeNet, deadlock, reach, schedule,
 };
@@ -53,7 +53,7 @@ fn open_bounds_give_fractions_as_coarse_as_they_can_be() {
 fn an_open_upper_bound_is_not_reached() {
     let net = net("tr a [0,5[ p -> q  tr b [4,w[ s -> u  pl p (1)  pl s (1)");
     assert_eq!(dates(&net, "b a").unwrap(), "4 4");
-    let late = crate::net("tr a [0,4[ p -> q  tr b [4,w[ s -> u  pl p (1)  pl s (1)");
+    let late = crate::tpn::net("tr a [0,4[ p -> q  tr b [4,w[ s -> u  pl p (1)  pl s (1)");
     assert_eq!(dates(&late, "b a"), Err(NoSchedule::TooLate(0)));
     assert_eq!(dates(&late, "a b").unwrap(), "0 4");
 }
@@ -92,7 +92,7 @@ fn a_way_to_a_deadlock_has_dates() {
     );
     let Reach::Reached(run) = deadlock(&net, &Limits::default()) else { panic!("no deadlock") };
     let dead = replay(&net, &run).unwrap();
-    assert!(net.transitions().iter().all(|it| !crate::discrete::enabled(it, &dead)));
+    assert!(net.transitions().iter().all(|it| !crate::tpn::discrete::enabled(it, &dead)));
     let shown = |run: &Schedule| {
         let step = |step: &cotama_verification::tpn::Step| {
             format!("{} {}", step.date, net.transitions()[step.transition.0 as usize].name)

@@ -1,7 +1,7 @@
 //! State classes as the textbook has them: inequalities, closed by Floyd and Warshall after every
 //! firing.
 
-use crate::discrete::{enabled, fire};
+use crate::tpn::discrete::{enabled, fire};
 use cotama_verification::tpn::{Interval, TimeNet};
 use std::collections::HashMap;
 

@@ -1,7 +1,7 @@
 //! The scheduler's watchdog with the world around it: how late it finds a module that misses its
 //! deadlines.
 
-use crate::bound;
+use crate::tpn::bound;
 use cotama_core::net;
 use cotama_core::net::{Arc, Net, PlaceId};
 use cotama_models::nets::watchdog::{self, NET};

@@ -247,7 +247,7 @@ rows! {
         seen "SCH" "K consecutive violations in spite of the extra time (seed rule)"
              300 (flags [MclLate] with Mcl);
         answer Slow "fewer particles";
-        rate 20_000 Assumed "assumed; happens once in the seed run", injection "cpu_time(MCL)*=k";
+        rate 20_000 Assumed "assumed; happens once in the seed run", injection "load: 3 ms of every 10";
     }
     Rt2 "RT2" "schedule" "any module" "one late job" {
         cause "transient load", effect "jitter";
@@ -261,9 +261,9 @@ rows! {
         cause "software fault, CPU throttling", effect "stale data";
         severity Hard Hard, class Local, Permanent;
         lost "that module" one [];
-        seen "SCH" "K consecutive violations" 300 (flags [ModuleLate]);
+        seen "SCH" "K consecutive violations" 300 (flags [ModuleLate] sometimes [MclLate]);
         answer Ambiguous "another configuration without the module, else operator";
-        rate 100_000 Assumed "assumed", injection "cpu_time(m)*=5";
+        rate 100_000 Assumed "assumed", injection "jobs of m pass their budget";
     }
     Sw1 "SW1" "compute" "any module" "crash" {
         cause "software fault", effect "its outputs stop";

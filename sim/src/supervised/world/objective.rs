@@ -27,7 +27,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     /// What the global supervisor is about. Its places are: waiting, the objectives, done,
     /// security, safe.
     pub(super) fn objective(&self) -> Objective {
-        let (place, count) = (self.global.0 as usize, self.mission.objectives.len());
+        let (place, count) = (self.decider.global().0 as usize, self.mission.objectives.len());
         match place.checked_sub(1) {
             None => Objective::Waits,
             Some(it) if it < count && self.mission.objectives[it].travels() => {

@@ -100,7 +100,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
         for (_, it) in &run.configurations[done.configurations..] {
             let (configuration, mode) =
-                (it.map(|it| it.name().into()), mode_name(self.situation.mode()).into());
+                (it.map(|it| it.name().into()), mode_name(self.decider.situation().mode()).into());
             to.record(Record::Configuration(Configured { t_us, x_mm, configuration, mode }));
         }
         done.configurations = run.configurations.len();
@@ -227,7 +227,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let activity = self.activity();
         let (_, _, planned) = self.planning.planned(activity);
         let moves = matches!(self.objective(), Objective::Drives(_) | Objective::Stands(_));
-        let (_, real) = self.planning.pace(activity, self.situation.configuration());
+        let (_, real) = self.planning.pace(activity, self.decider.situation().configuration());
         Record::Sample(Sample {
             t_us,
             x_mm: self.robot.x().0,

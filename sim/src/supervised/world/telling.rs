@@ -5,38 +5,52 @@ use super::{CLOCKS, World};
 use crate::supervised::effect::{Ends, effect};
 use crate::supervised::operator::View;
 use crate::supervised::{Decided, Fired, PLANNING};
-use cotama_core::net::{EventId, TransitionId};
+use cotama_core::net::{EventId, PlaceId, TransitionId};
 use cotama_core::player::{Firing, Names, Observer, Program};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Diagnosis, FailureMode, Module, Report, Told, faults, global, local,
-    operator,
+    Body, Cause, Configuration, FailureMode, Module, Report, Situation, Word, local,
 };
 use cotama_models::missions::Does;
 
-/// How long the planner may take beyond what it usually does (FMECA, row PPL1).
-const PATIENCE_WITH_PLANNER: Millis = Millis(5_000);
+/// In the third round after something was told, everybody has had his turn.
+const ANSWERED: u32 = 3;
 
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// The supervisors take a round, and are told one thing.
     pub(super) fn take_a_round(&mut self) {
-        let mut seen = Vec::new();
-        let _ = self.level.round(self.now, &mut Seeing(&mut seen));
-        self.run.rounds += 1;
         // What the mission and the operator have to say waits for failures.
-        let mut said = if self.untold.is_empty() { self.says() } else { None };
-        while let Some((told, cause)) = self.untold.pop_front().or_else(|| said.take()) {
-            let offered = self.level.tell(self.now, told, cause, &mut Seeing(&mut seen));
-            if offered.fired() {
-                self.run.told.push((self.run.rounds, told));
-                break;
-            }
+        let said = if self.decider.listens() { self.says() } else { None };
+        let mut seen = Vec::new();
+        let before = (self.decider.situation(), self.decider.global());
+        let round = self.decider.round(self.now, said, self.body(), &mut Seeing(&mut seen));
+        self.run.rounds += 1;
+        self.run.told.extend(round.told.map(|told| (self.run.rounds, told)));
+        if let Some(finding) = round.finding {
+            let silence: Vec<_> = self.silence().into_iter().collect();
+            self.note_finding(&finding, &silence, silence.first().copied());
         }
         for it in &seen {
             self.note(it);
         }
-        self.arrive_at_places();
+        self.arrive_at_places(before);
+        // Told in one round, decided in the next, answered in the one after: modules in fault go on.
+        self.quiet = if self.decider.listens() { self.quiet + 1 } else { 0 };
+        if self.quiet >= ANSWERED {
+            self.laptop.answered();
+        }
+    }
+
+    /// Where the robot is.
+    fn body(&self) -> Body {
+        Body { at_goal: self.robot.x() >= self.end(), stands: self.robot.speed().0 == 0 }
+    }
+
+    /// The failure that a finding goes back to.
+    fn failure(&self, cause: Cause) -> Cause {
+        let finding = usize::from(cause.0).checked_sub(1);
+        Cause(finding.and_then(|it| self.causes.get(it)).copied().unwrap_or(0))
     }
 
     /// Notes what happened.
@@ -44,7 +58,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let system = self.system;
         let conduct = |cause: Cause| usize::from(cause.0).checked_sub(1);
         match *seen {
-            Seen::Fired(id, carries) => {
+            Seen::Fired(id, finding) => {
+                let carries = self.failure(finding);
                 let Some(component) = system.components.get(usize::from(id.component)) else {
                     return;
                 };
@@ -81,7 +96,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                     }
                 }
             }
-            Seen::Ignored(event, carries) => {
+            Seen::Ignored(event, finding) => {
+                let carries = self.failure(finding);
                 let contextual = system
                     .components
                     .get(usize::from(event.component))
@@ -96,100 +112,56 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         }
     }
 
-    /// Where the supervisors have come to.
-    fn arrive_at_places(&mut self) {
-        let before = (self.situation.local, self.situation.configuration());
-        self.situation = self.level.situation(self.lost);
-        let after = (self.situation.local, self.situation.configuration());
-        if after.0 != before.0 {
-            self.local_since = self.now;
-            if !self.first.iter().any(|it| it.0 == after.0) {
-                self.first.push((after.0, self.now));
+    /// Where the supervisors have come to, from where they were.
+    fn arrive_at_places(&mut self, (before, global): (Situation, PlaceId)) {
+        let after = self.decider.situation();
+        if after.local != before.local {
+            if !self.first.iter().any(|it| it.0 == after.local) {
+                self.first.push((after.local, self.now));
             }
             let helped =
-                matches!(before.0, local::State::Teleprogrammed | local::State::Teleoperated);
-            if helped {
-                for failure in
-                    self.failures.iter_mut().filter(|it| effect(it.mode).ends == Ends::Helped)
-                {
-                    failure.over = true;
-                }
+                matches!(before.local, local::State::Teleprogrammed | local::State::Teleoperated);
+            for failure in &mut self.failures {
+                failure.over |= helped && effect(failure.mode).ends == Ends::Helped;
             }
         }
-        if after.1 != before.1 {
-            self.run.configurations.push((self.now, after.1));
+        if after.configuration() != before.configuration() {
+            self.run.configurations.push((self.now, after.configuration()));
         }
-        let global = self.level.global();
-        if global != self.global {
-            (self.global, self.global_since) = (global, self.now);
+        if self.decider.global() != global {
+            self.global_since = self.now;
         }
     }
 
-    /// What the mission or the operator has to say, if anything.
-    fn says(&mut self) -> Option<(Told, Cause)> {
-        let none = Cause(0);
+    /// What the mission, the planner of paths or the operator has to say, if anything.
+    fn says(&mut self) -> Option<Word> {
         let waited = |since: Millis| self.now.0.saturating_sub(since.0);
-        let at_goal = self.robot.x() >= self.end();
         match self.objective() {
-            Objective::Waits => {
-                return Some((Told::Mission(global::Event::mission_received), none));
-            }
-            Objective::Security if self.robot.speed().0 == 0 => {
-                return Some((Told::Mission(global::Event::stopped), none));
-            }
+            Objective::Waits => return Some(Word::MissionReceived),
             Objective::Stands(it) => {
                 let activity = self.planning.activity(it, self.robot.x().0);
                 if waited(self.global_since) < self.planning.standing(activity).0 {
                     return None;
                 }
-                let told = match self.mission.objectives[it].does.as_ref().map(|it| it.value) {
-                    Some(Does::Deliver) => Told::Mission(global::Event::object_delivered),
-                    Some(Does::Receive) => Told::Mission(global::Event::object_received),
-                    _ => Told::WaitOver,
-                };
-                return Some((told, none));
+                return Some(match self.mission.objectives[it].does.as_ref().map(|it| it.value) {
+                    Some(Does::Deliver) => Word::ObjectDelivered,
+                    Some(Does::Receive) => Word::ObjectReceived,
+                    _ => Word::WaitOver,
+                });
             }
             Objective::Drives(_) => {}
             _ => return None,
         }
-        match self.situation.local {
-            local::State::Planning if waited(self.local_since) >= PLANNING.0 && self.can_plan() => {
-                Some((Told::Drive(local::Event::path_ready), none))
-            }
-            local::State::Planning
-                if waited(self.local_since) >= PLANNING.0 + PATIENCE_WITH_PLANNER.0 =>
-            {
-                self.local_since = self.now;
-                self.plannings_failed += 1;
-                Some((Told::Failure(faults::Event::no_path), none))
-            }
-            local::State::Following if at_goal => {
-                Some((Told::Drive(local::Event::goal_reached), none))
+        match self.decider.situation().local {
+            local::State::Planning if waited(self.decider.since()) >= PLANNING.0 => {
+                self.can_plan().then_some(Word::PathReady)
             }
             local::State::HandOver | local::State::Teleprogrammed | local::State::Teleoperated => {
-                let view = self.view(at_goal);
-                let said = self.operator.says(self.now, view)?;
-                let cause = if said == operator::Event::gives_up { self.silence() } else { none };
-                Some((Told::Operator(said), cause))
+                let view = self.view();
+                self.operator.says(self.now, view).map(Word::Operator)
             }
             _ => None,
         }
-    }
-
-    /// The operator's silence, if that is a failure under way: it is found when the patience of the
-    /// robot ends.
-    fn silence(&mut self) -> Cause {
-        let Some(at) = self.failures.iter().position(|it| it.mode == FailureMode::Opr1) else {
-            return Cause(0);
-        };
-        let (diagnosis, conduct) =
-            (Diagnosis::Unique(FailureMode::Opr1), &mut self.run.conduct[at]);
-        if conduct.detected.is_none() {
-            (conduct.detected, conduct.flags) =
-                (Some((self.now, diagnosis)), FailureMode::Opr1.rule().signature.always);
-            self.judge(FailureMode::Opr1.rule().report, self.severity(FailureMode::Opr1));
-        }
-        Cause(at as u16 + 1)
     }
 
     /// Whether a path can be planned: the planner works.
@@ -198,21 +170,20 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     }
 
     /// What the operator knows.
-    fn view(&self, at_goal: bool) -> View {
+    fn view(&self) -> View {
         let left = self.broken().available();
         let asked_about = self.run.conduct.iter().rfind(|it| it.answered.is_some());
         let report = asked_about.and_then(|it| it.mode.rule().report);
         View {
-            place: self.situation.local,
+            place: self.decider.situation().local,
             x: self.robot.x(),
             link: left.has(Module::Lan)
                 && !self.failures.iter().any(|it| it.mode == FailureMode::Opr1),
             camera: left.has(Module::Cam),
-            planner_failed: report == Some(Report::Planner) && self.plannings_failed < 2,
-            can_go_on: self.plannings_failed < 2
+            planner_failed: report == Some(Report::Planner) && self.decider.plannings_failed() < 2,
+            can_go_on: self.decider.plannings_failed() < 2
                 && left.covers(Configuration::FollowingOdometric.facts().required),
-            at_goal,
-            moves: self.robot.speed().0 > 0,
+            at_goal: self.body().at_goal,
         }
     }
 }

@@ -1,6 +1,6 @@
-//! The whole decisional level of the delivery robot, as firmware links it: the supervisors,
-//! diagnosis and decision, the executive of the optimal path following, and an allocator on the
-//! tables of the mission. No heap, nothing left out but texts.
+//! The whole decisional level of the delivery robot, as firmware links it: the decider, from flags
+//! to requests, the executive of the optimal path following, and an allocator on the tables of the
+//! mission. No heap, nothing left out but texts.
 #![no_std]
 
 pub mod reach;
@@ -16,14 +16,16 @@ use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::Configuration::FollowingOptimal;
 use cotama_models::cotama::load::{self, Load, MOST, SPARE};
 use cotama_models::cotama::{
-    Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report,
-    Severity, Told, decide, delivery, diagnose, judge,
+    Body, Cause, Configuration, DecisionalLevel, DeliveryDecider, Finding, Health, Module, Modules,
+    NoPlanLeft, Perceived, Plans, Requests, Told, Why, Word, delivery,
 };
 use cotama_models::missions::tables::delivery::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
 
 /// The tasks of the optimal path following: its modules, and the load of the computer.
 pub const TASKS: usize = FollowingOptimal.scheduled().len() + 1;
+/// Each activity of the mission is an objective.
+const OBJECTIVES: u32 = ACTIVITIES.len() as u32;
 const STAGES: usize = ACTIVITIES.len();
 const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;
 /// The most steps that the exact allocator may take.
@@ -32,13 +34,31 @@ const STEPS: u64 = 10_000;
 /// All that the level remembers between two calls.
 #[derive(Clone, Copy)]
 pub struct Robot {
-    level: DecisionalLevel,
+    decider: DeliveryDecider,
     executive: Executive<TASKS>,
-    monitor: Monitor<2>,
-    health: Health,
-    lost: Losses,
-    plan: [u16; STAGES],
+    mission: Mission,
 }
+
+/// The plan, and how far the mission has come.
+#[derive(Clone, Copy)]
+pub struct Mission {
+    monitor: Monitor<2>,
+    plan: [u16; STAGES],
+    /// The activity under way, and what is left of it.
+    first: usize,
+    rest: Rest,
+}
+
+/// The modules that the mission plans with, in the order of its hardware.
+const HARDWARE: [Module; 11] = {
+    use Module::{Cam, Dvz, Gui, Lan, Mcl, Nav, P3d, Ppl, Sim, Smz, Ust};
+    [P3d, Sim, Ust, Mcl, Nav, Ppl, Gui, Smz, Dvz, Lan, Cam]
+};
+/// The configurations of a drive, in the order of its alternatives.
+const DRIVES: [Configuration; 4] = {
+    use Configuration as C;
+    [C::FollowingOptimal, C::FollowingReduced, C::FollowingOdometric, C::FollowingDegraded]
+};
 
 /// The memory of the caller's that planning needs while it goes on, by the rule and exactly; on the
 /// stack here.
@@ -49,17 +69,28 @@ pub const PLANNING_BYTES: [usize; 2] = {
     [problem + rule, problem + exact]
 };
 
-/// What follows from flags.
-#[derive(Clone, Copy)]
-pub struct Concluded {
-    /// What is broken, as far as is known.
-    pub diagnosis: Diagnosis,
-    /// What is newly lost, and to be told.
-    pub lost: Losses,
-    /// What is to be reported.
-    pub report: Option<Report>,
-    /// What the table and the rules of severity and availability say to it.
-    pub decisions: [Decision; 2],
+impl Plans for Mission {
+    fn is_over(&self) -> bool {
+        self.first >= STAGES
+    }
+
+    fn plan(&mut self, _: Why, available: Modules) -> Result<bool, NoPlanLeft> {
+        let have = HARDWARE.iter().enumerate().filter(|(_, it)| available.has(**it));
+        let units =
+            have.fold(Equipment::NONE, |all, (kind, _)| all.with(kind, 1).unwrap_or(all));
+        let (first, rest) = (self.first, self.rest);
+        if self.plan_by_rule(first, rest, units) { Ok(true) } else { Err(NoPlanLeft) }
+    }
+
+    fn configuration(&self) -> Option<Configuration> {
+        let left = ACTIVITIES.iter().zip(&self.plan).skip(self.first);
+        let drive = { left }.find(|it| it.0.x_start != it.0.x_end)?;
+        DRIVES.get(usize::from(*drive.1)).copied()
+    }
+
+    fn short(&self) -> Option<usize> {
+        None // the monitor says so, with the consumption: see `Robot::watch`
+    }
 }
 
 impl Robot {
@@ -70,19 +101,21 @@ impl Robot {
         let tasks = load::tasks(FollowingOptimal, load, particles, &mut tasks);
         TaskSet::new(tasks).ok()?.schedulable(Overruns::None).ok()?;
         Some(Self {
-            level: DecisionalLevel::default(),
+            decider: DeliveryDecider::start(delivery::Program, OBJECTIVES, None),
             executive: Executive::new(tasks.try_into().ok()?).ok()?,
-            monitor: Monitor::new(LIMITS, ORDER).ok()?,
-            health: Health::SOUND,
-            lost: Losses::NONE,
-            plan: [0; STAGES],
+            mission: Mission {
+                monitor: Monitor::new(LIMITS, ORDER).ok()?,
+                plan: [0; STAGES],
+                first: 0,
+                rest: Rest::Travel(ACTIVITIES[0].length()),
+            },
         })
     }
 
-    /// The same robot with its supervisors in this state, and with this health.
+    /// The same robot with its supervisors in this state, and with what is known to be broken.
     #[must_use]
-    pub fn at(&self, level: DecisionalLevel, health: Health) -> Self {
-        Self { level, health, ..*self }
+    pub fn at(&self, level: DecisionalLevel, known: Health) -> Self {
+        Self { decider: DeliveryDecider::resume(level, OBJECTIVES, known), ..*self }
     }
 
     /// The task that has the processor.
@@ -90,38 +123,22 @@ impl Robot {
         self.executive.running()
     }
 
-    /// Flags are diagnosed; the report is judged where the robot is.
-    pub fn observe(&mut self, raised: Flags, part: Modules) -> Concluded {
-        let diagnosis = diagnose(raised, self.health.available());
-        self.health = self.health.union(diagnosis.health(part));
-        let lost = Losses::lacking(self.health.available()).without(self.lost);
-        self.lost = self.lost.union(lost);
-        let situation = self.level.situation(self.lost);
-        let (report, severity) = match diagnosis {
-            Diagnosis::None => (None, Severity::Weak),
-            Diagnosis::Unique(mode) => match situation.mode() {
-                Mode::Rest | Mode::Autonomous => (mode.rule().report, mode.rule().autonomous),
-                _ => (mode.rule().report, mode.rule().operator),
-            },
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {
-                (Some(Report::Ambiguous), Severity::Hard)
-            }
-        };
-        let said = report.map(|it| [decide(it, situation), judge(it, severity, situation)]);
-        Concluded { diagnosis, lost, report, decisions: said.unwrap_or([Decision::Record; 2]) }
+    /// Observers tell what they see.
+    pub fn perceive(&mut self, now: Millis, seen: Perceived) -> Option<Finding> {
+        self.decider.perceive(now, seen, &mut self.mission)
     }
 
-    /// The supervisors are told something; the number of what fired, counted by `fired`.
-    pub fn tell(&mut self, now: Millis, told: Told, cause: Cause, fired: &mut u32) {
+    /// A round of the decisional level, with everything that fires shown to a witness who counts.
+    pub fn round(
+        &mut self,
+        now: Millis,
+        said: Option<Word>,
+        body: Body,
+        fired: &mut u32,
+    ) -> (Option<Told>, Requests) {
         let mut count = |_: &delivery::Firing<'_, Cause>| *fired = fired.wrapping_add(1);
-        let _ = self.level.tell(now, told, cause, &mut count);
-    }
-
-    /// The supervisors take a round.
-    pub fn round(&mut self, now: Millis, fired: &mut u32) -> bool {
-        let mut count = |_: &delivery::Firing<'_, Cause>| *fired = fired.wrapping_add(1);
-        let _ = self.level.round(now, &mut count);
-        self.level.permit().is_some()
+        let round = self.decider.round(now, said, body, &mut count);
+        (round.told, self.decider.requests())
     }
 
     /// The executive is told the time, or that a job is done, or that a fault was answered.
@@ -140,9 +157,17 @@ impl Robot {
 
     /// Whether the plan still holds after this consumption.
     pub fn watch(&mut self, spent: &[u64; 2], rest: &[u64; 2]) -> Option<Request> {
-        self.monitor.spend(spent).ok()?;
-        self.monitor.assess(rest, AVAILABLE, AVAILABLE).ok()
+        self.mission.monitor.spend(spent).ok()?;
+        self.mission.monitor.assess(rest, AVAILABLE, AVAILABLE).ok()
     }
+
+    /// The mission that is planned.
+    pub fn mission(&mut self) -> &mut Mission {
+        &mut self.mission
+    }
+}
+
+impl Mission {
 
     /// Plans the mission from one of its activities on, of which `rest` is left, by the rule of the
     /// paper; whether there is a plan.

@@ -7,9 +7,11 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Request;
 use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::load::Load;
-use cotama_models::cotama::{Cause, DecisionalLevel, Flags, Modules, Told};
+use cotama_models::cotama::{
+    Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word,
+};
 use cotama_models::missions::tables::Rest;
-use decisional_level::{Concluded, Robot};
+use decisional_level::Robot;
 
 // `no_mangle` counts as unsafe because two equal names would meet at link time: these begin with
 // `robot_`, which nothing else does, and the linker starts at them.
@@ -32,15 +34,13 @@ entries! {
         decisional_level::reach::tell(level, told);
     /// A round.
     robot_round(level: &mut DecisionalLevel) = decisional_level::reach::round(level);
-    /// An event from outside, with everything that fires shown to a witness.
-    robot_tell_seen(robot: &mut Robot, now: Millis, told: Told, cause: Cause, fired: &mut u32) =
-        robot.tell(now, told, cause, fired);
-    /// A round, seen; whether the robot may move.
-    robot_round_seen(robot: &mut Robot, now: Millis, fired: &mut u32) -> bool =
-        robot.round(now, fired);
-    /// Flags.
-    robot_observe(robot: &mut Robot, raised: Flags, part: Modules) -> Concluded =
-        robot.observe(raised, part);
+    /// Flags: diagnosed, judged, planned around, queued to be told.
+    robot_perceive(robot: &mut Robot, now: Millis, seen: Perceived) -> Option<Finding> =
+        robot.perceive(now, seen);
+    /// A round of all of it, with everything that fires shown to a witness.
+    robot_decide(
+        robot: &mut Robot, now: Millis, said: Option<Word>, body: Body, fired: &mut u32
+    ) -> (Option<Told>, Requests) = robot.round(now, said, body, fired);
     /// Time, a job that is done, a fault that was answered.
     robot_schedule(
         robot: &mut Robot, now: Micros, done: Option<usize>, answered: Option<usize>
@@ -50,10 +50,10 @@ entries! {
         robot.watch(spent, rest);
     /// A plan by the rule of the paper.
     robot_plan_by_rule(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
-        robot.plan_by_rule(first, rest, units);
+        robot.mission().plan_by_rule(first, rest, units);
     /// A plan by the exact allocator.
     robot_plan_exactly(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
-        robot.plan_exactly(first, rest, units);
+        robot.mission().plan_exactly(first, rest, units);
 }
 
 #[panic_handler]

@@ -10,13 +10,16 @@ use cotama_core::executive::Executive;
 use cotama_core::hardware::Equipment;
 use cotama_core::units::{Micros, Millimetres, Millis};
 use cotama_models::cotama::load::Load;
-use cotama_models::cotama::{DecisionalLevel, FailureMode, Losses, Modules, Situation};
+use cotama_models::cotama::{
+    Body, DecisionalLevel, FailureMode, Losses, Modules, Perceived, Situation,
+};
 use cotama_models::missions::tables::Rest;
 use cotama_models::missions::tables::delivery::ACTIVITIES;
 use decisional_level::reach::{Reached, TOLD};
 use decisional_level::{PLANNING_BYTES, Robot, TASKS};
 use entries::{
-    robot_observe, robot_plan_by_rule, robot_plan_exactly, robot_round, robot_schedule, robot_tell,
+    robot_decide, robot_perceive, robot_plan_by_rule, robot_plan_exactly, robot_round,
+    robot_schedule, robot_tell,
 };
 use semihosting::println;
 
@@ -64,18 +67,31 @@ fn main() -> ! {
 
     let Some(robot) = Robot::new(black_box(Load::Busy)) else { panic!("the modules do not fit") };
     let (situations, count) = situations(&reached);
-    let mut observed = 0;
-    for &level in &situations[..count] {
-        for lost in (0..=Losses::ALL.bits()).filter_map(Losses::from_bits) {
-            for &mode in FailureMode::ALL {
-                let mut robot = robot.at(level, lost.health());
-                let flags = mode.rule().signature.always;
-                counted!(robot_observe(&mut robot, black_box(flags), Modules::NONE));
-                observed += 1;
+    // Each row of the FMECA shows in each situation with each set of losses, and is told.
+    let each = |act: &mut dyn FnMut(&mut Robot, Perceived)| {
+        let mut regions = 0;
+        for &level in &situations[..count] {
+            for lost in (0..=Losses::ALL.bits()).filter_map(Losses::from_bits) {
+                for &mode in FailureMode::ALL {
+                    let raised = mode.rule().signature.always;
+                    let seen = Perceived { raised, ..Perceived::nothing(Modules::ALL) };
+                    act(&mut robot.at(level, lost.health()), black_box(seen));
+                    regions += 1;
+                }
             }
         }
-    }
-    println!("batch observe {observed}");
+        regions
+    };
+    let perceived = each(&mut |robot, seen| {
+        counted!(robot_perceive(robot, Millis(100), seen));
+    });
+    println!("batch perceive {perceived}");
+    let decided = each(&mut |robot, seen| {
+        let body = Body { at_goal: false, stands: false };
+        let _ = robot_perceive(robot, Millis(100), seen);
+        counted!(robot_decide(robot, Millis(100), None, body, &mut 0));
+    });
+    println!("batch decide {decided}");
     println!("situations {count}");
     schedule(&robot);
     plan(&robot);

@@ -3,20 +3,14 @@
 mod branching;
 mod fairness;
 mod linear;
-#[allow(dead_code)]
-#[path = "../properties/oracle.rs"]
-mod oracle;
 mod public;
-#[allow(dead_code)]
-#[path = "../properties/random.rs"]
-mod random;
 
+use crate::properties::oracle::Space;
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::property::{Formula, Question, parse};
 use cotama_verification::pt::Pt;
 use cotama_verification::temporal::{Rest, Run};
-use oracle::Space;
 
 /// The formula of a text.
 fn formula(pt: &Pt, text: &str) -> Formula {

@@ -6,22 +6,13 @@
 //! verdict.
 
 mod contest;
-#[path = "../tpn/discrete.rs"]
-mod discrete;
 mod fair;
 mod laws;
 mod message;
 mod mutations;
 mod nets;
-#[path = "../properties/oracle.rs"]
-mod oracle;
 mod quick;
-#[allow(dead_code, reason = "names that are hard to write are for those who write them")]
-#[path = "../properties/random.rs"]
-mod random;
 mod replay;
-#[path = "../tpn/replay.rs"]
-mod schedule;
 mod small;
 mod timed;
 mod unbounded;

@@ -5,6 +5,6 @@ mod contest;
 mod fuzz;
 mod language;
 mod normal_forms;
-mod oracle;
-mod random;
+pub(crate) mod oracle;
+pub(crate) mod random;
 mod round_trip;

@@ -1,12 +1,6 @@
 //! Stubborn sets: deadlocks and reachability, compared with the evaluation by the book.
 
-#[allow(dead_code)]
-#[path = "../properties/oracle.rs"]
-mod oracle;
 mod public;
-#[allow(dead_code)]
-#[path = "../properties/random.rs"]
-mod random;
 mod searches;
 
 use cotama_core::net::TransitionId;

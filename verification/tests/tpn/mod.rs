@@ -5,14 +5,14 @@
 
 mod broken;
 mod conversion;
-mod discrete;
+pub(crate) mod discrete;
 mod facts;
 mod growth;
 mod random;
 mod reading;
 mod recovery;
 mod regions;
-mod replay;
+pub(crate) mod replay;
 mod response;
 mod schedules;
 mod textbook;

@@ -1,7 +1,7 @@
 //! What a person sees of a verdict, byte for byte, on small nets; and that what is shown is so.
 //!
-//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test diagnosis` writes the expected files
-//! anew.
+//! `UPDATE_GOLDEN=1 cargo test -p cotama-verification --test nets diagnosis` writes the expected
+//! files anew.
 
 mod goldens;
 mod nets;
@@ -10,8 +10,6 @@ mod player;
 mod robust;
 mod shrinking;
 mod vacuity;
-#[path = "../drawings/xml.rs"]
-mod xml;
 
 use cotama_core::net::owned::OwnedNet;
 use cotama_verification::diagnosis::{Case, Diagnosis, Run};

@@ -1,0 +1,99 @@
+//! What was lost returns, where the mission asks for it: held back until it was sound for long
+//! enough, then planned with and told.
+
+use super::plans::unused;
+use super::{Cause, Decider, Plans, Why};
+use crate::cotama::decisions::{Loss, Losses};
+use crate::cotama::dependability::FailureModes;
+use crate::cotama::level::{Return, Told};
+use crate::cotama::modules::{Health, Modules};
+use crate::cotama::supervisors::recovery::{Event, Player, State};
+use cotama_core::player::Program;
+
+/// The hysteresis of each [`Return`].
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Returns([Player; Return::ALL.len()]);
+
+impl Returns {
+    fn is_available(&self, it: Return) -> bool {
+        self.0[it as usize].state() == State::Available
+    }
+
+    /// Whether all that is lost with this has returned.
+    fn have(&self, health: Health) -> bool {
+        let left = health.available();
+        let mut lost = Return::ALL.into_iter().filter(|it| !it.works(left));
+        let for_good = Losses::lacking(left).without(Losses::of(&Return::ALL.map(Return::loss)));
+        let returned = match lost.next() {
+            None => false,
+            Some(Return::Sonar) => self.is_available(Return::Sonar),
+            Some(first) => self.is_available(first) && lost.all(|it| self.is_available(it)),
+        };
+        returned && for_good.is_empty()
+    }
+}
+
+impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decider<P, W, C, S> {
+    /// What is known to be lost is watched; what has been sound for long enough is used again.
+    pub(super) fn use_what_returns(&mut self, sound: Modules, plans: &mut impl Plans) {
+        let (known, now) = (self.known.available(), self.now);
+        let Some(Returns(players)) = &mut self.returns else { return };
+        let mut restored = false;
+        for (player, it) in players.iter_mut().zip(Return::ALL) {
+            restored |= player.advance(now).fired > 0;
+            // What needs the sonars is lost and returns with them, and has its own returns left.
+            let by_itself = it == Return::Sonar || Return::Sonar.works(known);
+            if by_itself && !it.works(known) {
+                let _ =
+                    player.offer(now, if it.works(sound) { &Event::sound } else { &Event::lost });
+            }
+        }
+        if restored {
+            self.restore(plans);
+        }
+    }
+
+    /// Failures that are over, and whose modules have returned, are known to be over. The rest of
+    /// the mission is planned again, and the supervisors hear of what the plan uses: the sonars
+    /// last, since only with them can the others be used.
+    fn restore(&mut self, plans: &mut impl Plans) {
+        let Some(returns) = self.returns else { return };
+        let before = self.known.available();
+        let (mut over, mut known, mut cause) = (Health::SOUND, Health::SOUND, None);
+        for mode in self.found.iter() {
+            let origin = self.origin[mode as usize];
+            let health = mode.health(origin.part);
+            let passed = mode.rule().signature.always.common(self.up).is_empty();
+            if passed && returns.have(health) {
+                over = over.union(health);
+                cause = cause.max(Some(origin.cause.0));
+                self.found = self.found.without(FailureModes::of(&[mode]));
+            } else {
+                known = known.union(health);
+            }
+        }
+        self.known.faulty = self.known.faulty.without(over.faulty).union(known.faulty);
+        self.known.lost = self.known.lost.without(over.lost).union(known.lost);
+        let left = self.known.available();
+        if let Some(cause) = cause.filter(|_| left != before) {
+            let why = Why::Returned { modules: left.without(before), broken: over };
+            self.use_again(why, left, Cause(cause), plans);
+        }
+    }
+
+    /// Plans with what has returned, and tells the supervisors what the plan uses of it.
+    fn use_again(&mut self, why: Why, left: Modules, cause: Cause, plans: &mut impl Plans) {
+        let over = self.lost.has(Loss::Vital) || plans.is_over();
+        if over || plans.plan(why, left).is_err() {
+            return; // the plan in force goes on
+        }
+        let planned = plans.configuration();
+        let lost = self.lost.common(Losses::lacking(left).union(unused(planned)));
+        let back = |it: &Return| self.lost.without(lost).has(it.loss());
+        for it in Return::ALL.into_iter().rev().filter(back) {
+            self.untold.push(Told::Return(it), cause);
+        }
+        self.lost = lost;
+        self.do_without(planned, cause);
+    }
+}

@@ -1,0 +1,14 @@
+//! The engines of the checker, one module each, their front `check`, and the certificates of what
+//! they find. One program: each links and compiles the library's generic code anew.
+
+mod certificates;
+mod check;
+mod coverability;
+mod forged;
+mod properties;
+mod reductions;
+mod statespace;
+mod structural;
+mod stubborn;
+mod temporal;
+mod tpn;
