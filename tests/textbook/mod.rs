@@ -329,7 +329,11 @@ impl<'s> Game<'s> {
         let Some(first) = first else {
             let mut here = net.ignored.iter().filter(|it| it.event == event.id);
             let component = event.component;
-            let marked = here.any(|it| self.place(Of { component, id: it.place }) > 0);
+            let tokens = |id| self.place(Of { component, id });
+            let marked = here.any(|it| {
+                let mut guard = it.guard.iter();
+                tokens(it.place) > 0 && guard.all(|arc| tokens(arc.place) >= arc.weight)
+            });
             return if marked { Why::OnPurpose } else { Why::NotEnabled };
         };
         let (line, waited) = (&self.book.lines[first], self.waited(first));

@@ -1,8 +1,8 @@
 //! Random nets: of every shape that the player treats in a way of its own.
 
 use crate::draw::Draw;
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, OutputId, Place, PlaceId, Role, Within};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Arc, EventId, OutputId, Place, PlaceId, Role, Within};
 
 /// The most words of a marking of a [random net](random_net).
 pub const WORDS: usize = 4;
@@ -58,10 +58,22 @@ pub fn random_net(draw: &mut Draw, time: Time) -> OwnedNet {
     if !net.events.is_empty() {
         for _ in 0..draw.between(0, 3) {
             let event = EventId(below(draw, net.events.len()) as u32);
-            net.ignored.push(Ignored { event, place: any_place(&net, draw) });
+            let it = OwnedIgnored::new(event, any_place(&net, draw));
+            net.ignored.push(guarded(it, &net, &mut draw.clone()));
         }
     }
     net
+}
+
+/// The same, often under a guard on any places.
+pub fn guarded(mut it: OwnedIgnored, net: &OwnedNet, draw: &mut Draw) -> OwnedIgnored {
+    while one_in(draw, 2) {
+        let place = any_place(net, draw);
+        if it.guard.iter().all(|arc| arc.place != place) {
+            it = it.guard(place, *pick(draw, &[1, 1, 1, 2, 300, u32::MAX]));
+        }
+    }
+    it
 }
 
 /// One in so many times.

@@ -1,9 +1,9 @@
 //! Random systems: of every shape that the player treats in a way of its own.
 
-use super::nets::{below, interval, one_in, pick};
+use super::nets::{below, guarded, interval, one_in, pick};
 use crate::draw::Draw;
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, Net, OutputId, Place, PlaceId, Role};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Arc, EventId, Net, OutputId, Place, PlaceId, Role};
 use cotama_core::player::slots;
 use cotama_core::system::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
 
@@ -87,6 +87,12 @@ pub fn random_system(draw: &mut Draw) -> OwnedSystem {
             system.clears.push(Clear { on: Of { component, id: on }, mailbox });
         }
     }
+    // Last, so that guards can name what is shared.
+    let mut draw = draw.clone();
+    for net in &mut system.nets {
+        let all = std::mem::take(&mut net.ignored);
+        net.ignored = all.into_iter().map(|it| guarded(it, net, &mut draw)).collect();
+    }
     system
 }
 
@@ -121,7 +127,7 @@ fn places_and_signals(name: &str, draw: &mut Draw) -> OwnedNet {
         net.place(OwnedPlace { role: Role::Data, ..place }).expect("few places");
     }
     let event = EventId(below(draw, net.events.len()) as u32);
-    net.ignored.push(Ignored { event, place: PlaceId(0) });
+    net.ignored.push(OwnedIgnored::new(event, PlaceId(0)));
     net
 }
 

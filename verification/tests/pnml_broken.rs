@@ -296,6 +296,27 @@ fn broken_files_say_what_is_wrong_where_and_what_to_do() {
                  <term place=\"p\" weight=\"2\"/></invariant>",
             ),
         ),
+        (
+            "guard_term_twice",
+            own_net(
+                "<event id=\"e\" name=\"a\"/><ignored event=\"e\" place=\"p\">\
+                 <term place=\"p\" weight=\"1\"/><term place=\"p\" weight=\"2\"/></ignored>",
+            ),
+        ),
+        (
+            "guard_term_weight_0",
+            own_net(
+                "<event id=\"e\" name=\"a\"/><ignored event=\"e\" place=\"p\">\
+                 <term place=\"p\" weight=\"0\"/></ignored>",
+            ),
+        ),
+        (
+            "guard_no_place",
+            own_net(
+                "<event id=\"e\" name=\"a\"/><ignored event=\"e\" place=\"p\">\
+                 <term place=\"x\" weight=\"1\"/></ignored>",
+            ),
+        ),
         ("event_twice", own_net("<event id=\"e\" name=\"a\"/>\n<event id=\"e\" name=\"b\"/>")),
         // Several at once, in the order of the file, in columns of characters.
         (

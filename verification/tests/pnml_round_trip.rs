@@ -1,7 +1,9 @@
 //! What is written is PNML, and reads back as the same net.
 
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, OutputId, Place, PlaceId, Role, Within};
+use cotama_core::net::owned::{
+    OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,
+};
+use cotama_core::net::{Arc, EventId, OutputId, Place, PlaceId, Role, Within};
 use cotama_verification::pnml;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
@@ -236,11 +238,15 @@ fn law(places: usize) -> impl Strategy<Value = OwnedLaw> {
     ]
 }
 
-fn ignored(places: usize, events: usize) -> impl Strategy<Value = Vec<Ignored>> {
+fn ignored(places: usize, events: usize) -> impl Strategy<Value = Vec<OwnedIgnored>> {
     let most = if events == 0 { 0..=0 } else { 0..=3 };
     let pair = (0..events.max(1) as u32, 0..places as u32);
-    let ignored =
-        pair.prop_map(|(event, place)| Ignored { event: EventId(event), place: PlaceId(place) });
+    let guard = proptest::collection::btree_map(0..places as u32, 1..=u32::MAX, 0..=2);
+    let ignored = (pair, guard).prop_map(|((event, place), guard)| OwnedIgnored {
+        event: EventId(event),
+        place: PlaceId(place),
+        guard: guard.into_iter().map(|(at, weight)| Arc { place: PlaceId(at), weight }).collect(),
+    });
     proptest::collection::vec(ignored, most)
 }
 

@@ -1,9 +1,9 @@
 //! Why no transition uses an event, in words.
 
 use crate::answers::model::{RefusalReason, RefusalRow};
-use cotama_core::net::{Arc, EventId, Net, PlaceId, TransitionId, Within};
+use cotama_core::net::{EventId, Net, PlaceId, TransitionId, Within};
 use cotama_core::player::Why;
-use cotama_verification::play::{Unused, condition, not_enabled, overflowing};
+use cotama_verification::play::{Unused, ignored_in, not_enabled, overflowing};
 
 /// Why an event is not used at a marking.
 pub(super) fn refusal(net: &Net<'_>, marking: &[u32], event: EventId, why: Unused) -> RefusalRow {
@@ -20,7 +20,7 @@ pub(super) fn refusal(net: &Net<'_>, marking: &[u32], event: EventId, why: Unuse
         }
     };
     let (reason, text) = match why {
-        Why::OnPurpose => (RefusalReason::OnPurpose, on_purpose(net, marking, event)),
+        Why::OnPurpose => (RefusalReason::OnPurpose, ignored_in(net, &tokens, event)),
         Why::TooEarly(id) => (
             RefusalReason::TooEarly,
             format!("too early: `{}` fires on it {} after it is enabled", name(id), within(id)),
@@ -64,13 +64,6 @@ fn event_name(net: &Net<'_>, EventId(id): EventId) -> String {
 
 fn tokens(marking: &[u32], PlaceId(id): PlaceId) -> u32 {
     marking.get(id as usize).copied().unwrap_or(0)
-}
-
-fn on_purpose(net: &Net<'_>, marking: &[u32], event: EventId) -> String {
-    let here = net.ignored.iter().filter(|it| it.event == event && tokens(marking, it.place) > 0);
-    let places: Vec<_> =
-        here.map(|it| condition(net, Arc { place: it.place, weight: 1 })).collect();
-    format!("ignored on purpose in {}", places.join(", "))
 }
 
 fn interval(within: Within) -> String {

@@ -25,6 +25,9 @@ macro_rules! __net_number {
             (stringify!($net), stringify!($part)), !!($($number)+) as i128,
         )
     };
+    (($net:ident $part:ident $event:ident) $($number:tt)+) => {
+        $crate::__net_number!(($net $part) $($number)+)
+    };
 }
 
 /// An interval: when it begins, and when it ends.
@@ -67,11 +70,23 @@ macro_rules! __net_guard {
     ($of:tt [$($done:tt)*] $name:ident $($rest:tt)*) => {
         $crate::__net_guard!($of [$($done)* $crate::__net_test!($of $name AtLeast 1),] $($rest)*)
     };
-    (($net:ident $line:ident) [$($done:tt)*] $($rest:tt)+) => {
+    (($net:ident $line:ident) $done:tt $($rest:tt)+) => {
+        $crate::__net_no_guard!($net ", transition `" $line [$($rest)+] "transitions")
+    };
+    (($net:ident ignore $event:ident) $done:tt $($rest:tt)+) => {
+        $crate::__net_no_guard!($net ", ignore of `" $event [$($rest)+] "lines")
+    };
+}
+
+/// Ends the compilation: this is no guard.
+#[doc(hidden)]
+#[macro_export]
+macro_rules! __net_no_guard {
+    ($net:ident $of:literal $line:ident [$($rest:tt)+] $several:literal) => {
         compile_error!(concat!(
-            "net `", stringify!($net), "`, transition `", stringify!($line), "`: `",
+            "net `", stringify!($net), "`", $of, stringify!($line), "`: `",
             stringify!($($rest)+), "` cannot be part of a guard, which is a conjunction as ",
-            "`[flag & !other & counter < 3]`; write an `or` as two transitions"
+            "`[flag & !other & counter < 3]`; write an `or` as two ", $several
         ))
     };
 }

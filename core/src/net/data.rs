@@ -58,7 +58,7 @@ pub struct Net<'n> {
     /// How tokens move. Of transitions of the same priority the earlier one goes first.
     pub transitions: &'n [Transition<'n>],
     /// Events that a place leaves unanswered on purpose.
-    pub ignored: &'n [Ignored],
+    pub ignored: &'n [Ignored<'n>],
     /// What is claimed of it.
     pub laws: &'n [Law<'n>],
 }
@@ -193,13 +193,41 @@ impl Within {
     }
 }
 
-/// `event` is left unanswered where `place` is marked, on purpose.
+/// `event` is left unanswered where `place` is marked and the guard holds, on purpose.
+///
+/// ```
+/// use cotama_core::net;
+/// net! {
+///     /// Uploads a picture when there is one, unless the link is too weak.
+///     mod upload {
+///         places { Waiting: 1, Sent }
+///         shared { wifi, level: 0 of 3 }
+///         events { picture }
+///         transitions { send on picture [wifi & level >= 1]: Waiting => Sent; }
+///         ignore { picture in Waiting [!wifi]; picture in Waiting [level < 1]; picture in Sent; }
+///         laws { handles(all); }
+///     }
+/// }
+/// let tokens = |place: net::PlaceId| upload::NET.places[place.0 as usize].initial;
+/// let holds: Vec<bool> = upload::NET.ignored.iter().map(|it| it.holds(tokens)).collect();
+/// assert_eq!(holds, [true, true, false]);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Ignored {
+pub struct Ignored<'n> {
     /// The event.
     pub event: EventId,
     /// The place.
     pub place: PlaceId,
+    /// Tokens that must be there as well, as those that a transition [reads](Transition::read); no
+    /// place occurs twice.
+    pub guard: &'n [Arc],
+}
+
+impl Ignored<'_> {
+    /// Whether the place is marked and the guard holds, given the tokens of each place.
+    pub fn holds(&self, tokens: impl Fn(PlaceId) -> u32) -> bool {
+        tokens(self.place) > 0 && self.guard.iter().all(|arc| tokens(arc.place) >= arc.weight)
+    }
 }
 
 /// A claim about everything that a [`Player`](crate::player::Player) of a net can do when it is

@@ -78,8 +78,8 @@ impl fmt::Display for Defect {
             ),
             Self::Law => write!(
                 f,
-                "a law or an ignored event names something that the net does not have, or a place \
-                 twice"
+                "a law or an ignored event names something that the net does not have, a place \
+                 twice, or one with weight 0"
             ),
             Self::Twice { list, at } => write!(
                 f,
@@ -150,8 +150,12 @@ impl Net<'_> {
     }
 
     fn law_defect(&self) -> Option<Defect> {
-        let ignored =
-            |it: &super::Ignored| (it.event.0 as usize) < self.events.len() && self.has(it.place);
+        let ignored = |it: &super::Ignored<'_>| {
+            (it.event.0 as usize) < self.events.len()
+                && self.has(it.place)
+                && it.guard.iter().all(|arc| self.has(arc.place))
+                && once([it.guard, &[]])
+        };
         let law = |law: &Law<'_>| match *law {
             Law::Invariant { sum, .. } => {
                 sum.iter().all(|arc| self.has(arc.place)) && once([sum, &[]])

@@ -99,7 +99,12 @@ impl Source<'_> {
 
     /// Begins the text of an error in a line.
     pub(super) const fn at_line(&self, line: &Line<'_>) -> Text {
-        Text::new().with("net ").name(self.name).with(", transition ").name(line.name).with(": ")
+        let text = Text::new().with("net ").name(self.name);
+        if line.is_ignore() {
+            text.with(", ignore of ").name(line.on).with(": ")
+        } else {
+            text.with(", transition ").name(line.name).with(": ")
+        }
     }
 
     /// Ends the compilation: this name is not there.

@@ -1,9 +1,9 @@
 //! From what was written to a [`Net`](super::Net): names are looked up, lines become transitions.
 
 use super::data::{Arc, EventId, Ignored, Law, OutputId, Place, PlaceId, Role, Transition, Within};
-use super::lookup::{Found, Meant, signal};
+use super::lookup::{Meant, signal};
 use super::size::{Size, complement_affix, put};
-use super::source::{Claim, Line, Source};
+use super::source::{Claim, Ignore, Line, Source};
 use super::text::{Text, as_str, same};
 use super::variant::MOST;
 
@@ -49,7 +49,7 @@ pub struct Lowered<
     arcs: [Arc; ARCS],
     emits: [OutputId; EMITS],
     text: [u8; TEXT],
-    ignored: [Ignored; IGNORED],
+    ignored: [(EventId, PlaceId, Span); IGNORED],
     laws: [(Span, usize); LAWS],
     size: Size,
 }
@@ -87,7 +87,7 @@ impl<
             arcs: [Arc { place: PlaceId(0), weight: 0 }; ARCS],
             emits: [OutputId(0); EMITS],
             text: [0; TEXT],
-            ignored: [Ignored { event: EventId(0), place: PlaceId(0) }; IGNORED],
+            ignored: [(EventId(0), PlaceId(0), EMPTY); IGNORED],
             laws: [(EMPTY, 0); LAWS],
             size: Size::ZERO,
         };
@@ -197,6 +197,22 @@ impl<
         Span { start, length: self.size.arcs - start }
     }
 
+    /// Adds what a line of `ignore` asks besides the token in this place.
+    #[track_caller]
+    const fn asked(&mut self, line: &Ignore<'_>, place: PlaceId) -> Span {
+        let variant = self.source.ignoring(line, place);
+        let start = self.size.arcs;
+        let mut at = 0;
+        while at < variant.len() {
+            if let Some(arc) = variant.asks(at) {
+                self.arcs[self.size.arcs] = arc;
+                self.size.arcs += 1;
+            }
+            at += 1;
+        }
+        Span { start, length: self.size.arcs - start }
+    }
+
     /// Adds what is ignored, and the laws.
     #[track_caller]
     const fn claims(&mut self) {
@@ -204,21 +220,20 @@ impl<
         let text = Text::new().with("net ").name(source.name).with(", ignore: ");
         let mut at = 0;
         while at < source.ignored.len() {
-            let (event, place) = source.ignored[at];
-            let event = source.event(text, event);
-            if let Found::Group(group) = source.find(place) {
-                let mut member = 0;
-                while member < source.groups[group].members.len() {
-                    let place =
-                        source.place(text, source.groups[group].members[member], Meant::Place);
-                    self.ignored[self.size.ignored] = Ignored { event, place };
+            let line = &source.ignored[at];
+            let event = source.event(text, line.event);
+            let mut named = 0;
+            while named < line.places.len() {
+                let pairs = source.pairs(line.places[named]);
+                let mut pair = 0;
+                while pair < pairs {
+                    let place = source.ignored_in(line, named, pair);
+                    let guard = if line.guard.is_empty() { EMPTY } else { self.asked(line, place) };
+                    self.ignored[self.size.ignored] = (event, place, guard);
                     self.size.ignored += 1;
-                    member += 1;
+                    pair += 1;
                 }
-            } else {
-                self.ignored[self.size.ignored] =
-                    Ignored { event, place: source.place(text, place, Meant::AnyOrGroup) };
-                self.size.ignored += 1;
+                named += 1;
             }
             at += 1;
         }
@@ -350,8 +365,15 @@ impl<
     }
 
     /// What it ignores on purpose.
-    pub const fn ignored(&self) -> &[Ignored] {
-        &self.ignored
+    pub const fn ignored(&self) -> [Ignored<'_>; IGNORED] {
+        let mut ignored = [Ignored { event: EventId(0), place: PlaceId(0), guard: &[] }; IGNORED];
+        let mut at = 0;
+        while at < IGNORED {
+            let (event, place, guard) = self.ignored[at];
+            ignored[at] = Ignored { event, place, guard: self.arcs(guard) };
+            at += 1;
+        }
+        ignored
     }
 
     /// Its laws.

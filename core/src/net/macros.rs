@@ -32,29 +32,7 @@
 /// assert_eq!(player.offer(Millis(500), &link::Event::Silence), Ignored { why: Why::OnPurpose });
 /// ```
 #[doc = include_str!("sections.md")]
-/// # Laws
-///
-/// Compile errors where they do not hold, with the culprit and the shortest way there. They speak
-/// of all that a player can do (see [`Law`](crate::net::Law)): events come at any instant, shared
-/// places change as they please. The net *rests* where nothing fires by itself now; on the way
-/// there it passes markings, and they count as marked.
-///
-/// | law | says |
-/// | --- | --- |
-/// | `invariant(A & B * 2 = 1)` | the weighted sum of tokens never changes |
-/// | `never_both(A, B)` | never a token in both |
-/// | `reachable(A)` | some run marks it |
-/// | `always_can(A)` | from wherever the net rests, some run marks it |
-/// | `handles(all)` | whenever the net rests, every event is used or ignored on purpose |
-/// | `settles` | what fires by itself without time passing comes to an end; always checked |
-/// | `deadlock_free`, `deadlock_free_except(A)` | never stuck, except where `A` is marked |
-/// | `deterministic` | priorities and the order of lines never decide |
-/// | `left_to_checker` | the net is too large for this: its laws are for the model checker |
-///
-/// A net is stuck where it rests and no event and no passing of time makes a transition fire, now
-/// or ever, as long as the places it shares stay as they are. It is too large with more than 1,024
-/// markings (those that differ in what clocks show count each), or with more than eight transitions
-/// in an interval enabled together. Bounds of places are always checked.
+#[doc = include_str!("laws.md")]
 #[macro_export]
 macro_rules! net {
     (
@@ -104,7 +82,9 @@ macro_rules! net {
                     $(priority $priority:expr)?
                 ;
             )* }
-            $(ignore { $( $ignored:ident in $( $ignored_in:ident )&+ ; )* })?
+            $(ignore { $(
+                $ignored:ident in $( $ignored_in:ident )&+ $([ $($only:tt)* ])? ;
+            )* })?
             $(laws { $( $law:ident $(( $($law_of:tt)* ))? ; )* })?
         }
     ) => {
@@ -185,7 +165,11 @@ macro_rules! net {
                             &[$( !!($priority) as i128, )? 0],
                         ),
                     }, )*],
-                    ignored: &[$( $( $( (stringify!($ignored), stringify!($ignored_in)), )+ )* )?],
+                    ignored: &[$( $( $crate::__private::source::Ignore {
+                        event: stringify!($ignored),
+                        places: &[$( stringify!($ignored_in), )+],
+                        guard: $crate::__net_guard!(($name ignore $ignored) [] $($($only)*)?),
+                    }, )* )?],
                     laws: &[$( $( $crate::__net_claim!(($name) $law $(( $($law_of)* ))?), )* )?],
                 }
             );
@@ -225,7 +209,7 @@ macro_rules! net {
                         $(after $after $(:: $after_in)* ms)?
                         $(priority $priority)?;
                 } )* }
-                { $( $( $ignored in $( $ignored_in )&+; )* )? }
+                { $( $( $ignored in $( $ignored_in )&+ $([ $($only)* ])?; )* )? }
                 { $( $( $law $(( $($law_of)* ))?; )* )? }
             }
 
@@ -251,7 +235,7 @@ macro_rules! net {
                 events: SOURCE.events,
                 outputs: SOURCE.outputs,
                 transitions: &LOWERED.transitions(),
-                ignored: LOWERED.ignored(),
+                ignored: &LOWERED.ignored(),
                 laws: &LOWERED.laws(),
             };
             const ALONE: &[$crate::system::Component<'static>; 1] =
@@ -273,6 +257,7 @@ macro_rules! net {
                 { CODE_SIZE.clocks },
                 { CODE_SIZE.clears },
                 { CODE_SIZE.ignored },
+                { CODE_SIZE.ignored_where },
             > = &net_code::Arrays::of(&SYSTEM);
 
             /// How the net was checked.

@@ -15,6 +15,8 @@ pub(crate) mod data;
 #[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
 mod declarations;
 pub(crate) mod defect;
+#[allow(clippy::large_types_passed_by_value, reason = "it lives while compiling")]
+mod guard;
 #[allow(
     clippy::large_stack_arrays,
     clippy::large_types_passed_by_value,

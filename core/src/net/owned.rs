@@ -37,7 +37,7 @@ pub struct OwnedNet {
     /// How tokens move.
     pub transitions: Vec<OwnedTransition>,
     /// Events that a place leaves unanswered on purpose.
-    pub ignored: Vec<Ignored>,
+    pub ignored: Vec<OwnedIgnored>,
     /// What is claimed of it.
     pub laws: Vec<OwnedLaw>,
 }
@@ -174,6 +174,53 @@ impl OwnedTransition {
     }
 }
 
+/// An [`Ignored`] that owns its guard.
+///
+/// ```
+/// use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace};
+///
+/// let mut net = OwnedNet::new("door", "");
+/// let shut = net.place(OwnedPlace::new("shut", 1)).unwrap();
+/// let locked = net.place(OwnedPlace::new("locked", 0)).unwrap();
+/// let knock = net.event("knock", "").unwrap();
+/// net.ignored.push(OwnedIgnored::new(knock, shut).guard(locked, 1));
+/// assert!(!net.view().net().ignored[0].holds(|place| net.places[place.0 as usize].initial));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OwnedIgnored {
+    /// The event.
+    pub event: EventId,
+    /// The place.
+    pub place: PlaceId,
+    /// Tokens that must be there as well.
+    pub guard: Vec<Arc>,
+}
+
+impl OwnedIgnored {
+    /// An event that is ignored wherever this place is marked.
+    pub fn new(event: EventId, place: PlaceId) -> Self {
+        Self { event, place, guard: Vec::new() }
+    }
+
+    /// The same where these tokens are there as well.
+    #[must_use]
+    pub fn guard(mut self, place: PlaceId, weight: u32) -> Self {
+        self.guard.push(Arc { place, weight });
+        self
+    }
+
+    /// It, to be read.
+    pub fn view(&self) -> Ignored<'_> {
+        Ignored { event: self.event, place: self.place, guard: &self.guard }
+    }
+}
+
+impl From<&Ignored<'_>> for OwnedIgnored {
+    fn from(it: &Ignored<'_>) -> Self {
+        Self { event: it.event, place: it.place, guard: it.guard.to_vec() }
+    }
+}
+
 /// A [`Law`] that owns its lists.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum OwnedLaw {
@@ -211,6 +258,7 @@ pub struct View<'n> {
     events: Vec<Signal<'n>>,
     outputs: Vec<Signal<'n>>,
     transitions: Vec<Transition<'n>>,
+    ignored: Vec<Ignored<'n>>,
     laws: Vec<Law<'n>>,
 }
 
@@ -266,6 +314,7 @@ impl OwnedNet {
             events: self.events.iter().map(OwnedSignal::view).collect(),
             outputs: self.outputs.iter().map(OwnedSignal::view).collect(),
             transitions: self.transitions.iter().map(OwnedTransition::view).collect(),
+            ignored: self.ignored.iter().map(OwnedIgnored::view).collect(),
             laws: self.laws.iter().map(OwnedLaw::view).collect(),
         }
     }
@@ -337,7 +386,7 @@ impl View<'_> {
             events: &self.events,
             outputs: &self.outputs,
             transitions: &self.transitions,
-            ignored: &self.net.ignored,
+            ignored: &self.ignored,
             laws: &self.laws,
         }
     }
@@ -386,7 +435,7 @@ impl From<&Net<'_>> for OwnedNet {
             events: signals(net.events),
             outputs: signals(net.outputs),
             transitions: net.transitions.iter().map(transition).collect(),
-            ignored: net.ignored.to_vec(),
+            ignored: net.ignored.iter().map(OwnedIgnored::from).collect(),
             laws: net.laws.iter().map(law).collect(),
         }
     }

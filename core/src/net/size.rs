@@ -84,10 +84,18 @@ impl Source<'_> {
         }
         let mut at = 0;
         while at < self.ignored.len() {
-            size.ignored += match self.find(self.ignored[at].1) {
-                Found::Group(group) => self.groups[group].members.len(),
-                _ => 1,
-            };
+            let line = &self.ignored[at];
+            let mut named = 0;
+            while named < line.places.len() {
+                let pairs = self.pairs(line.places[named]);
+                let mut pair = 0;
+                while pair < pairs && !line.guard.is_empty() {
+                    size.arcs += self.ignoring(line, self.ignored_in(line, named, pair)).asked();
+                    pair += 1;
+                }
+                size.ignored += pairs;
+                named += 1;
+            }
             at += 1;
         }
         size

@@ -27,8 +27,8 @@ pub struct Source<'n> {
     pub groups: &'n [Group<'n>],
     /// `transitions`.
     pub lines: &'n [Line<'n>],
-    /// `ignore`: event and place, or group.
-    pub ignored: &'n [(&'n str, &'n str)],
+    /// `ignore`.
+    pub ignored: &'n [Ignore<'n>],
     /// `laws`.
     pub laws: &'n [Claim<'n>],
 }
@@ -80,6 +80,17 @@ pub struct Line<'n> {
     pub within: Option<(u64, Option<u64>)>,
     /// Priority.
     pub priority: i64,
+}
+
+/// A line of `ignore`.
+#[derive(Clone, Copy, Debug)]
+pub struct Ignore<'n> {
+    /// The event.
+    pub event: &'n str,
+    /// Places and groups.
+    pub places: &'n [&'n str],
+    /// The guard, all of which must hold.
+    pub guard: &'n [Test<'n>],
 }
 
 /// One condition of a guard: a place, flag, counter or shared place compared with a number.

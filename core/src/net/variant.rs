@@ -3,7 +3,7 @@
 
 use super::data::PlaceId;
 use super::lookup::{Found, Meant};
-use super::source::{By, Group, Line, Relation, Source};
+use super::source::{By, Group, Line, Source};
 use super::text::same;
 
 /// The most places that one transition may touch.
@@ -100,8 +100,7 @@ impl Source<'_> {
     /// The arcs of one variant of a line.
     #[track_caller]
     pub(super) const fn variant(&self, line: &Line<'_>, number: usize) -> Variant {
-        let nothing = Touch { place: PlaceId(0), take: 0, give: 0, need: 0 };
-        let mut variant = Variant { touched: [nothing; TOUCHED], length: 0, possible: true };
+        let mut variant = Variant::NOTHING;
         let (member, mut old) = self.member(line, number);
 
         let mut at = 0;
@@ -237,6 +236,13 @@ impl Source<'_> {
 }
 
 impl Variant {
+    /// It touches nothing yet.
+    pub(super) const NOTHING: Self = Self {
+        touched: [Touch { place: PlaceId(0), take: 0, give: 0, need: 0 }; TOUCHED],
+        length: 0,
+        possible: true,
+    };
+
     /// What it does to this place.
     #[track_caller]
     const fn touch(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId) -> &mut Touch {
@@ -247,7 +253,12 @@ impl Variant {
         if at == TOUCHED {
             source
                 .at_line(line)
-                .with("it touches more than 32 places; split it into several transitions")
+                .with("it touches more than 32 places; ")
+                .with(if line.is_ignore() {
+                    "test fewer"
+                } else {
+                    "split it into several transitions"
+                })
                 .stop();
         }
         if at == self.length {
@@ -257,68 +268,18 @@ impl Variant {
         &mut self.touched[at]
     }
 
+    /// Asks for tokens.
     #[track_caller]
-    const fn needs(&mut self, source: &Source<'_>, line: &Line<'_>, place: PlaceId, tokens: u64) {
+    pub(super) const fn needs(
+        &mut self,
+        source: &Source<'_>,
+        line: &Line<'_>,
+        place: PlaceId,
+        tokens: u64,
+    ) {
         let touch = self.touch(source, line, place);
         if tokens > touch.need {
             touch.need = tokens;
-        }
-    }
-
-    /// Adds a condition of the guard.
-    #[track_caller]
-    const fn test(&mut self, source: &Source<'_>, line: &Line<'_>, at: usize) {
-        let test = line.guard[at];
-        let (place, complement) = match source.find(test.name) {
-            Found::Place(place) => (place, None),
-            Found::Data(place, data) => (place, Some(source.complement(data))),
-            Found::Group(_) => source
-                .at_line(line)
-                .with("the guard tests a group, ")
-                .name(test.name)
-                .with(": read it instead, as `read ")
-                .with(test.name)
-                .with("`")
-                .stop(),
-            Found::Nothing => {
-                source.nothing(source.at_line(line).with("in its guard: "), test.name, Meant::Any)
-            }
-        };
-        let bound = source.declared(place).bound;
-        // The value is at least `low` and at most `high`.
-        let (low, high) = match test.relation {
-            Relation::Less if test.value == 0 => (bound + 1, bound),
-            Relation::Less => (0, test.value - 1),
-            Relation::AtMost => (0, test.value),
-            Relation::Equal => (test.value, test.value),
-            Relation::AtLeast => (test.value, bound),
-            Relation::More => (test.value.saturating_add(1), bound),
-        };
-        if low > bound {
-            source
-                .at_line(line)
-                .with("its guard can never hold: ")
-                .name(test.name)
-                .with(" is at most ")
-                .number(bound)
-                .stop();
-        }
-        if low > 0 {
-            self.needs(source, line, PlaceId(place as u32), low);
-        }
-        if high < bound {
-            match complement {
-                Some(complement) => self.needs(source, line, complement, bound - high),
-                None => source
-                    .at_line(line)
-                    .with("its guard asks that the place ")
-                    .name(test.name)
-                    .with(if high == 0 { " is empty" } else { " holds few tokens" })
-                    .with(", and a transition can only ask for tokens that are there: ")
-                    .with("test a flag or a counter, ")
-                    .with("or read a place that is marked instead")
-                    .stop(),
-            }
         }
     }
 
@@ -403,7 +364,7 @@ impl Variant {
     }
 
     /// Finds out whether the conditions contradict each other.
-    const fn settle(&mut self, source: &Source<'_>) {
+    pub(super) const fn settle(&mut self, source: &Source<'_>) {
         let mut at = 0;
         while at < self.length {
             let touch = &self.touched[at];

@@ -3,7 +3,7 @@
 use super::code::Lists;
 use super::field::Field;
 use super::layout::{complement, lacks_complement, made_complement};
-use crate::net::data::{Arc, PlaceId, Role, Transition};
+use crate::net::data::{Arc, Ignored, PlaceId, Role, Transition};
 use crate::system::data::{Of, System, Target};
 
 /// The tokens that a transition needs, takes, and adds or removes in all.
@@ -66,6 +66,36 @@ pub(super) const fn moved<const W: usize>(
         word += 1;
     }
     Moved { need, take, delta }
+}
+
+/// The tokens that an event with a guard is ignored with.
+pub(super) const fn asked<const W: usize>(
+    lists: &Lists<'_, W>,
+    component: usize,
+    it: &Ignored<'_>,
+) -> [u64; W] {
+    let first = lists.places[component] as usize;
+    let mut need = [0; W];
+    need = at_least(need, lists.fields[first + it.place.0 as usize], 1);
+    let mut at = 0;
+    while at < it.guard.len() {
+        let Arc { place, weight } = it.guard[at];
+        need = at_least(need, lists.fields[first + place.0 as usize], weight);
+        at += 1;
+    }
+    need
+}
+
+/// A need with at least so many tokens of a field: two places of a net may lie in one.
+const fn at_least<const W: usize>(mut need: [u64; W], field: Field, tokens: u32) -> [u64; W] {
+    let guard = 1 << field.width;
+    let tokens = if tokens > guard { guard } else { tokens };
+    let all = field.tokens(guard) | (field.mask() << field.shift);
+    let word = field.word as usize;
+    if need[word] & all < field.tokens(tokens) {
+        need[word] = need[word] & !all | field.tokens(tokens);
+    }
+    need
 }
 
 /// The field of a complement that the arcs of this net do not move: the system makes it, or the

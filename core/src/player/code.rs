@@ -123,8 +123,10 @@ lists! {
     clocks: Clock<W> [C] = Clock { need: [0; W], entry: 0, event: false, earliest: 0, latest: 0 },
     /// Pairs of an event and the position of a mailbox that it empties.
     clears: (u16, u16) [E] = (0, 0),
-    /// Pairs of an event and a place that ignores it on purpose.
+    /// Pairs of an event and a place that ignores it on purpose, those without a guard.
     ignored: (u16, u16) [G] = (0, 0),
+    /// The same for pairs with a guard: an event and the tokens that must be there.
+    ignored_where: (u16, [u64; W]) [I] = (0, [0; W]),
 }
 
 /// What is not a list in a [`Code`].
@@ -178,6 +180,7 @@ pub struct Size {
     pub clocks: usize,
     pub clears: usize,
     pub ignored: usize,
+    pub ignored_where: usize,
     /// What can wait in all mailboxes together.
     pub slots: usize,
 }
@@ -335,13 +338,16 @@ impl<'c, const W: usize> Code<'c, W> {
         Of { component, id: TransitionId(id) }
     }
 
-    /// Whether some place that ignores this event on purpose is marked.
+    /// Whether some place that ignores this event on purpose is marked, and the guard holds.
     #[inline]
     pub fn ignores(&self, marking: &[u64; W], event: usize) -> bool {
         self.ignored.iter().any(|&(ignored, place)| {
             usize::from(ignored) == event
                 && self.fields.get(usize::from(place)).is_some_and(|it| it.of(marking) > 0)
-        })
+        }) || self
+            .ignored_where
+            .iter()
+            .any(|(ignored, need)| usize::from(*ignored) == event && self.holds(marking, need))
     }
 }
 

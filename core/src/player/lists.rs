@@ -54,6 +54,7 @@ macro_rules! lists {
             const C: usize,
             const E: usize,
             const G: usize,
+            const I: usize,
         > {
             $( $list: [$item; $length], )*
             words: Words<W>,
@@ -73,7 +74,8 @@ macro_rules! lists {
             const C: usize,
             const E: usize,
             const G: usize,
-        > Arrays<W, T, K, R, O, D, B, N, P, X, C, E, G>
+            const I: usize,
+        > Arrays<W, T, K, R, O, D, B, N, P, X, C, E, G, I>
         {
             /// Packs a system; the lengths are those of [`size_of`].
             pub const fn of(system: &crate::system::data::System<'_>) -> Self {
@@ -182,6 +184,7 @@ macro_rules! lists {
                     clocks: self.clocks,
                     clears: self.clears,
                     ignored: self.ignored,
+                    ignored_where: self.ignored_where,
                 }
             }
         }

@@ -1,6 +1,6 @@
 //! Packs a system: how long its lists are, and what stands in them.
 
-use super::arcs::{Moved, moved};
+use super::arcs::{Moved, asked, moved};
 use super::code::{Clock, Entry, Lists, NONE, Route, Size, Words};
 use super::fingerprint::fingerprint;
 use super::layout::{Used, asks_for_room, lacks_complement, layout, mailbox_of, owns};
@@ -27,6 +27,7 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
         clocks: 0,
         clears: system.clears.len(),
         ignored: 0,
+        ignored_where: 0,
         slots: 0,
     };
     let mut used = Used::NOTHING;
@@ -41,6 +42,11 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
             return None;
         }
         let mut at = 0;
+        while at < net.ignored.len() {
+            it.ignored_where += !net.ignored[at].guard.is_empty() as usize;
+            at += 1;
+        }
+        at = 0;
         while at < net.places.len() {
             if owns(system, component, at) {
                 used.place(net.places[at].bound);
@@ -76,6 +82,7 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
         }
         component += 1;
     }
+    it.ignored -= it.ignored_where;
     it.words = used.words();
     it.takes = if it.clocks == 0 { 0 } else { it.entries };
     it.says = if it.routes == 0 { 0 } else { it.entries + 1 };
@@ -408,16 +415,21 @@ const fn follow<const W: usize>(
 
 /// What places ignore on purpose.
 const fn ignore<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>) {
-    let (mut component, mut count) = (0, 0);
+    let (mut component, mut count, mut guarded) = (0, 0, 0);
     while component < system.components.len() {
         let ignored = system.components[component].net.ignored;
         let mut at = 0;
         while at < ignored.len() {
-            lists.ignored[count] = (
-                lists.events[component] + ignored[at].event.0 as u16,
-                lists.places[component] + ignored[at].place.0 as u16,
-            );
-            count += 1;
+            let it = &ignored[at];
+            let event = lists.events[component] + it.event.0 as u16;
+            if it.guard.is_empty() {
+                let place = lists.places[component] + it.place.0 as u16;
+                lists.ignored[count] = (event, place);
+                count += 1;
+            } else {
+                lists.ignored_where[guarded] = (event, asked(lists, component, it));
+                guarded += 1;
+            }
             at += 1;
         }
         component += 1;

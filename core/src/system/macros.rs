@@ -213,10 +213,7 @@ macro_rules! system {
             #[doc(hidden)]
             #[allow(missing_docs, non_camel_case_types)]
             pub mod parts {
-                $(
-                    #[derive(Debug)]
-                    pub enum $component {}
-                )*
+                $( #[derive(Debug)] pub enum $component {} )*
             }
 
             const NAME: &str = stringify!($name);
@@ -267,6 +264,7 @@ macro_rules! system {
                 { SIZE.clocks },
                 { SIZE.clears },
                 { SIZE.ignored },
+                { SIZE.ignored_where },
             > = system_code::Arrays::of(&SYSTEM);
             static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);

@@ -272,7 +272,11 @@ impl<'n> Explored<'n> {
                 (0..net.events.len()).all(|event| {
                     state.events[event].is_some()
                         || net.ignored.iter().any(|it| {
-                            it.event.0 as usize == event && tokens(&state.marking, it.place) > 0
+                            let all = it.guard.iter().copied();
+                            it.event.0 as usize == event
+                                && all
+                                    .chain([Arc { place: it.place, weight: 1 }])
+                                    .all(|arc| tokens(&state.marking, arc.place) >= arc.weight)
                         })
                 })
             }),

@@ -2,8 +2,8 @@
 
 use crate::draw::Draw;
 use crate::random::{Random, net};
-use cotama_core::net::owned::{OwnedLaw, OwnedNet};
-use cotama_core::net::{Culprit, EventId, Ignored, PlaceId, judge};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet};
+use cotama_core::net::{Culprit, EventId, PlaceId, judge};
 use cotama_core::player::Packed;
 
 const NETS: usize = 12_000;
@@ -24,7 +24,7 @@ fn said(owned: &OwnedNet) -> Option<String> {
 }
 
 /// The pairs of lines as `Go in A & B;`, or of one in a sentence.
-fn pasted(owned: &OwnedNet, text: &str) -> Vec<Ignored> {
+fn pasted(owned: &OwnedNet, text: &str) -> Vec<OwnedIgnored> {
     let view = owned.view();
     let net = view.net();
     let event = |name: &str| net.events.iter().position(|it| it.name == name).unwrap() as u32;
@@ -36,7 +36,13 @@ fn pasted(owned: &OwnedNet, text: &str) -> Vec<Ignored> {
             continue;
         };
         let event = EventId(event(name));
-        let ignored = |name| Ignored { event, place: PlaceId(place(name)) };
+        let ignored = |name: &str| match name.strip_suffix(']').map(|it| it.split_once(" [!")) {
+            Some(Some((name, flag))) => {
+                let guard = PlaceId(place(&format!("not_{flag}")));
+                OwnedIgnored::new(event, PlaceId(place(name))).guard(guard, 1)
+            }
+            _ => OwnedIgnored::new(event, PlaceId(place(name))),
+        };
         all.extend(places.split(" & ").map(ignored));
     }
     all
@@ -45,7 +51,7 @@ fn pasted(owned: &OwnedNet, text: &str) -> Vec<Ignored> {
 #[test]
 fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
     let mut random = Random(Draw::new(25));
-    let (mut several, mut one, mut nowhere) = (0, 0, 0);
+    let (mut several, mut one, mut nowhere, mut guarded) = (0, 0, 0, 0);
     for number in 0..NETS {
         let mut owned = net(&mut random);
         owned.laws = vec![OwnedLaw::HandlesAll];
@@ -61,6 +67,7 @@ fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
             assert!(pairs.len() <= 1, "{number}: {text}");
             one += 1;
         }
+        guarded += usize::from(pairs.iter().any(|it| !it.guard.is_empty()));
         owned.ignored.extend(pairs);
         if let Some(rest) = said(&owned) {
             // What is left cannot be ignored.
@@ -70,4 +77,5 @@ fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
         }
     }
     assert!(several > 1_000 && one > 100 && nowhere > 100, "{several} {one} {nowhere}");
+    assert!(guarded > 20, "{guarded}");
 }

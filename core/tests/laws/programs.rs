@@ -1,8 +1,8 @@
 //! Programs whose laws were once judged by a token game that no player plays.
 
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{
-    Culprit, EventId, Graph, Ignored, Known, Limit, PlaceId, Step, TransitionId, Way, judge,
+    Culprit, EventId, Graph, Known, Limit, PlaceId, Step, TransitionId, Way, judge,
 };
 use cotama_core::player::{Outcome, Packed, Player, Why};
 use cotama_core::system::{Component, Of, System};
@@ -75,8 +75,8 @@ fn a_window_that_closes_is_a_dead_end() {
     assert_eq!(verdict(&handles), Ok(Known::Explored { markings: 2, firings: 2, settle: 0 }));
 }
 
-fn ignored(event: EventId, place: PlaceId) -> Ignored {
-    Ignored { event, place }
+fn ignored(event: EventId, place: PlaceId) -> OwnedIgnored {
+    OwnedIgnored::new(event, place)
 }
 
 #[test]

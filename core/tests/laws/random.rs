@@ -1,8 +1,8 @@
 //! Small random nets.
 
 use crate::draw::Draw;
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, PlaceId, Role};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Arc, EventId, PlaceId, Role};
 
 /// What a random net is made of.
 pub(crate) struct Random(pub(crate) Draw);
@@ -43,12 +43,30 @@ pub(crate) fn net(random: &mut Random) -> OwnedNet {
     for event in 0..events {
         for place in 0..own as u32 {
             if random.chance(45) {
-                net.ignored.push(Ignored { event: EventId(event), place: PlaceId(place) });
+                let it = OwnedIgnored::new(EventId(event), PlaceId(place));
+                let places: Vec<_> = (0..net.places.len() as u32).map(PlaceId).collect();
+                net.ignored.push(guarded(random, it, &places));
             }
         }
     }
     laws(&mut net, own);
     net
+}
+
+/// The same, in some cases with a guard on these places, the last ones more often.
+pub(crate) fn guarded(
+    random: &mut Random,
+    mut it: OwnedIgnored,
+    places: &[PlaceId],
+) -> OwnedIgnored {
+    while random.chance(40) {
+        let count = places.len() as u32;
+        let place = places[random.below(count).max(random.below(count)) as usize];
+        if it.guard.iter().all(|arc| arc.place != place) {
+            it = it.guard(place, 1 + u32::from(random.chance(10)));
+        }
+    }
+    it
 }
 
 /// Adds a flag, or a shared one, with its complement.

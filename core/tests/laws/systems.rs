@@ -1,9 +1,9 @@
 //! `handles(all)` of 1,000 random systems, judged and played.
 
 use crate::draw::Draw;
-use crate::random::Random;
-use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{EventId, Ignored, Net, OutputId, PlaceId, Role};
+use crate::random::{Random, guarded};
+use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{EventId, Net, OutputId, PlaceId, Role};
 use cotama_core::player::{Firing, Loaded, Observer, Packed, Player, Program as _, SETTLE};
 use cotama_core::system::{
     Binding, Clear, Component, Culprit, Delivery, Link, Of, STATES, Step, System, SystemDefect,
@@ -47,6 +47,7 @@ fn parts(random: &mut Random) -> Parts {
         clears: Vec::new(),
     };
     let handles = if random.chance(65) { 98 } else { 65 };
+    let guards = random.chance(50);
     for component in 0..count {
         let mut net = OwnedNet::new(&format!("n{component}"), "");
         for at in 0..2 + random.below(2) {
@@ -95,10 +96,19 @@ fn parts(random: &mut Random) -> Parts {
             let transition = transition(random, own, &changes, &reads, at);
             net.transitions.push(transition);
         }
+        let flags: Vec<_> = changes.iter().flat_map(|it| [*it, PlaceId(it.0 + 1)]).collect();
+        let known: Vec<_> = (0..own).map(PlaceId).chain(flags.iter().copied()).collect();
         for event in 0..SIGNALS {
             for place in 0..own + u32::from(!changes.is_empty()) {
                 if random.chance(handles) {
-                    net.ignored.push(Ignored { event: EventId(event), place: PlaceId(place) });
+                    let it = OwnedIgnored::new(EventId(event), PlaceId(place));
+                    if !guards {
+                        net.ignored.push(it);
+                    } else if flags.is_empty() || random.chance(10) {
+                        net.ignored.push(guarded(random, it, &known));
+                    } else {
+                        net.ignored.extend(flags.iter().map(|&at| it.clone().guard(at, 1)));
+                    }
                 }
             }
         }
@@ -249,8 +259,18 @@ impl<'s> Observer<Program<'s>> for Watch<'s> {
     fn on_ignore(&mut self, event: Of<EventId>, (): ()) {
         let net: &Net<'_> = self.system.components[usize::from(event.component)].net;
         let on_purpose = net.ignored.iter().any(|it| {
-            let key = owner(&self.system, event.component, it.place).unwrap();
-            it.event == event.id && self.tokens[&key] > 0
+            let mut asked = it.guard.iter().map(|arc| (arc.place, arc.weight));
+            let holds = |(PlaceId(at), weight)| {
+                let place = net.places[at as usize];
+                let (of, absent) = match place.role {
+                    Role::Complement(of) => (of, true),
+                    _ => (PlaceId(at), false),
+                };
+                let key = owner(&self.system, event.component, of).unwrap();
+                let tokens = self.tokens[&key];
+                (if absent { place.bound - tokens } else { tokens }) >= weight
+            };
+            it.event == event.id && holds((it.place, 1)) && asked.all(holds)
         });
         if !on_purpose && self.forgotten.is_none() {
             self.forgotten = Some((event, self.tokens.clone()));
@@ -354,6 +374,8 @@ fn systems_handle_all_that_the_player_delivers() {
                 assert_eq!(states, expected, "{number}: {parts:#?}");
                 decided += 1;
                 count("handled");
+                let mut ignored = parts.nets.iter().flat_map(|it| &it.ignored);
+                count(if ignored.any(|it| !it.guard.is_empty()) { "guarded" } else { "plain" });
                 count(if states > 20 { "many states" } else { "few states" });
             }
             (Err(violation), Err((culprit, way, tokens))) => {
@@ -376,4 +398,5 @@ fn systems_handle_all_that_the_player_delivers() {
     let of = |verdict| verdicts.get(verdict).copied().unwrap_or(0);
     assert!(of("handled") >= 200 && of("forgotten") >= 200, "{verdicts:?}");
     assert!(of("forgotten inside") >= 50 && of("many states") >= 5, "{verdicts:?}");
+    assert!(of("guarded") >= 50 && of("plain") >= 50, "{verdicts:?}");
 }

@@ -57,7 +57,7 @@ fn holds(net: &Net<'_>, graph: &Graph, law: &Law<'_>) -> bool {
                 uses || net
                     .ignored
                     .iter()
-                    .any(|it| is_on(Some(it.event), event) && marked(it.place)(marking))
+                    .any(|it| is_on(Some(it.event), event) && it.holds(|at| marking[at.0 as usize]))
             })
         }),
         Law::Settles => graph.longest_settling(net).is_some(),

@@ -2,7 +2,7 @@
 //! of `Player` has it.
 
 use crate::textbook::{Marking, enabled, fired, first, immediate, taken};
-use cotama_core::net::{Ignored, Net, Transition, Within};
+use cotama_core::net::{Ignored, Net, PlaceId, Transition, Within};
 
 /// What an event does: transitions are positions in the net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,8 +114,8 @@ impl<'n> Timed<'n> {
                 Answer::TooEarly(transition)
             };
         }
-        let meant =
-            |it: &Ignored| it.event.0 as usize == event && self.marking[it.place.0 as usize] > 0;
+        let tokens = |place: PlaceId| self.marking[place.0 as usize];
+        let meant = |it: &Ignored<'_>| it.event.0 as usize == event && it.holds(tokens);
         if self.net.ignored.iter().any(meant) { Answer::OnPurpose } else { Answer::NotEnabled }
     }
 }

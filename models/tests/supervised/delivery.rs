@@ -1,5 +1,6 @@
 //! The embedded delivery: a mission like any other, and its supervisor is the one written by hand.
 
+use cotama_core::net::owned::OwnedIgnored;
 use cotama_core::net::{Net, Transition};
 use cotama_models::cotama::global;
 use cotama_models::missions::faults::{Answer, IncidentKind};
@@ -127,7 +128,8 @@ fn shape(net: &Net<'_>) -> impl PartialEq + std::fmt::Debug {
     };
     let places: Vec<_> = net.places.iter().map(|it| (it.initial, it.bound, it.role)).collect();
     let transitions: Vec<_> = net.transitions.iter().map(transition).collect();
-    (places, names(net.events), names(net.outputs), transitions, net.ignored.to_vec())
+    let ignored: Vec<_> = net.ignored.iter().map(OwnedIgnored::from).collect();
+    (places, names(net.events), names(net.outputs), transitions, ignored)
 }
 
 #[test]

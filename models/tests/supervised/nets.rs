@@ -92,6 +92,18 @@ fn every_mutant_of_generated_missions_is_found() {
 }
 
 #[test]
+fn what_is_ignored_only_under_a_guard_is_found() {
+    let mission = embedded::mission("delivery").unwrap();
+    let mission = Mission::parse(mission.name, mission.text).unwrap();
+    for ignored in 0..2 {
+        let mut net = mission.supervisor().unwrap().clone();
+        net.ignored[ignored] = net.ignored[ignored].clone().guard(PlaceId(0), 1);
+        let faults = check(&net.view().net(), &mission.objectives).unwrap_err();
+        assert_eq!(faults.len(), 1, "{ignored}: {faults:?}");
+    }
+}
+
+#[test]
 fn the_objective_that_could_block_is_named() {
     let delivery = embedded::mission("delivery").unwrap();
     let mission = Mission::parse(delivery.name, delivery.text).unwrap();

@@ -1,8 +1,8 @@
 //! Where a recording departs from the model, in words.
 
 use super::allowed::Allowed;
-use crate::play::{Game, NotPlayed, Numbered, Unused, condition, not_enabled, overflowing};
-use cotama_core::net::{Arc, EventId, TransitionId, Within};
+use crate::play::{Game, NotPlayed, Numbered, Unused, ignored_in, not_enabled, overflowing};
+use cotama_core::net::{EventId, TransitionId, Within};
 use cotama_core::player::Why;
 use cotama_core::units::Millis;
 
@@ -59,12 +59,7 @@ pub(super) fn unused(
             let name = whole.places.get(mailbox.0 as usize).map_or("a mailbox", |it| &it.name);
             format!("{name} is full")
         }
-        Unused::Ignored(Why::OnPurpose) => {
-            let here = net.ignored.iter().filter(|it| it.event == event && tokens(it.place) > 0);
-            let places: Vec<_> =
-                here.map(|it| condition(&net, Arc { place: it.place, weight: 1 })).collect();
-            format!("ignored on purpose in {}", places.join(", "))
-        }
+        Unused::Ignored(Why::OnPurpose) => ignored_in(&net, &tokens, event),
         Unused::Ignored(Why::TooEarly(id)) => {
             format!(
                 "`{}` can fire {} after it is enabled, not before",

@@ -103,9 +103,14 @@ impl Writer<'_> {
     fn description(&self, unsaid: &[&'static str]) -> String {
         let timed = self.net.transitions.iter().any(|it| it.within.is_some());
         let ranked = self.net.transitions.iter().any(|it| it.priority != 0);
-        let left_out =
-            timed.then_some("time intervals").into_iter().chain(ranked.then_some("priorities"));
-        let left_out: Vec<&str> = left_out.chain(unsaid.iter().copied()).collect();
+        let ignores = !self.net.ignored.is_empty();
+        let left_out = [
+            timed.then_some("time intervals"),
+            ranked.then_some("priorities"),
+            ignores.then_some("events ignored on purpose"),
+        ];
+        let left_out: Vec<&str> =
+            left_out.into_iter().flatten().chain(unsaid.iter().copied()).collect();
         let mut text = self.net.doc.to_owned();
         if !left_out.is_empty() {
             text += if text.is_empty() { "" } else { "\n\n" };

@@ -12,7 +12,7 @@ use std::fmt;
 pub const SCHEMA: &str = "cotama/net/1";
 /// The longest text that is read, in bytes.
 pub const MAX_BYTES: usize = 64 << 20;
-/// The most arcs of one transition, or of one law, that are read.
+/// The most arcs of one transition, of one law, or of one guard, that are read.
 pub const MAX_ARCS: usize = 1000;
 
 /// The net as JSON, every field of it, with names where the net has ids.
@@ -34,7 +34,8 @@ pub const MAX_ARCS: usize = 1000;
 /// "complement": PLACE }`, `"shared"` or `"mailbox"`; a law is `{ "invariant": { "sum": ARCS,
 /// "equals": NUMBER } }`, `{ "never_both": [PLACE, PLACE] }`, `{ "reachable": PLACE }`, `{
 /// "always_can": PLACE }`, `"handles_all"`, `"settles"`, `{ "deadlock_free": { "end": PLACE or null
-/// } }` or `"deterministic"`. Times are in milliseconds.
+/// } }` or `"deterministic"`. What is ignored under a guard has a member `"guard": ARCS`, tokens
+/// that must be there as well. Times are in milliseconds.
 ///
 /// [`read`] gives back the same net, unless names of places, events or outputs occur twice, the net
 /// has a [defect](Net::defect), or the text is beyond the limits: it then refuses the text. An id
@@ -49,7 +50,7 @@ pub fn write(net: &Net<'_>) -> String {
 /// The net of a JSON text as [`write()`] makes it.
 ///
 /// Members come in any order; none may be missing but `on`, `bound`, `within`, `latest` and `end`,
-/// for which that means `null`, and none may be unknown.
+/// for which that means `null`, and `guard`, and none may be unknown.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
@@ -122,7 +123,7 @@ pub enum JsonNetError {
         /// The name.
         name: String,
     },
-    /// A transition or law with more than [`MAX_ARCS`] arcs.
+    /// A transition, law or guard with more than [`MAX_ARCS`] arcs.
     TooManyArcs {
         /// Where they stand.
         at: String,
@@ -175,7 +176,7 @@ fn fault(defect: Defect) -> &'static str {
             "has more tokens at the start than its bound, or does not sum to the bound with the \
              place that it complements"
         }
-        Defect::Law => "has an arc of weight 0 in an invariant, or a place twice in one",
+        Defect::Law => "has an arc of weight 0, or a place twice in one sum or guard",
         Defect::Twice { .. } => "has the name of an earlier one",
         _ => "does not fit together",
     }
@@ -195,7 +196,7 @@ fn place_of(defect: Defect, net: &OwnedNet) -> String {
             Some(transition) => format!("transition `{}`", transition.name),
             None => format!("transition {transition}"),
         },
-        Defect::Law => "a law".to_owned(),
+        Defect::Law => "a law, or an entry of `ignored`,".to_owned(),
         Defect::Twice { list, at } => format!("entry {at} of the {list}"),
         _ => "the net".to_owned(),
     }

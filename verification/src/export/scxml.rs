@@ -13,7 +13,7 @@ use machine::{Machine, Timing};
 ///
 /// | of the net | in the chart |
 /// | --- | --- |
-/// | state place | `<state>`; ignored events are a comment |
+/// | state place | `<state>`; ignored events are a comment, with their guards |
 /// | other place | `<data>`: a boolean where it surely stays at 0 or 1, else a number |
 /// | complement | no variable: its tokens are the bound less those of the place |
 /// | transition that moves | `<transition target=..>`, also from a state to itself |

@@ -37,5 +37,5 @@ mod needs;
 mod numbered;
 
 pub use game::{Fired, Game, NotPlayed, Unused};
-pub use needs::{condition, not_enabled, overflowing};
+pub use needs::{condition, ignored_in, not_enabled, overflowing};
 pub use numbered::Numbered;

@@ -1,6 +1,6 @@
 //! What a transition lacks, in words.
 
-use cotama_core::net::{Arc, EventId, Net, Place, PlaceId, Role, Transition};
+use cotama_core::net::{Arc, EventId, Ignored, Net, Place, PlaceId, Role, Transition};
 
 /// The most transitions of which it is said what they lack.
 const SHOWN: usize = 2;
@@ -40,6 +40,36 @@ pub fn condition(net: &Net<'_>, arc: Arc) -> String {
         _ if arc.weight == 1 => name(arc.place).to_owned(),
         _ => format!("{} >= {}", name(arc.place), arc.weight),
     }
+}
+
+/// Where an event is ignored on purpose at these tokens, in words.
+///
+/// ```
+/// use cotama_core::net::{EventId, PlaceId};
+/// use cotama_verification::play::ignored_in;
+/// cotama_core::net! {
+///     mod drive {
+///         places { Idle: 1, Driving }
+///         flags { charged }
+///         events { Go }
+///         transitions { go on Go [charged]: Idle => Driving; }
+///         ignore { Go in Idle [!charged]; Go in Driving; }
+///         laws { handles(all); }
+///     }
+/// }
+/// let tokens = |place: PlaceId| drive::NET.places[place.0 as usize].initial;
+/// let said = ignored_in(&drive::NET, &tokens, EventId(0));
+/// assert_eq!(said, "ignored on purpose in Idle [!charged]");
+/// ```
+pub fn ignored_in(net: &Net<'_>, tokens: &dyn Fn(PlaceId) -> u32, event: EventId) -> String {
+    let here = net.ignored.iter().filter(|it| it.event == event && it.holds(tokens));
+    let place = |it: &Ignored<'_>| {
+        let guard: Vec<_> = it.guard.iter().map(|arc| condition(net, *arc)).collect();
+        let place = condition(net, Arc { place: it.place, weight: 1 });
+        if guard.is_empty() { place } else { format!("{place} [{}]", guard.join(" & ")) }
+    };
+    let places: Vec<_> = here.map(place).collect();
+    format!("ignored on purpose in {}", places.join(", "))
 }
 
 /// The first place that a firing would fill beyond its bound, and the bound.

@@ -1,9 +1,7 @@
 //! A system as one list of places, of events, of outputs and of transitions.
 
-use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
-use cotama_core::net::{
-    Arc, EventId, Ignored, Net, OutputId, Place, PlaceId, Role, TransitionId, Within,
-};
+use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
+use cotama_core::net::{Arc, EventId, Net, OutputId, Place, PlaceId, Role, TransitionId, Within};
 use cotama_core::system::{Binding, Clear, Component, Delivery, Link, Of, System, Target};
 use cotama_core::units::Millis;
 use std::collections::HashMap;
@@ -209,7 +207,8 @@ impl Numbered {
             });
         }
         let ignored = net.ignored.iter().filter_map(|it| {
-            Some(Ignored { event: *told.get(&it.event)?, place: place(it.place) })
+            let (event, guard) = (*told.get(&it.event)?, arcs(it.guard));
+            Some(OwnedIgnored { event, place: place(it.place), guard })
         });
         self.whole.ignored.extend(ignored);
     }

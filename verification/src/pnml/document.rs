@@ -86,8 +86,15 @@ pub(super) struct OwnNet<'a> {
     pub(super) doc: String,
     pub(super) events: Vec<(Text<'a>, OwnedSignal)>,
     pub(super) outputs: Vec<(Text<'a>, OwnedSignal)>,
-    pub(super) ignored: Vec<(Text<'a>, Text<'a>)>,
+    pub(super) ignored: Vec<RawIgnored<'a>>,
     pub(super) laws: Vec<RawLaw<'a>>,
+}
+
+/// An ignored event by ids.
+pub(super) struct RawIgnored<'a> {
+    pub(super) event: Text<'a>,
+    pub(super) place: Text<'a>,
+    pub(super) guard: Vec<(Text<'a>, u32)>,
 }
 
 /// A law by the ids of its places.

@@ -52,7 +52,7 @@
 //! | --- | --- | --- |
 //! | net | `net` | `name`, `doc` |
 //! | | `event`, `output` | `id`, `name`, `doc` |
-//! | | `ignored` | `event`, `place` |
+//! | | `ignored` | `event`, `place`; for each place of a guard an element `term`, as below |
 //! | | `invariant` | `equals`; for each place an element `term` with `place`, `weight` |
 //! | | `never-both` | `first`, `second` |
 //! | | `reachable`, `always-can` | `place` |

@@ -1,7 +1,7 @@
 //! What the elements `<toolspecific tool="cotama">` say, read from their tags.
 
-use super::document::{OwnArc, OwnNet, OwnPlace, OwnTransition, RawLaw, RawRole, Text};
-use super::error::{Finding, Findings, Spanned};
+use super::document::{OwnArc, OwnNet, OwnPlace, OwnTransition, RawIgnored, RawLaw, RawRole, Text};
+use super::error::{Finding, Spanned};
 use super::escape::unescape;
 use super::state::{Context, Parser};
 use super::xml::{Attribute, Tag, tag as shown};
@@ -13,15 +13,29 @@ use std::str::FromStr;
 impl<'a> Parser<'a> {
     /// Reads an element inside of a part that this project defines.
     pub(super) fn own(&mut self, context: Context, tag: &Tag<'a>) -> Context {
-        use Context::{Own, OwnArc, OwnInvariant, OwnNet, OwnPlace, OwnTransition, Skipped};
+        use Context::{
+            Own, OwnArc, OwnIgnored, OwnInvariant, OwnNet, OwnPlace, OwnTransition, Skipped,
+        };
         match (context, tag.name) {
             (OwnNet, _) => {
                 let read = element(&mut self.document.own, tag);
                 self.findings.keep(read);
-                if tag.name == "invariant" { OwnInvariant } else { Own }
+                match tag.name {
+                    "invariant" => OwnInvariant,
+                    "ignored" => OwnIgnored,
+                    _ => Own,
+                }
             }
-            (OwnInvariant, "term") => {
-                term(&mut self.document.own, tag, &mut self.findings);
+            (OwnInvariant | OwnIgnored, "term") => {
+                let own = &mut self.document.own;
+                let to = match own.laws.last_mut() {
+                    _ if context == OwnIgnored => own.ignored.last_mut().map(|it| &mut it.guard),
+                    Some(RawLaw::Invariant { sum, .. }) => Some(sum),
+                    _ => None,
+                };
+                if let (Some(term), Some(to)) = (self.findings.keep(term(tag)), to) {
+                    to.push(term);
+                }
                 Own
             }
             (OwnPlace, "place") => {
@@ -66,7 +80,8 @@ fn element<'a>(own: &mut OwnNet<'a>, tag: &Tag<'a>) -> Result<(), Finding> {
         "output" => own.outputs.push(signal(tag)?),
         "ignored" => {
             let fields = Fields::of(tag, &["event", "place"])?;
-            own.ignored.push((fields.id("event")?, fields.id("place")?));
+            let (event, place) = (fields.id("event")?, fields.id("place")?);
+            own.ignored.push(RawIgnored { event, place, guard: Vec::new() });
         }
         _ => own.laws.push(law(tag)?),
     }
@@ -97,21 +112,14 @@ fn law<'a>(tag: &Tag<'a>) -> Result<RawLaw<'a>, Finding> {
     }
 }
 
-/// Reads `<term>` into the law before it.
-fn term<'a>(own: &mut OwnNet<'a>, tag: &Tag<'a>, findings: &mut Findings) {
-    let read = || {
-        let fields = Fields::of(tag, &["place", "weight"])?;
-        let weight: u32 = fields.required_number("weight")?;
-        if weight == 0 {
-            return Err(Finding::new(tag.span, "a term of weight 0").help("remove it"));
-        }
-        Ok((fields.id("place")?, weight))
-    };
-    if let (Some(term), Some(RawLaw::Invariant { sum, .. })) =
-        (findings.keep(read()), own.laws.last_mut())
-    {
-        sum.push(term);
+/// Reads `<term>`: a place of an invariant or of a guard.
+fn term<'a>(tag: &Tag<'a>) -> Result<(Text<'a>, u32), Finding> {
+    let fields = Fields::of(tag, &["place", "weight"])?;
+    let weight: u32 = fields.required_number("weight")?;
+    if weight == 0 {
+        return Err(Finding::new(tag.span, "a term of weight 0").help("remove it"));
     }
+    Ok((fields.id("place")?, weight))
 }
 
 fn signal<'a>(tag: &Tag<'a>) -> Result<(Text<'a>, OwnedSignal), Finding> {

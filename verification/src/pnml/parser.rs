@@ -65,8 +65,8 @@ impl<'a> Parser<'a> {
 
     fn start(&mut self, tag: &Tag<'a>) -> Result<Context, Finding> {
         use Context::{
-            Arc, Bound, Delay, Interval, Net, Own, OwnArc, OwnInvariant, OwnNet, OwnPlace,
-            OwnTransition, Page, Place, Pnml, Skipped, Transition,
+            Arc, Bound, Delay, Interval, Net, Own, OwnArc, OwnIgnored, OwnInvariant, OwnNet,
+            OwnPlace, OwnTransition, Page, Place, Pnml, Skipped, Transition,
         };
         let Some(&context) = self.contexts.last() else { return root(tag) };
         Ok(match (context, tag.name) {
@@ -121,7 +121,7 @@ impl<'a> Parser<'a> {
                 self.bounds.push(Spanned { value: Cow::Borrowed("infty"), span: tag.span });
                 Skipped
             }
-            (OwnNet | OwnPlace | OwnTransition | OwnArc | OwnInvariant | Own, _) => {
+            (OwnNet | OwnPlace | OwnTransition | OwnArc | OwnInvariant | OwnIgnored | Own, _) => {
                 self.own(context, tag)
             }
             (

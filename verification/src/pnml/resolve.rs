@@ -1,14 +1,18 @@
 //! From the parts of a file to a net: ids become positions, arcs come to their transitions.
 
 use super::Imported;
-use super::document::{Document, OwnPlace, OwnTransition, RawLaw, RawPlace, RawRole, Text};
+use super::document::{
+    Document, OwnPlace, OwnTransition, RawIgnored, RawLaw, RawPlace, RawRole, Text,
+};
 use super::error::{Finding, Findings, Span};
 use super::flow::add_arcs;
 use super::names::unique;
 use super::nodes::Nodes;
 use crate::source::quoted;
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, OutputId, Place, PlaceId, Role, Within};
+use cotama_core::net::owned::{
+    OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,
+};
+use cotama_core::net::{Arc, EventId, OutputId, Place, PlaceId, Role, Within};
 use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
 
@@ -61,9 +65,12 @@ pub(super) fn resolve(document: Document<'_>, findings: &mut Findings) -> Import
 
     add_arcs(&mut net, &nodes, &arcs, findings);
     let of = |text: &Text<'_>, findings: &mut Findings| nodes.place(text, findings);
-    for (event, place) in &own.ignored {
-        if let (Some(event), Some(place)) = (signals.event(event, findings), of(place, findings)) {
-            net.ignored.push(Ignored { event, place });
+    for RawIgnored { event, place, guard } in own.ignored {
+        let (event, place) = (signals.event(&event, findings), of(&place, findings));
+        let once = ("in one guard", "keep the term with the larger weight");
+        let guard = terms(guard, once, &nodes, findings);
+        if let (Some(event), Some(place)) = (event, place) {
+            net.ignored.push(OwnedIgnored { event, place, guard });
         }
     }
     net.laws = own.laws.into_iter().filter_map(|it| law(it, &nodes, findings)).collect();
@@ -187,23 +194,30 @@ fn check_complements(
     }
 }
 
+/// Terms of an invariant or a guard; in which no place may stand twice, and what to do then.
+fn terms(
+    terms: Vec<(Text<'_>, u32)>,
+    (once, help): (&str, &'static str),
+    nodes: &Nodes<'_>,
+    findings: &mut Findings,
+) -> Vec<Arc> {
+    let (mut arcs, mut seen) = (Vec::new(), HashSet::new());
+    for (id, weight) in terms {
+        let Some(place) = nodes.place(&id, findings) else { continue };
+        if !seen.insert(place) {
+            let message = format!("the place {} stands twice {once}", quoted(&id.value));
+            findings.push(Finding::new(id.span, message).help(help));
+        }
+        arcs.push(Arc { place, weight });
+    }
+    arcs
+}
+
 fn law(raw: RawLaw<'_>, nodes: &Nodes<'_>, findings: &mut Findings) -> Option<OwnedLaw> {
     Some(match raw {
-        RawLaw::Invariant { sum: terms, equals } => {
-            let (mut sum, mut seen) = (Vec::new(), HashSet::new());
-            for (id, weight) in terms {
-                let Some(place) = nodes.place(&id, findings) else { continue };
-                if !seen.insert(place) {
-                    let message =
-                        format!("the place {} stands twice in one sum", quoted(&id.value));
-                    findings.push(
-                        Finding::new(id.span, message)
-                            .help("write one term with the sum of both weights"),
-                    );
-                }
-                sum.push(Arc { place, weight });
-            }
-            OwnedLaw::Invariant { sum, equals }
+        RawLaw::Invariant { sum, equals } => {
+            let once = ("in one sum", "write one term with the sum of both weights");
+            OwnedLaw::Invariant { sum: terms(sum, once, nodes, findings), equals }
         }
         RawLaw::NeverBoth(a, b) => {
             OwnedLaw::NeverBoth(nodes.place(&a, findings)?, nodes.place(&b, findings)?)

@@ -43,6 +43,8 @@ pub(super) enum Context {
     Own,
     /// `<invariant>` inside of that.
     OwnInvariant,
+    /// `<ignored>` inside of that.
+    OwnIgnored,
     /// Nothing in here is read.
     Skipped,
 }

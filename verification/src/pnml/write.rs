@@ -1,7 +1,7 @@
 //! A net as PNML.
 
 use super::escape::{Content, Exact, survives};
-use cotama_core::net::{Law, Net, Place, PlaceId, Role, Signal, Transition, Within};
+use cotama_core::net::{Arc, Law, Net, Place, PlaceId, Role, Signal, Transition, Within};
 use std::collections::HashMap;
 use std::fmt::{self, Display, Formatter};
 
@@ -74,7 +74,14 @@ impl File<'_> {
         signals(f, "event", events)?;
         signals(f, "output", outputs)?;
         for it in ignored {
-            writeln!(f, "<ignored event=\"e{}\" place=\"p{}\"/>", it.event.0, it.place.0)?;
+            write!(f, "<ignored event=\"e{}\" place=\"p{}\"", it.event.0, it.place.0)?;
+            if it.guard.is_empty() {
+                f.write_str("/>\n")?;
+            } else {
+                f.write_str(">")?;
+                terms(f, it.guard)?;
+                f.write_str("</ignored>\n")?;
+            }
         }
         laws.iter().try_for_each(|it| law(f, it))?;
         f.write_str("</toolspecific>\n")
@@ -117,13 +124,16 @@ fn signals(f: &mut Formatter<'_>, element: &str, signals: &[Signal<'_>]) -> fmt:
     Ok(())
 }
 
+fn terms(f: &mut Formatter<'_>, arcs: &[Arc]) -> fmt::Result {
+    let term = |it: &Arc| write!(f, "<term place=\"p{}\" weight=\"{}\"/>", it.place.0, it.weight);
+    arcs.iter().try_for_each(term)
+}
+
 fn law(f: &mut Formatter<'_>, law: &Law<'_>) -> fmt::Result {
     match *law {
         Law::Invariant { sum, equals } => {
             write!(f, "<invariant equals=\"{equals}\">")?;
-            for arc in sum {
-                write!(f, "<term place=\"p{}\" weight=\"{}\"/>", arc.place.0, arc.weight)?;
-            }
+            terms(f, sum)?;
             f.write_str("</invariant>\n")
         }
         Law::NeverBoth(a, b) => writeln!(f, "<never-both first=\"p{}\" second=\"p{}\"/>", a.0, b.0),

@@ -219,6 +219,16 @@ fn json_that_is_no_net_is_refused_with_the_reason() {
         json_refusal("\"event\": \"key\"", "\"event\": \"\""),
         "entry 1 of `ignored` names the event ``, which the net does not have"
     );
+    let guard = "\"guard\": [\n        {\n          \"place\": \"";
+    assert_eq!(
+        json_refusal(&format!("{guard}locked"), &format!("{guard}lock")),
+        "entry 2 of `ignored` names the place `lock`, which the net does not have"
+    );
+    assert_eq!(
+        json_refusal(&format!("{guard}locked"), &format!("{guard}cycles left")),
+        "a law, or an entry of `ignored`, has an arc of weight 0, or a place twice in one sum or \
+         guard"
+    );
     assert_eq!(
         json_refusal("\"weight\": 1", "\"weight\": 0"),
         "transition `start` has an arc of weight 0, or names a place twice in `give`, or in `take` \

@@ -1,7 +1,7 @@
 //! Four small nets, written by hand.
 
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, OutputId, PlaceId, Role};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Arc, EventId, OutputId, PlaceId, Role};
 
 /// Adds to a net; the ids are those of the new entries.
 struct Build(OwnedNet);
@@ -88,7 +88,8 @@ pub(crate) fn door() -> OwnedNet {
         priority: -1,
         ..move_("reset early", aborted, closed).on(reset).read(left, 2)
     });
-    net.0.ignored.push(Ignored { event: key, place: open });
+    net.0.ignored.push(OwnedIgnored::new(key, open));
+    net.0.ignored.push(OwnedIgnored::new(reset, open).guard(locked, 1).guard(left, 2));
     let one = |place| Arc { place, weight: 1 };
     let states = [closed, moving, open, worn, aborted].map(one).to_vec();
     net.0.laws.push(OwnedLaw::Invariant { sum: states, equals: 1 });

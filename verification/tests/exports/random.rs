@@ -1,7 +1,9 @@
 //! Random nets to be exported.
 
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
-use cotama_core::net::{Arc, EventId, Ignored, OutputId, PlaceId, Role, Within};
+use cotama_core::net::owned::{
+    OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,
+};
+use cotama_core::net::{Arc, EventId, OutputId, PlaceId, Role, Within};
 use proptest::collection::vec;
 use proptest::option;
 use proptest::prelude::*;
@@ -107,8 +109,10 @@ fn places() -> impl Strategy<Value = Vec<OwnedPlace>> {
 /// A net whose transitions, laws and ignored events name places below `reach` and signals below
 /// `signals`.
 pub(crate) fn net_reaching(reach: u32, signal_reach: u32) -> impl Strategy<Value = OwnedNet> {
-    let ignored = (0..signal_reach, 0..reach)
-        .prop_map(|(e, p)| Ignored { event: EventId(e), place: PlaceId(p) });
+    let ignored = (0..signal_reach, 0..reach, arcs(0, reach)).prop_map(|(e, p, guard)| {
+        let (event, place) = (EventId(e), PlaceId(p));
+        OwnedIgnored { event, place, guard }
+    });
     let lists =
         (vec(transition(reach, signal_reach), 0..6), vec(ignored, 0..3), vec(law(reach), 0..5));
     ((name(), name()), places(), (signals(), signals()), lists).prop_map(

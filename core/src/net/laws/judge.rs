@@ -269,13 +269,30 @@ impl<const W: usize> Graph<W> {
         most
     }
 
-    /// Whether some place that ignores this event on purpose is marked.
-    const fn ignores(&self, net: &Net<'_>, code: &Code<'_, W>, event: usize, class: usize) -> bool {
+    /// Whether some place that ignores this event on purpose is marked, and the guard holds.
+    pub(super) const fn ignores(
+        &self,
+        net: &Net<'_>,
+        code: &Code<'_, W>,
+        event: usize,
+        class: usize,
+    ) -> bool {
         let mut at = 0;
         while at < net.ignored.len() {
-            let it = net.ignored[at];
-            if it.event.0 as usize == event && self.tokens(code, it.place, class) > 0 {
-                return true;
+            // Most are of other events: as little as possible is read of them.
+            if net.ignored[at].event.0 as usize == event
+                && self.tokens(code, net.ignored[at].place, class) > 0
+            {
+                let it = &net.ignored[at];
+                let mut asked = 0;
+                while asked < it.guard.len()
+                    && self.tokens(code, it.guard[asked].place, class) >= it.guard[asked].weight
+                {
+                    asked += 1;
+                }
+                if asked == it.guard.len() {
+                    return true;
+                }
             }
             at += 1;
         }

@@ -211,13 +211,11 @@ impl<const W: usize> Violation<'_, W> {
             };
         }
         let text = text.with("\n  add a transition on it");
-        match missing.place {
-            Some(place) => text
-                .with(", or `ignore { ")
-                .with(event)
-                .with(" in ")
-                .with(net.places[place.0 as usize].name)
-                .with("; }`"),
+        match missing.first {
+            Some(pair) => {
+                let text = text.with(", or `ignore { ").with(event).with(" in ");
+                pair.add(net, text).with("; }`")
+            }
             None => text,
         }
     }

@@ -181,12 +181,20 @@ impl<const W: usize> Play<W> {
         fires
     }
 
-    /// Whether some place that ignores this event on purpose is marked.
+    /// Whether some place that ignores this event on purpose is marked, and the guard holds.
     const fn ignores(&self, code: &Code<'_, W>, event: u16) -> bool {
         let mut at = 0;
         while at < code.ignored.len() {
             let (ignored, place) = code.ignored[at];
             if ignored == event && code.fields[place as usize].of(&self.marking) > 0 {
+                return true;
+            }
+            at += 1;
+        }
+        let mut at = 0;
+        while at < code.ignored_where.len() {
+            let (ignored, need) = &code.ignored_where[at];
+            if *ignored == event && code.holds(&self.marking, need) {
                 return true;
             }
             at += 1;

@@ -6,7 +6,7 @@ use super::{
     STOPPED, WAIT, WARN, ends_with, kinds,
 };
 use crate::missions::definition::{Does, Objective};
-use cotama_core::net::{Arc, Defect, EventId, Net, OutputId, PlaceId, Transition};
+use cotama_core::net::{Arc, Defect, EventId, Ignored, Net, OutputId, PlaceId, Transition};
 use cotama_core::player::code::plus;
 use cotama_core::player::{Packed, words};
 use cotama_core::system::{Component, System};
@@ -320,8 +320,9 @@ impl Check<'_> {
             }
             let demanded = self.demanded(at, event_id, kinds);
             let (leads, should) = (first.map(|firing| firing.1), demanded.as_ref().map(|it| it.0));
-            let purpose =
-                |it: &cotama_core::net::Ignored| it.event == event_id && it.place.0 as usize == at;
+            let purpose = |it: &Ignored<'_>| {
+                it.event == event_id && it.place.0 as usize == at && it.guard.is_empty()
+            };
             let forgotten = event_id == GLOBAL_EVENT
                 && should.is_none()
                 && !self.net.ignored.iter().any(purpose);

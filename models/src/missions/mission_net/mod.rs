@@ -24,8 +24,8 @@ mod checked;
 pub use checked::{Explored, Fault, check};
 
 use crate::missions::definition::{Does, Objective};
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{Arc, Defect, EventId, Ignored, OutputId, PlaceId};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Arc, Defect, EventId, OutputId, PlaceId};
 
 /// The place before the objectives: no mission yet.
 pub const WAIT: &str = "Wait";
@@ -205,7 +205,7 @@ pub fn global_supervisor(objectives: &[Objective]) -> Result<OwnedNet, MissionNe
         ..go("secured", STOPPED, security, safe)
     })?;
 
-    net.ignored = [security, safe].map(|place| Ignored { event: GLOBAL_EVENT, place }).to_vec();
+    net.ignored = [security, safe].map(|place| OwnedIgnored::new(GLOBAL_EVENT, place)).to_vec();
     let everywhere = mission.iter().chain([&security, &safe]);
     let sum = everywhere.map(|&place| Arc { place, weight: 1 }).collect();
     net.laws.push(OwnedLaw::Invariant { sum, equals: 1 });

@@ -1,7 +1,9 @@
 //! The members of the format, in the order in which they are written.
 
 use super::{JsonNetError, MAX_ARCS, SCHEMA, twice};
-use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition};
+use cotama_core::net::owned::{
+    OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,
+};
 use cotama_core::net::{self, EventId, Law, Net, OutputId, PlaceId, Role};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -91,6 +93,8 @@ struct Within {
 struct Ignored<S> {
     event: S,
     place: S,
+    #[serde(default = "Vec::new", skip_serializing_if = "Vec::is_empty")]
+    guard: Vec<Arc<S>>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -174,7 +178,11 @@ impl<'n> Document<Text<'n>> {
             ignored: net
                 .ignored
                 .iter()
-                .map(|it| Ignored { event: event(it.event), place: place(it.place) })
+                .map(|it| Ignored {
+                    event: event(it.event),
+                    place: place(it.place),
+                    guard: arcs(it.guard),
+                })
                 .collect(),
             laws: net.laws.iter().map(law).collect(),
         }
@@ -309,11 +317,12 @@ impl Names {
     fn ignored(
         &self,
         (position, it): (usize, &Ignored<String>),
-    ) -> Result<net::Ignored, JsonNetError> {
+    ) -> Result<OwnedIgnored, JsonNetError> {
         let at = || format!("entry {} of `ignored`", position + 1);
-        Ok(net::Ignored {
+        Ok(OwnedIgnored {
             event: self.events.find(&it.event, &at).map(EventId)?,
             place: self.place(&it.place, &at)?,
+            guard: self.arcs(&it.guard, &at)?,
         })
     }
 

@@ -2,7 +2,8 @@
 
 use super::machine::{Machine, Move, Timing};
 use crate::export::identifier::identifiers;
-use cotama_core::net::{Place, PlaceId, Role, Transition, Within};
+use crate::play::condition;
+use cotama_core::net::{Ignored, Place, PlaceId, Role, Transition, Within};
 use std::cmp::Reverse;
 use std::fmt::Write as _;
 
@@ -279,7 +280,16 @@ impl Writer<'_, '_> {
         self.comment(indent, place.doc);
         let net = self.machine.net;
         let ignored = net.ignored.iter().filter(|it| it.place == id);
-        let ignored: Vec<&str> = ignored.map(|it| net.events[it.event.0 as usize].name).collect();
+        let told = |it: &Ignored<'_>| {
+            let event = net.events[it.event.0 as usize].name;
+            let guard: Vec<_> = it.guard.iter().map(|arc| condition(net, *arc)).collect();
+            if guard.is_empty() {
+                event.to_owned()
+            } else {
+                format!("{event} [{}]", guard.join(" & "))
+            }
+        };
+        let ignored: Vec<String> = ignored.map(told).collect();
         if !ignored.is_empty() {
             self.comment(indent, &format!("Left unanswered on purpose: {}.", ignored.join(", ")));
         }
