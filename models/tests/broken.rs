@@ -107,7 +107,7 @@ fn edits_of_the_patrol() {
         ),
         (
             "unknown_zone",
-            &[("\"H2\" = -45", "\"H22\" = -45"), ("\"H1-out\" = -10", "\"H1-out\" = -1000")],
+            &[("\"H2\" = -75", "\"H22\" = -75"), ("\"H1-out\" = 5", "\"H1-out\" = -1000")],
         ),
         (
             "duplicate_ids",
@@ -232,6 +232,10 @@ fn the_events_of_a_run_are_sorted_by_place() {
     let later_first = with(&[("x_mm = 12000", "x_mm = 170_000"), ("monitor_period_ms = 1000", "")]);
     let mission = Mission::parse("patrol", &later_first).unwrap();
     let places: Vec<_> = mission.run.faults.events.iter().map(|event| event.x.0).collect();
-    assert_eq!(places, [27_000, 50_000, 63_400, 118_000, 131_000, 150_000, 170_000, 170_000]);
+    let expected = [
+        20_000, 27_000, 50_000, 63_400, 75_000, 105_000, 118_000, 131_000, 150_000, 170_000,
+        170_000,
+    ];
+    assert_eq!(places, expected);
     assert_eq!(mission.run.monitor_period.0, 1000);
 }

@@ -22,7 +22,7 @@ pub const LONGEST: Millis = Millis(3_600_000);
 /// let patrol = embedded::mission("patrol").unwrap();
 /// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
 /// let run = Simulation::new(&mission, &Options::default()).unwrap().run(0).unwrap();
-/// assert_eq!((run.outcome, run.margins), (Outcome::Completed, [54_118, 31_399]));
+/// assert_eq!((run.outcome, run.margins), (Outcome::Completed, [53_699, 26_464]));
 /// let causes: Vec<_> = run.plans.iter().map(|it| it.cause.text(&mission)).collect();
 /// assert_eq!(causes[..2], ["start", "energy margin below zero"]);
 /// ```

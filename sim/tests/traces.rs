@@ -88,7 +88,7 @@ fn a_changed_trace_is_not_identical() {
         original.replacen("\"seed\":0", "\"seed\":1", 1),
         original.replacen("\"replans\":3", "\"replans\":2", 1),
         original.replacen("\"replans\":3", "\"replans\": 3", 1),
-        original.replacen("delay_ms = 6800", "delay_ms = 6801", 1),
+        original.replacen("delay_ms = 5500", "delay_ms = 5501", 1),
         original.replace('\n', "\r\n"),
         original.trim_end().to_owned(),
     ];

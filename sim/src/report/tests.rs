@@ -97,12 +97,12 @@ fn the_patrol_shows_its_outcome_all_plans_and_all_events() {
     // RAS1 changes A16 and A17, RAS2 A14, A15 and A17, RAS3 A17.
     assert_eq!(page.matches(" changed\"").count(), 2 + 3 + 1);
     assert!(page.contains("<span class=\"id\">A14–A15</span><s>M5 L2</s>"));
-    assert!(page.contains("Directly before, at 63.4\u{a0}m: obstacle, 6.8\u{a0}s lost."));
+    assert!(page.contains("Directly before, at 63.4\u{a0}m: obstacle, 5.5\u{a0}s lost."));
     assert!(
         page.contains("9 dropped: zone glass-out requires the moving option to use 1 of sonar")
     );
     assert!(page.contains("768\u{202f}288\u{202f}795\u{202f}144\u{202f}192 plans"));
-    assert_eq!(page.matches("<path class=\"mark obstacle\"").count(), 6 * 3 + 1);
+    assert_eq!(page.matches("<path class=\"mark obstacle\"").count(), 7 * 3 + 1);
     assert!(page.contains("cotama replay trace.jsonl"));
 }
 
