@@ -222,7 +222,7 @@ fn an_adapter_event_and_a_report_take_one_round() {
     };
     let adapters = places(".adapt_");
     let reports: Vec<_> = places("cs.").into_iter().chain(places("_flag")).collect();
-    assert_eq!((adapters.len(), reports.len()), (5, 23));
+    assert_eq!((adapters.len(), reports.len()), (7, 25));
     let turns = pt.places.iter().enumerate().filter(|it| it.1.starts_with("turn.cs."));
     let turns: Vec<_> = turns.map(|it| it.0).collect();
     let outside = pt.place("turn.outside").unwrap().0 as usize;
