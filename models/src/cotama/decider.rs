@@ -319,7 +319,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             adjusted: self.settings.effect(self.now, self.situation.mode()),
             halt: self.level.halted(),
             ask: self.situation.local == local::State::HandOver,
-            alarm: self.global.0 == self.objectives + 3,
+            alarm: self.global.0 == self.objectives.saturating_add(3),
         }
     }
 
@@ -330,7 +330,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         let waited = passed(self.since);
         let word = match self.situation.local {
             _ if self.global.0 > self.objectives => {
-                let security = self.global.0 == self.objectives + 2;
+                let security = self.global.0 == self.objectives.saturating_add(2);
                 (security && body.stands).then_some(Told::Mission(global::Event::stopped))
             }
             Planning if said != Some(Word::PathReady) && waited >= PATIENCE_WITH_PLANNER.0 => {

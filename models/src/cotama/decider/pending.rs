@@ -32,14 +32,14 @@ impl Pending {
         }
         if let Some(slot) = self.waiting.get_mut(self.length) {
             *slot = (told, cause);
-            self.length += 1;
+            self.length = self.length.saturating_add(1);
         }
     }
 
     pub(super) fn pop(&mut self) -> Option<(Told, Cause)> {
         let first = self.waiting.iter().take(self.length).next().copied()?;
         self.waiting.rotate_left(1);
-        self.length -= 1;
+        self.length = self.length.saturating_sub(1);
         Some(first)
     }
 

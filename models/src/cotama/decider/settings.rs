@@ -85,7 +85,7 @@ impl<P: Names, O: Observer<P, Cause>> Observer<P, Cause> for Acting<'_, O> {
             && let Some(slot) = self.acted.get_mut(self.count)
         {
             *slot = firing.carries;
-            self.count += 1;
+            self.count = self.count.saturating_add(1);
         }
         self.observer.on_fire(firing);
     }

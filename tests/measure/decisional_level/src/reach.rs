@@ -4,7 +4,7 @@ use cotama_core::units::Millis;
 use cotama_models::cotama::{Cause, DecisionalLevel, Told, faults, global, local, operator};
 
 /// Everything that the level can be told.
-pub const TOLD: [Told; 23] = [
+pub const TOLD: [Told; 25] = [
     Told::Mission(global::Event::mission_received),
     Told::Mission(global::Event::object_received),
     Told::Mission(global::Event::object_delivered),
@@ -14,6 +14,7 @@ pub const TOLD: [Told; 23] = [
     Told::Failure(faults::Event::lose_vital),
     Told::Failure(faults::Event::lose_wifi),
     Told::Failure(faults::Event::lose_camera),
+    Told::Failure(faults::Event::lose_watch),
     Told::Failure(faults::Event::lose_sonar),
     Told::Failure(faults::Event::lose_avoidance),
     Told::Failure(faults::Event::lose_mcl),
@@ -21,6 +22,7 @@ pub const TOLD: [Told; 23] = [
     Told::Failure(faults::Event::bump),
     Told::Failure(faults::Event::no_path),
     Told::Failure(faults::Event::fail_hard),
+    Told::Failure(faults::Event::fail_slightly),
     Told::Failure(faults::Event::overload),
     Told::Operator(operator::Event::teleprogram),
     Told::Operator(operator::Event::teleoperate),
