@@ -136,11 +136,7 @@ fn root_decider_new(objectives: u32, planned: Option<Configuration>) -> Delivery
 }
 
 #[unsafe(no_mangle)]
-fn root_decider_resume(
-    level: DecisionalLevel,
-    objectives: u32,
-    known: Health,
-) -> DeliveryDecider {
+fn root_decider_resume(level: DecisionalLevel, objectives: u32, known: Health) -> DeliveryDecider {
     DeliveryDecider::resume(level, objectives, known)
 }
 

@@ -76,8 +76,7 @@ impl Plans for Mission {
 
     fn plan(&mut self, _: Why, available: Modules) -> Result<bool, NoPlanLeft> {
         let have = HARDWARE.iter().enumerate().filter(|(_, it)| available.has(**it));
-        let units =
-            have.fold(Equipment::NONE, |all, (kind, _)| all.with(kind, 1).unwrap_or(all));
+        let units = have.fold(Equipment::NONE, |all, (kind, _)| all.with(kind, 1).unwrap_or(all));
         let (first, rest) = (self.first, self.rest);
         if self.plan_by_rule(first, rest, units) { Ok(true) } else { Err(NoPlanLeft) }
     }
@@ -168,7 +167,6 @@ impl Robot {
 }
 
 impl Mission {
-
     /// Plans the mission from one of its activities on, of which `rest` is left, by the rule of the
     /// paper; whether there is a plan.
     pub fn plan_by_rule(&mut self, first: usize, rest: Rest, units: Equipment) -> bool {

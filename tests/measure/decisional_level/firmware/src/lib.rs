@@ -7,9 +7,7 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Request;
 use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::load::Load;
-use cotama_models::cotama::{
-    Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word,
-};
+use cotama_models::cotama::{Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word};
 use cotama_models::missions::tables::Rest;
 use decisional_level::Robot;
 
