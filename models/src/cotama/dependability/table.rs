@@ -248,15 +248,17 @@ rows! {
         seen "SCH" "K consecutive violations in spite of the extra time (seed rule)"
              300 (flags [MclLate] with Mcl);
         answer Slow "fewer particles";
-        rate 20_000 Assumed "assumed; happens once in the seed run", injection "load: 3 ms of every 10";
+        rate 20_000 Assumed "assumed; happens once in the seed run",
+        injection "load: 3 ms of every 10";
     }
     Rt2 "RT2" "schedule" "any module" "one late job" {
         cause "transient load", effect "jitter";
         severity Weak Weak, class Adapter, Transient;
         lost "-" [] [];
         seen "SCH" "one violation inside the extra time" 100 (flags [OneLate]);
-        answer - "tolerated", tolerated "one job inside its extra time is what the extra time is for \
-                                       (Section VI.A.1)";
+        answer - "tolerated",
+               tolerated "one job inside its extra time is what the extra time is for \
+                          (Section VI.A.1)";
         rate 500 Assumed "assumed", injection "job time += 30 ms once";
     }
     Rt3 "RT3" "schedule" "any other module" "deadline missed again and again" {

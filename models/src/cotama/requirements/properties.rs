@@ -113,12 +113,14 @@ requirements! {
                   unanswered.",
         checked "AG (round & ls.End -> \
                  !(cs.ambiguous.waiting | cs.camera.waiting | cs.collision.waiting | \
-                 cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | cs.planner.waiting | cs.refusal.waiting | \
+                 cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | \
+                 cs.planner.waiting | cs.refusal.waiting | \
                  cs.slow.waiting | cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | \
                  cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
                  gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
                  gom.mcl_flag.waiting | gom.drift_flag.waiting | gom.bumper_flag.waiting | \
-                 gom.planner_flag.waiting | gom.hard_flag.waiting | gom.minor_flag.waiting | gom.deadline_flag.waiting | \
+                 gom.planner_flag.waiting | gom.hard_flag.waiting | \
+                 gom.minor_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
     LS6 Stated "From everywhere a drive can end; in each of its modes it can still reach its goal, \
                 unless something vital is lost; and it ends when failures do and everybody goes \
@@ -258,7 +260,8 @@ requirements! {
         checked "AG (turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | \
                  pf.adapt_sonar.waiting | pf.adapt_bump.waiting | pf.adapt_minor.waiting) & \
                  !faults.vital) & \
-                 !((to.adapt_sonar.waiting | to.adapt_minor.waiting) & !(faults.camera & faults.wifi & faults.vital)))";
+                 !((to.adapt_sonar.waiting | to.adapt_minor.waiting) & \
+                 !(faults.camera & faults.wifi & faults.vital)))";
     CS5 Inferred "No operator is asked who cannot be reached, and none is waited for during more \
                   than two rounds.",
         checked "AG ((turn.outside -> !(ls.local_event.waiting & !faults.wifi)) & alone <= 2)",
@@ -289,7 +292,8 @@ requirements! {
                  (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & \
                  (turn.gom.drift_flag & gom.suspected -> AX !cs.ambiguous.waiting) & \
                  cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + \
-                 cs.hard.waiting + cs.minor.waiting + cs.mcl_lost.waiting + cs.planner.waiting + cs.refusal.waiting + \
+                 cs.hard.waiting + cs.minor.waiting + cs.mcl_lost.waiting + \
+                 cs.planner.waiting + cs.refusal.waiting + \
                  cs.slow.waiting + cs.sonar.waiting + cs.vital.waiting + cs.wifi_lost.waiting + \
                  cs.avoidance.waiting <= 1 & \
                  (gom.suspected & turn.outside & !ls.Planning & \

@@ -35,7 +35,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             self.note(it);
         }
         self.arrive_at_places(before);
-        // Told in one round, decided in the next, answered in the one after: modules in fault go on.
+        // Told in one round, decided in the next, answered in the one after: then modules in fault
+        // go on.
         self.quiet = if self.decider.listens() { self.quiet + 1 } else { 0 };
         if self.quiet >= ANSWERED {
             self.laptop.answered();
