@@ -144,6 +144,7 @@ impl Game {
             ("ls.Planning", Configuration::Planning),
             ("pf.Optimal", Configuration::FollowingOptimal),
             ("pf.Reduced", Configuration::FollowingReduced),
+            ("pf.Reactive", Configuration::FollowingDvz),
             ("pf.Odometric", Configuration::FollowingOdometric),
             ("pf.Degraded", Configuration::FollowingDegraded),
             ("ls.Teleprogrammed", Configuration::Teleprogramming),

@@ -300,6 +300,8 @@ impl Point<'_> {
                 Some("adapt_rt") => "the adapter takes fewer particles",
                 Some("adapt_mcl") => "the adapter takes odometry",
                 Some("adapt_bump") => "the adapter slows down",
+                Some("adapt_smz") => "the adapter takes the other avoidance",
+                Some("adapt_avoidance") => "the adapter does without avoidance",
                 Some("adapt_minor" | "adapt_minor_teleoperation") => {
                     "the adapter changes a setting"
                 }

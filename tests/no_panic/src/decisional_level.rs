@@ -10,10 +10,10 @@ use cotama_core::player::{Outcome, Round};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Cause, Configuration, Configurations, Decision, DecisionalLevel, Diagnosis, FailureMode,
-    FailureModes, Flags, Health, Losses, Modules, Report, Resources, Severity, Situation,
-    StatusVector, Told, available, by_rules, decide, delivery, diagnose, judge, lost_after,
-    undetectable,
+    Adjusted, Adjustment, Adjustments, Cause, Configuration, Configurations, Decision,
+    DecisionalLevel, Diagnosis, FailureMode, FailureModes, Flags, Health, Loss, Losses, Mode,
+    Modules, Report, Resources, Severity, Situation, StatusVector, Told, available, by_rules,
+    decide, delivery, diagnose, judge, lost_after, undetectable,
 };
 
 #[unsafe(no_mangle)]
@@ -56,6 +56,31 @@ fn root_diagnose(raised: Flags, status: Modules) -> Diagnosis {
 #[unsafe(no_mangle)]
 fn root_diagnosis_health(diagnosis: Diagnosis, part: Modules) -> Health {
     diagnosis.health(part)
+}
+
+#[unsafe(no_mangle)]
+fn root_diagnosis_judged(
+    diagnosis: Diagnosis,
+    raised: Flags,
+    mode: Mode,
+) -> (Option<Report>, Severity, Option<Adjustment>) {
+    let (report, severity) = diagnosis.judged(raised, mode);
+    (report, severity, diagnosis.adjustment())
+}
+
+#[unsafe(no_mangle)]
+fn root_adjustments(all: Adjustments, mode: Mode) -> Adjusted {
+    all.effect(mode)
+}
+
+#[unsafe(no_mangle)]
+fn root_relied_on(health: Health) -> Modules {
+    health.relied_on()
+}
+
+#[unsafe(no_mangle)]
+fn root_told_lost(loss: Loss, known: Health) -> Told {
+    Told::lost(loss, known)
 }
 
 #[unsafe(no_mangle)]

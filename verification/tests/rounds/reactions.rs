@@ -48,18 +48,18 @@ const MODES: [&str; 5] =
 
 /// A decision: what waits, in whose turn it is read, and where the reader is afterwards.
 const DECISIONS: [(&str, &str, &[&str]); 9] = [
-    ("adapter (fewer particles)", "pf.adapt_rt.waiting", &["pf.Reduced", "pf.Off"]),
+    ("adapter (fewer particles)", "pf.adapt_rt.waiting", &["pf.Reduced", "pf.Reactive", "pf.Off"]),
     ("adapter (odometry)", "pf.adapt_mcl.waiting", &["pf.Odometric", "pf.Degraded", "pf.Off"]),
     ("adapter (no avoidance)", "pf.adapt_sonar.waiting", &["pf.Degraded", "pf.Off"]),
     (
         "adapter (slower)",
         "pf.adapt_bump.waiting",
-        &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Off"],
+        &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Reactive", "pf.Off"],
     ),
     (
         "adapter (a setting)",
         "pf.adapt_minor.waiting",
-        &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Degraded", "pf.Off"],
+        &["pf.Optimal", "pf.Reduced", "pf.Odometric", "pf.Reactive", "pf.Degraded", "pf.Off"],
     ),
     ("adapter (no avoidance)", "to.adapt_sonar.waiting", &["to.Degraded", "to.Off"]),
     ("adapter (a setting)", "to.adapt_minor.waiting", &["to.Full", "to.Degraded", "to.Off"]),

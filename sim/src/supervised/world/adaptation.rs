@@ -4,7 +4,7 @@ use super::objective::Objective;
 use super::{CLOCKS, World};
 use crate::run::{NoPlan, PlanCause};
 use cotama_core::player::Program;
-use cotama_models::cotama::{Cause, Configuration, Loss, Losses, Module, Modules, Told, faults};
+use cotama_models::cotama::{Cause, Loss, Losses, Module, Modules, Told, faults};
 
 impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S> {
     /// Compares what was used with the plan, once a second; plans again when a margin is below
@@ -68,10 +68,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let at = self.progress();
         let drives = (at.activity..self.mission.scenario().activities.len())
             .find_map(|it| self.planning.configuration(it));
-        match drives {
-            Some(Configuration::FollowingOdometric) => Losses::of(&[Loss::Mcl]),
-            Some(Configuration::FollowingDegraded) => Losses::of(&[Loss::Mcl, Loss::Sonar]),
-            _ => Losses::NONE,
-        }
+        let lacking = Losses::lacking(self.known.relied_on());
+        drives.map_or(Losses::NONE, |planned| lacking.beside(planned))
     }
 }

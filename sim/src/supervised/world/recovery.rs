@@ -100,6 +100,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         if again.is_some_and(|again| self.planning.plan(again, at, left).is_err()) {
             return; // the plan in force goes on
         }
+        // What the sonars hid is lost before they return.
+        self.lose(Losses::lacking(left), cause);
         let lost = self.lost.common(Losses::lacking(left).union(self.unused()));
         let back = |it: &Return| self.lost.without(lost).has(it.loss());
         let told = Return::ALL.into_iter().rev().filter(back).map(|it| (Told::Return(it), cause));

@@ -16,8 +16,8 @@ use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::Configuration::FollowingOptimal;
 use cotama_models::cotama::load::{self, Load, MOST, SPARE};
 use cotama_models::cotama::{
-    Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Mode, Modules, Report,
-    Severity, Told, decide, delivery, diagnose, judge,
+    Cause, Decision, DecisionalLevel, Diagnosis, Flags, Health, Losses, Modules, Report, Told,
+    decide, delivery, diagnose, judge,
 };
 use cotama_models::missions::tables::delivery::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
@@ -94,19 +94,10 @@ impl Robot {
     pub fn observe(&mut self, raised: Flags, part: Modules) -> Concluded {
         let diagnosis = diagnose(raised, self.health.available());
         self.health = self.health.union(diagnosis.health(part));
-        let lost = Losses::lacking(self.health.available()).without(self.lost);
+        let lost = Losses::lacking(self.health.relied_on()).without(self.lost);
         self.lost = self.lost.union(lost);
         let situation = self.level.situation(self.lost);
-        let (report, severity) = match diagnosis {
-            Diagnosis::None => (None, Severity::Weak),
-            Diagnosis::Unique(mode) => match situation.mode() {
-                Mode::Rest | Mode::Autonomous => (mode.rule().report, mode.rule().autonomous),
-                _ => (mode.rule().report, mode.rule().operator),
-            },
-            Diagnosis::Ambiguous(_) | Diagnosis::Unexplained => {
-                (Some(Report::Ambiguous), Severity::Hard)
-            }
-        };
+        let (report, severity) = diagnosis.judged(raised, situation.mode());
         let said = report.map(|it| [decide(it, situation), judge(it, severity, situation)]);
         Concluded { diagnosis, lost, report, decisions: said.unwrap_or([Decision::Record; 2]) }
     }
