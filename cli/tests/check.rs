@@ -231,7 +231,7 @@ fn the_requirements_of_a_system_are_asked_by_their_numbers() {
     let otherwise = answer["otherwise"].as_array().unwrap();
     let limit = otherwise.iter().find(|it| it["id"] == "AS6").unwrap();
     assert_eq!(limit["how"], "each transition that must says so");
-    assert_eq!((rows.len(), otherwise.len()), (33, 19));
+    assert_eq!((rows.len(), otherwise.len()), (34, 19));
 }
 
 #[test]
