@@ -50,10 +50,10 @@ fn the_delivery_is_driven_in_seven_points() {
         (&answer["outcome"], &answer["operator_requests"]),
         (&json!("completed"), &json!(2))
     );
-    assert_eq!((&answer["duration_ms"], &answer["x_mm"]), (&json!(546_300), &json!(80_000)));
+    assert_eq!((&answer["duration_ms"], &answer["x_mm"]), (&json!(413_200), &json!(80_000)));
     assert_eq!(
         (&answer["duration_margin_ms"], &answer["energy_margin_mj"]),
-        (&json!(353_700), &json!(3_794_552))
+        (&json!(486_800), &json!(4_358_888))
     );
     assert_eq!(
         (&answer["replans"], &answer["plans"][1]["plan"][0]["choice"]),
@@ -145,9 +145,9 @@ fn a_limit_that_the_delivery_exceeds_is_a_failure() {
         folder.cotama(&["run", "delivery", "--duration-limit", "400000", "--json"]).json(1);
     assert_eq!(
         (&answer["outcome"], &answer["duration_margin_ms"]),
-        (&json!("failed"), &json!(-153_700))
+        (&json!("failed"), &json!(-20_600))
     );
-    assert_eq!(answer["reason"], "duration limit exceeded by 153.7 s");
+    assert_eq!(answer["reason"], "duration limit exceeded by 20.6 s");
     // Without a plan for the rest, the adapter goes on and the operator is asked.
     let sonar = &answer["supervised"]["points"][5];
     assert_eq!((&answer["replans"], &sonar["ladder"]), (&json!(0), &json!(["set", "activity"])));

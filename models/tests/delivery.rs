@@ -21,7 +21,7 @@ fn outside() -> Vec<Of<EventId>> {
 
 /// The checker counts the same on the net of rounds.
 #[test]
-fn the_shipped_supervisors_reach_53858_states_by_629896_steps() {
+fn the_shipped_supervisors_reach_110346_states_by_1346810_steps() {
     let first = delivery::Player::new();
     let mut seen = HashSet::from([*first.marking()]);
     let (mut states, mut edges) = (vec![first], 0);
@@ -50,7 +50,7 @@ fn the_shipped_supervisors_reach_53858_states_by_629896_steps() {
             }
         }
     }
-    assert_eq!((states.len(), edges), (53_858, 629_896));
+    assert_eq!((states.len(), edges), (110_346, 1_346_810));
     let all = delivery::SYSTEM.components.iter().zip(0..).flat_map(|(it, component)| {
         it.net
             .transitions
@@ -69,6 +69,9 @@ fn the_shipped_supervisors_reach_53858_states_by_629896_steps() {
         "pf.a8.level_0",
         "pf.a8.level_1",
         "pf.a9.level_2",
+        "pf.a19.level_0",
+        "pf.a19.level_1",
+        "pf.a20.level_2",
         "pf.as1.level_0",
         "pf.as1.level_1",
         "pf.as2.level_2",
@@ -76,6 +79,7 @@ fn the_shipped_supervisors_reach_53858_states_by_629896_steps() {
         "permit.destroyed.Granted",
         // Too slow without localisation: nothing runs that could be.
         "cs.slow3.mcl_0",
+        "cs.slow5.mcl_0",
         // Who drives without a link has been stopped by the loss of the link.
         "cs.hard6",
         "cs.camera2",

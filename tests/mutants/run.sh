@@ -2,15 +2,16 @@
 # Seeds one defect after the other into a copy of the workspace, and sees whether a test fails each
 # time.
 #
-#   tests/mutants/run.sh [ENGINE...]     all engines by default; an engine is the name of a list
-#                                        next to this script
+#   tests/mutants/run.sh [LIST...]       all lists next to this script by default: one for each
+#                                        engine of the checker, and `decisional`
 #   tests/mutants/run.sh --table         writes the lists of README.md anew
 #
 # A list has paragraphs:
 #
 #   mutant: what is wrong, in plain words
-#   file: path below verification/src
-#   test: the module of tests/engines.rs that kills it, where it is not the one of the engine
+#   file: path below verification/src; for `decisional`, in the workspace
+#   test: the module of tests/engines.rs that kills it, where it is not the one of the engine; for
+#       `decisional`, of sim/tests/supervised
 #   by: the test that kills it, tried first; the whole module is run only when it does not;
 #       `time` when the module hangs
 #   - text that occurs exactly once in the file, of one or more lines
@@ -34,9 +35,9 @@ limit=${SECONDS_PER_RUN:-120}
 declare -A target_of=([explicit]=statespace [certificate]=certificates)
 bad=0
 
-# Builds the tests of the engines; prints where they are.
+# Builds the tests of the list; prints where they are.
 build() {
-    (cd "$copy" && cargo test --offline -p cotama-verification --test engines --no-run \
+    (cd "$copy" && cargo test --offline -p "cotama-$crate" --test "$program" --no-run \
         --message-format=json) \
         2>"$work/build.log" | sed -n 's/.*"executable":"\([^"]*\)".*/\1/p' | tail -1
 }
@@ -44,7 +45,7 @@ build() {
 # Runs tests until one fails; prints its name, or `time`, or `a crash`; nothing when all pass.
 first_failure() {
     local line out tests status=0
-    exec {out}< <(cd "$copy/verification" && ulimit -v 16000000 &&
+    exec {out}< <(cd "$copy/$crate" && ulimit -v 16000000 &&
         exec timeout "$limit" "$@" 2>/dev/null)
     tests=$!
     while read -r line <&"$out"; do
@@ -71,7 +72,7 @@ report() { printf '%s: %s: %s\n' "$engine" "$mutant" "$1"; }
 # Runs the mutant that was read, if one was.
 try() {
     [[ -n $mutant ]] || return 0
-    local path=$copy/verification/src/$file text tests killer=
+    local path=$copy/$below$file text tests killer=
     if [[ -n $equivalent ]]; then
         report "equivalent: $equivalent"
         return
@@ -112,7 +113,8 @@ try() {
 }
 
 run() {
-    engine=$1 usual=${target_of[$1]:-$1}
+    engine=$1 usual=${target_of[$1]:-$1} crate=verification program=engines below=verification/src/
+    [[ $engine != decisional ]] || crate=sim program=supervised below=
     local line name names
     for name in $({ echo "$usual"; sed -n 's/^test: //p' "$lists/$engine.txt"; } | sort -u); do
         mapfile -t names < <(awk -v usual="$usual" -v wanted="$name" '
@@ -172,7 +174,7 @@ table() {
     done | sed '$d'
 }
 
-all=(structural reductions explicit stubborn temporal coverability tpn certificate)
+all=(structural reductions explicit stubborn temporal coverability tpn certificate decisional)
 if [[ ${1-} == --table ]]; then
     table >"$lists/README.new"
     mv "$lists/README.new" "$lists/README.md"

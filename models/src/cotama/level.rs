@@ -3,7 +3,7 @@
 
 use super::decider::Decider;
 use super::decisions::{Loss, Losses, Situation};
-use super::modules::{Configuration, Health, Module, Modules};
+use super::modules::{Health, Module, Modules};
 use super::supervisors::{
     delivery, faults, global, local, operator, path_following, permit, recovering,
     recovering_faults,
@@ -68,7 +68,7 @@ impl Return {
         }
     }
 
-    /// Whether it works with these modules: a set that uses it runs.
+    /// Whether it works with these modules.
     ///
     /// ```
     /// use cotama_models::cotama::{Modules, Resource, Resources, Return, available};
@@ -77,9 +77,9 @@ impl Return {
     /// ```
     pub const fn works(self, available: Modules) -> bool {
         match self {
-            Self::Sonar => Configuration::FollowingOdometric.runs_on(available),
+            Self::Sonar => available.has(Module::Ust),
             Self::Avoidance => available.has(Module::Dvz),
-            Self::Mcl => Configuration::FollowingOptimal.runs_on(available),
+            Self::Mcl => available.has(Module::Mcl),
         }
     }
 }
@@ -117,6 +117,7 @@ impl Told {
     pub const fn lost(loss: Loss, known: Health) -> Self {
         Self::Failure(match loss {
             Loss::Avoidance => faults::Event::lose_avoidance,
+            Loss::Smz => faults::Event::lose_smz,
             Loss::Mcl => faults::Event::lose_mcl,
             Loss::Sonar => faults::Event::lose_sonar,
             Loss::Camera if known.available().has(Module::Cam) => faults::Event::lose_watch,

@@ -21,7 +21,7 @@ fn it_is_two_drives_with_the_options_of_the_adapter() {
     assert_eq!(does, [Does::Drive, Does::Receive, Does::Drive, Does::Deliver]);
     let labels: Vec<_> =
         mission.scenario().activities.iter().map(|it| it.labels.join(" ")).collect();
-    let drive = "PF.OPT PF.OPTR PF.ODO PF.DEG";
+    let drive = "PF.OPT PF.OPTR PF.DVZ PF.ODO PF.DEG";
     assert_eq!(labels, [drive, "hand-in", drive, "hand-over"]);
     let configured: Vec<_> = mission.tios.iter().filter_map(|tio| tio.configuration).collect();
     assert!(
@@ -49,7 +49,8 @@ fn a_lost_module_removes_the_options_that_need_it() {
     assert_eq!(left("MCL"), "PF.ODO PF.DEG");
     assert_eq!(left("UST"), "PF.DEG");
     assert_eq!(left("GUI"), "PF.OPT PF.OPTR PF.ODO");
-    assert_eq!(left("LAN"), "PF.OPT PF.OPTR PF.ODO PF.DEG");
+    assert_eq!(left("LAN"), "PF.OPT PF.OPTR PF.DVZ PF.ODO PF.DEG");
+    assert_eq!(left("SMZ"), "PF.DVZ PF.DEG");
     assert_eq!(left("P3D"), "");
 }
 
@@ -71,13 +72,13 @@ fn its_script_is_the_timeline_of_the_seven_points() {
         })
         .collect();
     let timeline = [
-        "3000 RT1",
-        "11000 RT1 ends",
-        "12000 LOC2",
-        "12000 teleoperate teleprogram path",
-        "26000 SON1",
-        "34000 LOC3",
-        "34000 teleoperate goal",
+        "43000 RT1",
+        "51000 RT1 ends",
+        "52000 LOC2",
+        "52000 teleoperate teleprogram path",
+        "66000 SON1",
+        "74000 LOC3",
+        "74000 teleoperate goal",
     ];
     assert_eq!(told, timeline);
 }

@@ -137,6 +137,8 @@ fn decision(chain: &Chain<'_>) -> Option<&'static str> {
         ("adapter", Some("adapt_rt")) => "the adapter took fewer particles",
         ("adapter", Some("adapt_mcl")) => "the adapter took odometry",
         ("adapter", Some("adapt_bump")) => "the adapter slowed the robot down",
+        ("adapter", Some("adapt_smz")) => "the adapter took the other avoidance",
+        ("adapter", Some("adapt_avoidance")) => "the adapter went on without avoidance",
         ("adapter", Some("adapt_minor" | "adapt_minor_teleoperation")) => {
             "the adapter changed a setting"
         }

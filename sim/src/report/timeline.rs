@@ -332,7 +332,7 @@ fn tint(name: &str) -> &'static str {
         "autonomous" | "Following" | "PF.OPT" | "Optimal" | "DriveA" | "DriveB" => "f0",
         "PF.OPTR" | "Reduced" => "f1",
         // `Degraded` of both adapters: they have lanes of their own.
-        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "TO.DEG" | "Odometric" | "Degraded" => "f2",
+        "PF.ODO" | "PF.DEG" | "PF.DVZ" | "TO.DEG" | "Odometric" | "Reactive" | "Degraded" => "f2",
         "hand-over" | "HandOver" | "teleprogrammed" | "Teleprogrammed" | "TP" => "f3",
         "teleoperated" | "Teleoperated" | "TO.FULL" | "Full" => "f4",
         "Granted" => "f5",

@@ -30,8 +30,9 @@ pub struct Point<'t> {
 /// What happened at a point.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum What<'t> {
-    /// The mission was received.
-    Start,
+    /// The mission was received, or the object, with the name of that event: where the drive
+    /// begins on which something happens first.
+    Start(&'t str),
     /// Something failed.
     Failure(Box<Chain<'t>>),
     /// The operator, who had been asked, did this; the last answer is the event's name, as
@@ -118,6 +119,10 @@ pub fn points(records: &[Record]) -> Vec<Point<'_>> {
         story.hear(record);
     }
     story.belongs();
+    let quiet = story.points.is_empty();
+    if let Some(it) = if quiet { story.starts.first() } else { story.starts.last() }.copied() {
+        story.point(it.t_us, it.x_mm, Some(it.t_us), What::Start(&it.event));
+    }
     let Story { mut points, configurations, .. } = story;
     for point in &mut points {
         // A path is planned first where the robot starts, or was given way-points.
@@ -134,9 +139,14 @@ pub fn points(records: &[Record]) -> Vec<Point<'_>> {
     points
 }
 
+/// What a drive begins with.
+const STARTS: [&str; 2] = ["gs.mission_received", "gs.object_received"];
+
 /// A story while it is heard.
 #[derive(Default)]
 struct Story<'t> {
+    /// What began before anything happened.
+    starts: Vec<&'t Told>,
     points: Vec<Point<'t>>,
     configurations: Vec<&'t Configured>,
     /// The place in `points` of each failure.
@@ -152,8 +162,8 @@ struct Story<'t> {
 impl<'t> Story<'t> {
     fn hear(&mut self, record: &'t Record) {
         match record {
-            Record::Told(it) if it.event == "gs.mission_received" => {
-                self.point(it.t_us, it.x_mm, Some(it.t_us), What::Start);
+            Record::Told(it) if STARTS.contains(&it.event.as_str()) && self.points.is_empty() => {
+                self.starts.push(it);
             }
             Record::Told(it) if it.event.starts_with("operator.") => {
                 self.said.push(it);
@@ -261,7 +271,10 @@ impl Point<'_> {
     /// What happened, in words.
     pub fn title(&self) -> String {
         match &self.what {
-            What::Start => "the mission is received".into(),
+            What::Start(event) => {
+                let received = if *event == STARTS[0] { "mission" } else { "object" };
+                format!("the {received} is received")
+            }
             What::Failure(chain) => {
                 let mode = &chain.failure.mode;
                 FailureMode::named(mode).map_or_else(
@@ -300,6 +313,8 @@ impl Point<'_> {
                 Some("adapt_rt") => "the adapter takes fewer particles",
                 Some("adapt_mcl") => "the adapter takes odometry",
                 Some("adapt_bump") => "the adapter slows down",
+                Some("adapt_smz") => "the adapter takes the other avoidance",
+                Some("adapt_avoidance") => "the adapter does without avoidance",
                 Some("adapt_minor" | "adapt_minor_teleoperation") => {
                     "the adapter changes a setting"
                 }

@@ -4,6 +4,7 @@
 #![allow(missing_docs, clippy::pedantic, clippy::unwrap_used)]
 
 mod answers;
+mod crashes;
 mod matrix;
 mod observers;
 mod other_missions;

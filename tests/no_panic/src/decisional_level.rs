@@ -60,6 +60,31 @@ fn root_diagnosis_health(diagnosis: Diagnosis, part: Modules) -> Health {
 }
 
 #[unsafe(no_mangle)]
+fn root_diagnosis_judged(
+    diagnosis: Diagnosis,
+    raised: Flags,
+    mode: Mode,
+) -> (Option<Report>, Severity, Option<Adjustment>) {
+    let (report, severity) = diagnosis.judged(raised, mode);
+    (report, severity, diagnosis.adjustment())
+}
+
+#[unsafe(no_mangle)]
+fn root_adjustments(all: Adjustments, mode: Mode) -> Adjusted {
+    all.effect(mode)
+}
+
+#[unsafe(no_mangle)]
+fn root_relied_on(health: Health) -> Modules {
+    health.relied_on()
+}
+
+#[unsafe(no_mangle)]
+fn root_told_lost(loss: Loss, known: Health) -> Told {
+    Told::lost(loss, known)
+}
+
+#[unsafe(no_mangle)]
 fn root_undetectable(status: Modules) -> FailureModes {
     undetectable(status)
 }

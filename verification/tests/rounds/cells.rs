@@ -20,11 +20,12 @@ pub(crate) fn differ(system: &System<'_>) -> bool {
 /// Those whose places fit together, with the losses that the net reads.
 fn situations() -> impl Iterator<Item = Situation> {
     use local::State::{End, Following, HandOver, Idle, Planning, Teleoperated, Teleprogrammed};
-    use path_following::State::{Degraded, Odometric, Off, Optimal, Reduced};
+    use path_following::State::{Degraded, Odometric, Off, Optimal, Reactive, Reduced};
     use teleoperation::State as To;
     let quiet =
         [Idle, Planning, HandOver, Teleprogrammed, End].map(|local| (local, Off, To::Off, 2));
     let following = [(Optimal, 2), (Reduced, 1), (Reduced, 0), (Odometric, 2), (Degraded, 2)];
+    let following = following.into_iter().chain([2, 1, 0].map(|it| (Reactive, it)));
     let following = following.map(|(following, level)| (Following, following, To::Off, level));
     let teleoperated = [To::Full, To::Degraded].map(|it| (Teleoperated, Off, it, 2));
     let all = quiet.into_iter().chain(following).chain(teleoperated);
@@ -61,6 +62,7 @@ fn hard(at: Situation) -> Decision {
 fn avoidance(at: Situation) -> Decision {
     match at.teleoperation {
         teleoperation::State::Full => Decision::AdaptSonarTeleoperation,
+        _ if at.following == path_following::State::Reactive => Decision::AdaptAvoidance,
         _ => Decision::Record,
     }
 }
@@ -72,6 +74,8 @@ const fn emits(decision: Decision) -> Option<&'static str> {
         Decision::AdaptMcl => Some("adapt_mcl"),
         Decision::AdaptSonar => Some("adapt_sonar"),
         Decision::AdaptBump => Some("adapt_bump"),
+        Decision::AdaptSmz => Some("adapt_smz"),
+        Decision::AdaptAvoidance => Some("adapt_avoidance"),
         Decision::AdaptMinor => Some("adapt_minor"),
         Decision::AdaptSonarTeleoperation => Some("adapt_sonar_teleoperation"),
         Decision::AdaptMinorTeleoperation => Some("adapt_minor_teleoperation"),
@@ -91,6 +95,7 @@ fn decided<'n>(net: &Net<'n>, event: &str, at: Situation) -> Option<&'n str> {
         "optimal" => u32::from(at.following == path_following::State::Optimal),
         "reduced" => u32::from(at.following == path_following::State::Reduced),
         "odometric" => u32::from(at.following == path_following::State::Odometric),
+        "reactive" => u32::from(at.following == path_following::State::Reactive),
         "degraded" => u32::from(at.following == path_following::State::Degraded),
         "avoiding" => u32::from(at.teleoperation == teleoperation::State::Full),
         "wifi" => u32::from(!at.lost.has(Loss::Wifi)),
@@ -114,5 +119,5 @@ fn decided<'n>(net: &Net<'n>, event: &str, at: Situation) -> Option<&'n str> {
 #[test]
 fn the_shipped_one_decides_as_the_function() {
     assert!(!differ(&cotama_models::cotama::delivery::SYSTEM));
-    assert_eq!(situations().filter(|it| it.is_consistent()).count(), 48);
+    assert_eq!(situations().filter(|it| it.is_consistent()).count(), 60);
 }

@@ -87,3 +87,62 @@ fn a_start_of_the_operator_that_does_not_ask_for_the_camera_is_found() {
     let way = "mission_received drift lose_watch teleoperate idle idle";
     found("camera not asked for", &mutant, "OB1", way);
 }
+
+/// It goes from a place to another one.
+fn moved(name: &str, from: &str, to: &str) -> System<'static> {
+    with(name, |net, it| {
+        let arc = |name| {
+            let place = net.places.iter().position(|it| it.name == name).unwrap();
+            Arc { place: cotama_core::net::PlaceId(place as u32), weight: 1 }
+        };
+        (it.take, it.give) = (vec![arc(from)].leak(), vec![arc(to)].leak());
+    })
+}
+
+/// Weak and medium failures as they were: recorded, and nothing changes.
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn a_minor_failure_that_changes_nothing_is_found() {
+    found("not told", &silent("gom.minor"), "CS3", "fail_slightly idle");
+    let way = "mission_received path_ready fail_slightly idle";
+    found("recorded only", &silent("cs.minor1"), "CS1", way);
+    let way = "mission_received drift idle teleoperate fail_slightly idle";
+    found("recorded only, driven", &silent("cs.minor2"), "CS1", way);
+    for name in ["pf.m1", "pf.m2", "pf.m3", "pf.m4", "pf.m5", "to.m1", "to.m2"] {
+        let mutant = silent(name);
+        let said = REQUIREMENTS.iter().find(|it| it.id == "AS5").unwrap().said;
+        assert!(said.iter().any(|it| it.unsaid(&mutant).next().is_some()), "{name}");
+    }
+}
+
+/// The bump in a degraded sub-objective as it was: nothing to be asked.
+#[test]
+fn a_collision_in_the_degraded_set_that_is_recorded_is_found() {
+    let way = "mission_received path_ready lose_sonar bump idle";
+    found("recorded", &silent("cs.collision3"), "CS1", way);
+}
+
+/// A crashed avoidance as it was, and what may go wrong with the other one.
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn a_wrong_use_of_the_other_avoidance_is_found() {
+    let smz = "mission_received path_ready lose_smz";
+    found("not told", &silent("gom.smz"), "CS3", "lose_smz idle");
+    found("recorded only", &silent("cs.smz1"), "CS1", &format!("{smz} idle"));
+    let mutant = moved("pf.a17", "Optimal", "Degraded");
+    found("avoidance is lost with it", &mutant, "AS5", &format!("{smz} idle idle"));
+    let mutant = without("pf.a17", "avoidance");
+    let way = "mission_received path_ready lose_avoidance lose_smz idle idle idle idle";
+    found("it is not asked for", &mutant, "AS2", way);
+    let mutant = without("pf.a1", "smz");
+    found("started with what is lost", &mutant, "AS7", "mission_received lose_smz idle");
+    let mutant = silent("cs.avoidance2");
+    let way = format!("{smz} lose_avoidance idle");
+    found("its loss is recorded only", &mutant, "CS1", &way);
+    let mutant = silent("cs.mcl3");
+    let way = format!("{smz} lose_mcl idle");
+    found("lost localisation is recorded only", &mutant, "CS1", &way);
+    let mutant = moved("pf.a25", "Reactive", "Odometric");
+    let way = format!("{smz} lose_avoidance idle idle");
+    found("odometry in its place", &mutant, "AS3", &way);
+}

@@ -36,14 +36,14 @@ fn requirement(id: &str) -> &'static Requirement {
 }
 
 #[test]
-fn the_shipped_supervisors_have_53858_states_between_rounds() {
+fn the_shipped_supervisors_have_110346_states_between_rounds() {
     let rounds = rounds(&delivery::SYSTEM).unwrap();
     let net = rounds.net().unwrap();
     assert_eq!(net.view().net().defect(), None);
     let (pt, graph) = explored(&rounds);
-    assert_eq!((pt.places.len(), pt.transitions.len()), (231, 2_107));
-    assert_eq!((graph.states(), graph.arcs()), (165_446, 217_436));
-    assert_eq!(rounds.size(&graph), Size { states: 53_858, edges: 629_896 });
+    assert_eq!((pt.places.len(), pt.transitions.len()), (253, 2_566));
+    assert_eq!((graph.states(), graph.arcs()), (339_854, 446_584));
+    assert_eq!(rounds.size(&graph), Size { states: 110_346, edges: 1_346_810 });
 }
 
 /// By which engine, among how many markings, with which evidence; `said` counts what transitions
@@ -139,7 +139,7 @@ fn the_small_checker_is_convinced_of_27_requirements_at_once() {
         other => panic!("{other:?}"),
     });
     let formulas: Vec<_> = formulas.collect();
-    assert_eq!((formulas.len(), graph.states()), (27, 165_446));
+    assert_eq!((formulas.len(), graph.states()), (27, 339_854));
     let question = Question::Formula(Formula::And(formulas));
     let certificate = Certificate::of(&pt, "all", question, true, Evidence::graph(&graph));
     assert!(verify(&certificate.text()).unwrap().verdict);
@@ -193,10 +193,11 @@ fn a_refusal_stops_the_mission_after_two_rounds() {
     assert_eq!(worst("LS4"), [2]);
 }
 
-/// AS2, by loss: localisation, sonars, the operator's avoidance, camera, link, what is vital.
+/// AS2, by loss: localisation, sonars, both avoidances, camera, link, what is vital.
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn what_is_lost_is_used_for_two_rounds_at_most() {
-    assert_eq!(worst("AS2"), [2, 2, 2, 2, 2, 2]);
+    assert_eq!(worst("AS2"), [2; 7]);
 }
 
 #[test]
@@ -222,7 +223,7 @@ fn an_adapter_event_and_a_report_take_one_round() {
     };
     let adapters = places(".adapt_");
     let reports: Vec<_> = places("cs.").into_iter().chain(places("_flag")).collect();
-    assert_eq!((adapters.len(), reports.len()), (7, 25));
+    assert_eq!((adapters.len(), reports.len()), (9, 27));
     let turns = pt.places.iter().enumerate().filter(|it| it.1.starts_with("turn.cs."));
     let turns: Vec<_> = turns.map(|it| it.0).collect();
     let outside = pt.place("turn.outside").unwrap().0 as usize;

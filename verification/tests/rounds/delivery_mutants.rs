@@ -68,6 +68,11 @@ const HARMLESS: &[(&str, &[&str])] = &[
             "pf.a8.level_1: level stays",
             "pf.a8.level_1: to Off",
             "pf.a8.level_1: without level >= 1",
+            "pf.a19.level_1: without level >= 1",
+            "pf.a19.level_0: level stays",
+            "pf.a19.level_0: to Off",
+            "pf.a19.level_1: level stays",
+            "pf.a19.level_1: to Off",
             "pf.as1.level_0: level stays",
             "pf.as1.level_0: to Optimal",
             "pf.as1.level_1: level stays",
@@ -83,6 +88,9 @@ const HARMLESS: &[(&str, &[&str])] = &[
             "pf.a9.level_2: not level >= 2",
             "pf.a9.level_2: to Off",
             "pf.a9.level_2: without level >= 2",
+            "pf.a20.level_2: not level >= 2",
+            "pf.a20.level_2: to Off",
+            "pf.a20.level_2: without level >= 2",
             "pf.as2.level_2: not level >= 2",
             "pf.as2.level_2: to Optimal",
             "pf.as2.level_2: without level >= 2",
@@ -94,6 +102,7 @@ const HARMLESS: &[(&str, &[&str])] = &[
             "cs.slow1: without level >= 1",
             "pf.a6.level_2: without level >= 2",
             "pf.a8.level_2: without level >= 2",
+            "pf.a19.level_2: without level >= 2",
             "pf.as1.level_2: without level >= 2",
         ],
     ),
@@ -102,6 +111,7 @@ const HARMLESS: &[(&str, &[&str])] = &[
         &[
             "pf.a7.level_1: without level >= 1",
             "pf.a9.level_1: without level >= 1",
+            "pf.a20.level_1: without level >= 1",
             "pf.as2.level_1: without level >= 1",
         ],
     ),
@@ -133,7 +143,7 @@ const HARMLESS: &[(&str, &[&str])] = &[
         ],
     ),
     ("without avoidance one of the lines before it fires", &["cs.collision5: without !degraded"]),
-    ("no transition looks at it", &["cs.odometric = pf.Degraded, not pf.Odometric"]),
+    ("no transition looks at it", &["cs.odometric = pf.Reactive, not pf.Odometric"]),
 ];
 
 fn harmless(mutant: &Mutant) -> Option<&'static str> {

@@ -38,6 +38,7 @@ fn holds(text: &str, pt: &Pt, graph: &Graph, waits: &[&str]) -> bool {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn every_drive_ends_when_failures_do_and_everybody_goes_on() {
     let (pt, graph) = explored(&rounds(&delivery::SYSTEM).unwrap());
     assert!(holds(ENDS, &pt, &graph, &WAITS));

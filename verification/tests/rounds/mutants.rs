@@ -72,6 +72,7 @@ fn as_written_nothing_is_violated() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn without_the_guard_of_completion_a_goal_is_reached_while_a_report_waits() {
     found(
         &unguarded(&GOALS, &["local_pending", "global_pending"]),
@@ -84,6 +85,7 @@ fn without_the_guard_of_completion_a_goal_is_reached_while_a_report_waits() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn a_guard_that_forgets_the_global_event_is_found() {
     found(
         &unguarded(&GOALS, &["global_pending"]),
@@ -105,6 +107,7 @@ fn a_start_that_ignores_the_module_status_is_found() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn a_local_event_without_an_operator_is_found() {
     let local = |net: &Net<'_>| net.outputs.iter().position(|it| it.name == "local_event");
     let mutant = with(|it, transition| {
@@ -119,6 +122,7 @@ fn a_local_event_without_an_operator_is_found() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn teleoperation_without_a_camera_is_found() {
     let mutant = unguarded(&["ls.l7"], &["camera", "wifi"]);
     let both = System {
@@ -142,6 +146,7 @@ fn teleoperation_without_a_camera_is_found() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn an_abort_that_keeps_a_pending_start_is_found() {
     let clears = reconstruction::SYSTEM.clears;
     let events = reconstruction::SYSTEM.components[1].net.events;

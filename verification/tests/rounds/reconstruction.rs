@@ -28,6 +28,8 @@ net! {
             sonar: true,
             /// The operator's avoidance works: as long as the sonars do.
             avoidance: true,
+            /// The avoidance of path following works, always.
+            smz: true,
             /// The camera works.
             camera: true,
             /// The operator can be reached.
@@ -52,7 +54,7 @@ net! {
             teleprogram, teleoperate, waypoints, new_path, operator_goal,
             slow, ambiguous, collision, planner, refusal,
             /// Never, all of them: this environment has no failure beyond the listed ones.
-            hard, minor, avoidance_lost,
+            hard, minor, avoidance_lost, smz_lost,
             mcl_lost, sonar_lost, camera, wifi_lost, vital,
         }
         transitions {
@@ -184,5 +186,5 @@ fn the_rounds_reach_4166_states() {
 fn the_decisional_level_is_one_net_too() {
     let net = flat(&reconstruction::SYSTEM).unwrap();
     assert_eq!(net.view().net().defect(), None);
-    assert_eq!((net.places.len(), net.transitions.len()), (113, 4_091));
+    assert_eq!((net.places.len(), net.transitions.len()), (123, 5_431));
 }

@@ -27,12 +27,12 @@ fn broken(requirements: &[Requirement]) -> Vec<&'static str> {
 }
 
 #[test]
-fn there_are_88788_states_between_rounds() {
+fn there_are_182588_states_between_rounds() {
     let rounds = rounds(&recovering::SYSTEM).unwrap();
     assert_eq!(rounds.net().unwrap().view().net().defect(), None);
     let (_, graph) = explored(&rounds);
-    assert_eq!((graph.states(), graph.arcs()), (278_748, 368_032));
-    assert_eq!(rounds.size(&graph), Size { states: 88_788, edges: 1_159_912 });
+    assert_eq!((graph.states(), graph.arcs()), (574_022, 757_638));
+    assert_eq!(rounds.size(&graph), Size { states: 182_588, edges: 2_475_168 });
 }
 
 /// What is required of the shipped level, but that nothing returns.
@@ -79,6 +79,7 @@ fn duties(id: &str) -> Vec<u32> {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn no_duty_takes_longer_where_modules_return() {
     assert_eq!(["GS3", "LS3"].map(duties), [[1], [1]]);
 }
@@ -87,18 +88,22 @@ fn no_duty_takes_longer_where_modules_return() {
 #[ignore = "a minute: CI runs it"]
 fn the_longer_duties_do_not_either() {
     assert_eq!(["LS4", "CS5"].map(duties), [[2], [2]]);
-    assert_eq!(duties("AS2"), [2, 2, 2, 2, 2, 2]);
+    assert_eq!(duties("AS2"), [2; 7]);
 }
 
 /// RC9: sonars, localisation, the operator's avoidance.
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn what_has_returned_is_used_after_two_rounds() {
     assert_eq!(duties("RC9"), [2, 2, 2]);
 }
 
 /// What an adapter runs, from nothing to all modules.
 const RANKS: [(&str, &[&str]); 2] = [
-    ("following", &["pf.Off", "pf.Degraded", "pf.Odometric", "pf.Optimal | pf.Reduced"]),
+    (
+        "following",
+        &["pf.Off", "pf.Degraded", "pf.Odometric | pf.Reactive", "pf.Optimal | pf.Reduced"],
+    ),
     ("teleoperation", &["to.Off", "to.Degraded", "to.Full"]),
 ];
 
@@ -138,6 +143,7 @@ fn goes_up_unasked(system: &System<'_>, ranks: (&str, &[&str])) -> bool {
 
 /// RC1.
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn an_adapter_goes_up_at_most_once_for_each_return() {
     assert_eq!(RANKS.map(|ranks| goes_up_unasked(&recovering::SYSTEM, ranks)), [false, false]);
 }

@@ -122,15 +122,12 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
     /// What the plan does without is withdrawn, so that the adapter comes to the configuration that
     /// is planned.
     pub(super) fn do_without(&mut self, planned: Option<Configuration>, cause: Cause) {
-        self.lose(unused(planned), cause);
+        self.lose(self.unused(planned), cause);
     }
-}
 
-/// What a planned configuration does without.
-pub(super) const fn unused(planned: Option<Configuration>) -> Losses {
-    match planned {
-        Some(Configuration::FollowingOdometric) => Losses::of(&[Loss::Mcl]),
-        Some(Configuration::FollowingDegraded) => Losses::of(&[Loss::Mcl, Loss::Sonar]),
-        _ => Losses::NONE,
+    /// What a planned configuration does without, beside what is lost anyway.
+    pub(super) fn unused(&self, planned: Option<Configuration>) -> Losses {
+        let lacking = Losses::lacking(self.known.relied_on);
+        planned.map_or(Losses::NONE, |it| lacking.beside(it))
     }
 }

@@ -1,7 +1,6 @@
 //! What was lost returns, where the mission asks for it: held back until it was sound for long
 //! enough, then planned with and told.
 
-use super::plans::unused;
 use super::{Cause, Decider, Plans, Why};
 use crate::cotama::decisions::{Loss, Losses};
 use crate::cotama::dependability::FailureModes;
@@ -89,8 +88,10 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         if over || plans.plan(why, left).is_err() {
             return; // the plan in force goes on
         }
+        // What the sonars hid is lost before they return.
+        self.lose(Losses::lacking(left), cause);
         let planned = plans.configuration();
-        let lost = self.lost.common(Losses::lacking(left).union(unused(planned)));
+        let lost = self.lost.common(Losses::lacking(left).union(self.unused(planned)));
         let back = |it: &Return| self.lost.without(lost).has(it.loss());
         for it in Return::ALL.into_iter().rev().filter(back) {
             self.untold.push(Told::Return(it), cause);

@@ -17,8 +17,10 @@ members! {
         Mcl = "mcl",
         /// The sonars are lost.
         Sonar = "sonar",
-        /// The operator's avoidance is lost.
+        /// The operator's avoidance is lost, which path following uses in place of its own.
         Avoidance = "avoidance",
+        /// The avoidance of path following is lost.
+        Smz = "smz",
         /// Several diagnoses are possible, or the robot cannot judge alone: localisation, for one,
         /// is ambiguous.
         Ambiguous = "ambiguous",
@@ -85,6 +87,10 @@ pub enum Decision {
     AdaptSonar,
     /// `adapt_bump` to it: slower.
     AdaptBump,
+    /// `adapt_smz` to it: the other avoidance.
+    AdaptSmz,
+    /// `adapt_avoidance` to it: no avoidance, slower.
+    AdaptAvoidance,
     /// `adapt_minor` to it: a setting of a module changes, which one the failure says.
     AdaptMinor,
     /// `adapt_sonar` to the adapter of teleoperation.
@@ -106,6 +112,8 @@ impl Decision {
             | Self::AdaptMcl
             | Self::AdaptSonar
             | Self::AdaptBump
+            | Self::AdaptSmz
+            | Self::AdaptAvoidance
             | Self::AdaptMinor
             | Self::AdaptSonarTeleoperation
             | Self::AdaptMinorTeleoperation => Class::Adapter,
@@ -120,6 +128,7 @@ impl Report {
     pub const fn loss(self) -> Option<Loss> {
         match self {
             Self::Avoidance => Some(Loss::Avoidance),
+            Self::Smz => Some(Loss::Smz),
             Self::Mcl => Some(Loss::Mcl),
             Self::Sonar => Some(Loss::Sonar),
             Self::Camera => Some(Loss::Camera),
@@ -203,18 +212,21 @@ pub(super) const fn adaptation(report: Report, situation: Situation) -> Option<D
     let following = matches!(situation.local, local::State::Following);
     let degraded = matches!(adapter, Adapter::Degraded);
     match (report, adapter) {
-        (Report::Slow, Adapter::Optimal | Adapter::Reduced) if level >= 1 => {
+        (Report::Slow, Adapter::Optimal | Adapter::Reduced | Adapter::Reactive) if level >= 1 => {
             Some(Decision::AdaptRt)
         }
-        (Report::Slow, Adapter::Reduced) | (Report::Mcl, Adapter::Optimal | Adapter::Reduced) => {
+        (Report::Slow, Adapter::Reduced | Adapter::Reactive)
+        | (Report::Mcl, Adapter::Optimal | Adapter::Reduced | Adapter::Reactive) => {
             Some(Decision::AdaptMcl)
         }
+        (Report::Smz, _) if following && !degraded => Some(Decision::AdaptSmz),
         (Report::Sonar, _) if following && !degraded => Some(Decision::AdaptSonar),
         (Report::Sonar | Report::Avoidance, _)
             if matches!(situation.teleoperation, teleoperation::State::Full) =>
         {
             Some(Decision::AdaptSonarTeleoperation)
         }
+        (Report::Avoidance, Adapter::Reactive) => Some(Decision::AdaptAvoidance),
         (Report::Collision, _) if following && !degraded => Some(Decision::AdaptBump),
         (Report::Minor, _) if following => Some(Decision::AdaptMinor),
         (Report::Minor, _) if matches!(situation.local, local::State::Teleoperated) => {

@@ -82,7 +82,7 @@ pub const fn severity(report: Report, situation: Situation) -> Severity {
         Report::Camera if !autonomous => Severity::Hard,
         Report::Sonar | Report::Collision => Severity::Medium,
         Report::Avoidance if !autonomous => Severity::Medium,
-        Report::Slow | Report::Mcl if autonomous => Severity::Medium,
+        Report::Slow | Report::Mcl | Report::Smz if autonomous => Severity::Medium,
         _ => Severity::Weak,
     }
 }

@@ -14,6 +14,8 @@ members! {
     Losses(u8) {
         /// The operator's avoidance.
         Avoidance = "avoidance",
+        /// The avoidance of path following, by itself: that of the operator takes its place.
+        Smz = "smz",
         /// Monte Carlo localisation.
         Mcl = "mcl",
         /// The sonars.
@@ -67,15 +69,18 @@ impl Situation {
 
     /// Whether the places fit together, as they do at the end of every round (invariants AS1, LS1):
     /// an adapter is on exactly where its sub-objective runs, and the particles are fewer than full
-    /// exactly in the reduced set.
+    /// in the reduced set, may be with the other avoidance, and are full elsewhere.
     pub const fn is_consistent(self) -> bool {
         use path_following::State as Following;
         let following = !matches!(self.following, Following::Off);
         let teleoperation = !matches!(self.teleoperation, teleoperation::State::Off);
         following == matches!(self.local, local::State::Following)
             && teleoperation == matches!(self.local, local::State::Teleoperated)
-            && matches!(self.following, Following::Reduced) == (self.level < 2)
-            && self.level <= 2
+            && match self.following {
+                Following::Reduced => self.level < 2,
+                Following::Reactive => self.level <= 2,
+                _ => self.level == 2,
+            }
     }
 
     /// The autonomy mode: a function of the place of the local supervisor.
@@ -104,6 +109,7 @@ impl Situation {
             (local::State::Following, Following::Odometric, _) => {
                 Some(Configuration::FollowingOdometric)
             }
+            (local::State::Following, Following::Reactive, _) => Some(Configuration::FollowingDvz),
             (local::State::Following, Following::Degraded, _) => {
                 Some(Configuration::FollowingDegraded)
             }
@@ -125,6 +131,9 @@ impl Losses {
         let mut health = Health::SOUND;
         if self.has(Loss::Avoidance) {
             health.faulty = health.faulty.with(Module::Dvz);
+        }
+        if self.has(Loss::Smz) {
+            health.faulty = health.faulty.with(Module::Smz);
         }
         if self.has(Loss::Mcl) {
             health.faulty = health.faulty.with(Module::Mcl);
@@ -152,36 +161,42 @@ impl Losses {
 }
 
 impl Losses {
-    /// What the shipped supervisors are told when only these modules are left: closed under the
-    /// needs of modules, and so that no path following that they can choose lacks a module for
-    /// long. When none is left, nothing vital is (inferred: the robot does not wait for an operator
-    /// who would have to drive it all the way).
+    /// What the shipped supervisors are told when only these modules are left, closed under the
+    /// needs of modules: what each of them does, and what needs it. The avoidance of path following
+    /// is told apart only where the sonars are left. When no path following runs, nothing vital is
+    /// left (inferred: the robot does not wait for an operator who would have to drive it all the
+    /// way).
     ///
     /// ```
-    /// use cotama_models::cotama::{Losses, Modules, Module::{Dvz, Gui, Mcl, Ust}};
-    /// let without = |modules: &[_]| Modules::ALL.without(Modules::of(modules));
-    /// let lacking = |modules: &[_]| Losses::lacking(without(modules)).to_string();
+    /// use cotama_models::cotama::Module::{Dvz, Gui, Mcl, Smz, Ust};
+    /// use cotama_models::cotama::{Losses, Modules, Resources, available};
+    /// let left = |crashed: &[_]| available(Modules::of(crashed), Resources::NONE);
+    /// let lacking = |crashed: &[_]| Losses::lacking(left(crashed)).to_string();
     /// assert_eq!(lacking(&[Mcl]), "mcl");
-    /// assert_eq!(lacking(&[Gui]), "-"); // it guides in PF.DEG alone
-    /// assert_eq!(lacking(&[Gui, Ust]), "mcl sonar vital");
+    /// assert_eq!(lacking(&[Smz]), "smz"); // neither the sonars nor localisation
+    /// assert_eq!(lacking(&[Gui]), "-"); // it guides in PF.DVZ and PF.DEG
+    /// assert_eq!(lacking(&[Ust]), "avoidance mcl sonar");
+    /// assert_eq!(lacking(&[Gui, Smz]), "smz vital");
     /// assert_eq!(lacking(&[Dvz]), "avoidance"); // the operator's; path following has its own
     /// ```
     #[must_use]
     pub const fn lacking(left: Modules) -> Self {
         let mut lost = Self::NONE;
-        let [optimal, odometric, degraded] = [
-            Configuration::FollowingOptimal.runs_on(left),
-            Configuration::FollowingOdometric.runs_on(left),
-            Configuration::FollowingDegraded.runs_on(left),
-        ];
+        let follows = Configuration::FollowingOptimal.runs_on(left)
+            || Configuration::FollowingOdometric.runs_on(left)
+            || Configuration::FollowingDvz.runs_on(left)
+            || Configuration::FollowingDegraded.runs_on(left);
         if !left.has(Module::Dvz) {
             lost = lost.with(Loss::Avoidance);
         }
-        if !optimal {
+        if left.has(Module::Ust) && !left.has(Module::Smz) {
+            lost = lost.with(Loss::Smz);
+        }
+        if !left.has(Module::Mcl) {
             lost = lost.with(Loss::Mcl);
         }
-        if !odometric {
-            lost = lost.with(Loss::Sonar).with(Loss::Mcl);
+        if !left.has(Module::Ust) {
+            lost = lost.with(Loss::Sonar);
         }
         if !left.has(Module::Cam) {
             lost = lost.with(Loss::Camera);
@@ -189,10 +204,45 @@ impl Losses {
         if !left.has(Module::Lan) {
             lost = lost.with(Loss::Wifi);
         }
-        if !optimal && !odometric && !degraded {
+        if !follows {
             lost = lost.with(Loss::Vital);
         }
         lost
+    }
+
+    /// Which path following the adapter starts with (the transitions of [`path_following`]).
+    pub const fn following(self) -> Configuration {
+        let (mcl, smz) = (!self.has(Loss::Mcl), !self.has(Loss::Smz));
+        match (self.has(Loss::Sonar), smz) {
+            (false, true) if mcl => Configuration::FollowingOptimal,
+            (false, true) => Configuration::FollowingOdometric,
+            (false, false) if mcl && !self.has(Loss::Avoidance) => Configuration::FollowingDvz,
+            _ => Configuration::FollowingDegraded,
+        }
+    }
+
+    /// What is to be withdrawn beside these losses, so that the adapter comes to the path following
+    /// that a plan has chosen.
+    ///
+    /// ```
+    /// use cotama_models::cotama::Configuration::{FollowingDegraded, FollowingDvz};
+    /// use cotama_models::cotama::{Loss, Losses};
+    /// let smz = Losses::of(&[Loss::Smz]);
+    /// assert_eq!(Losses::NONE.beside(FollowingDvz), smz);
+    /// assert_eq!(Losses::NONE.beside(FollowingDegraded), smz.with(Loss::Mcl));
+    /// assert_eq!(smz.with(Loss::Avoidance).beside(FollowingDegraded), Losses::NONE);
+    /// ```
+    #[must_use]
+    pub const fn beside(self, planned: Configuration) -> Self {
+        if self.following() as u8 == planned as u8 {
+            return Self::NONE;
+        }
+        match planned {
+            Configuration::FollowingOdometric => Self::of(&[Loss::Mcl]),
+            Configuration::FollowingDvz => Self::of(&[Loss::Smz]),
+            Configuration::FollowingDegraded => Self::of(&[Loss::Smz, Loss::Mcl]),
+            _ => Self::NONE,
+        }
     }
 }
 
@@ -204,6 +254,7 @@ impl From<Health> for Losses {
         let following = Configuration::FollowingDegraded.facts().required;
         let gone = [
             (Loss::Avoidance, faulty.has(Module::Dvz)),
+            (Loss::Smz, faulty.has(Module::Smz)),
             (Loss::Mcl, faulty.has(Module::Mcl) || lost.has(Resource::Map)),
             (
                 Loss::Sonar,

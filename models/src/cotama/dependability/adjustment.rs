@@ -49,6 +49,12 @@ members! {
 }
 
 /// How much is left of speed and quality, in thousandths.
+///
+/// ```
+/// use cotama_models::cotama::{Adjusted, Adjustment, Mode};
+/// let slower = Adjusted { speed: 500, quality: 1_000 };
+/// assert_eq!(Adjustment::GiveWay.effect(Mode::Autonomous), slower);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Adjusted {
     /// Of the speed limit of the configuration.

@@ -36,7 +36,7 @@ macro_rules! used_without {
 }
 
 /// Where path following runs.
-const FOLLOWING: &[&str] = &["Optimal", "Reduced", "Odometric", "Degraded"];
+const FOLLOWING: &[&str] = &["Optimal", "Reduced", "Odometric", "Reactive", "Degraded"];
 
 requirements! {
     /// The requirements of [`delivery`](crate::cotama::delivery).
@@ -116,9 +116,10 @@ requirements! {
                  cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | \
                  cs.planner.waiting | cs.refusal.waiting | \
                  cs.slow.waiting | cs.sonar.waiting | cs.vital.waiting | cs.wifi_lost.waiting | \
-                 cs.avoidance.waiting | gom.vital_flag.waiting | gom.wifi_flag.waiting | \
-                 gom.camera_flag.waiting | gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
-                 gom.mcl_flag.waiting | gom.drift_flag.waiting | gom.bumper_flag.waiting | \
+                 cs.avoidance.waiting | cs.smz.waiting | gom.vital_flag.waiting | \
+                 gom.wifi_flag.waiting | gom.camera_flag.waiting | gom.sonar_flag.waiting | \
+                 gom.avoidance_flag.waiting | gom.smz_flag.waiting | gom.mcl_flag.waiting | \
+                 gom.drift_flag.waiting | gom.bumper_flag.waiting | \
                  gom.planner_flag.waiting | gom.hard_flag.waiting | \
                  gom.minor_flag.waiting | gom.deadline_flag.waiting | \
                  ls.local_event.waiting | gs.global_event.waiting))";
@@ -152,48 +153,73 @@ requirements! {
             by: &["gom.camera", "gom.wifi"],
         }];
     AS1 Stated "Path following runs one set of modules at a time, and teleoperation too.",
-        checked "AG (pf.Off + pf.Optimal + pf.Reduced + pf.Odometric + pf.Degraded = 1 & \
+        checked "AG (pf.Off + pf.Optimal + pf.Reduced + pf.Odometric + pf.Reactive + \
+                 pf.Degraded = 1 & \
                  to.Off + to.Full + to.Degraded = 1)";
     AS2 Stated "What is lost is used at the ends of two rounds at most.",
         checked "AG (without_mcl <= 2 & without_sonar <= 2 & without_avoidance <= 2 & \
+                 without_smz <= 2 & \
                  without_camera <= 2 & without_wifi <= 2 & without_vital <= 2)",
         watched by [
-            used_without!("without_mcl", "mcl", "pf.Optimal | pf.Reduced"),
+            used_without!("without_mcl", "mcl", "pf.Optimal | pf.Reduced | pf.Reactive"),
             used_without!("without_sonar", "sonar", "pf.Optimal | pf.Reduced | pf.Odometric | \
-                                                     to.Full"),
-            used_without!("without_avoidance", "avoidance", "to.Full"),
+                                                     pf.Reactive | to.Full"),
+            used_without!("without_avoidance", "avoidance", "to.Full | pf.Reactive"),
+            used_without!("without_smz", "smz", "pf.Optimal | pf.Reduced | pf.Odometric"),
             used_without!("without_camera", "camera", "to.Full | to.Degraded"),
             used_without!("without_wifi", "wifi", "to.Full | to.Degraded"),
             used_without!(
                 "without_vital",
                 "vital",
-                "pf.Optimal | pf.Reduced | pf.Odometric | pf.Degraded | ls.Planning | to.Full | \
-                 to.Degraded"
+                "pf.Optimal | pf.Reduced | pf.Odometric | pf.Reactive | pf.Degraded | \
+                 ls.Planning | to.Full | to.Degraded"
             )
         ];
     AS3 Inferred "Until it is stopped, path following only degrades, and only when an adapter \
                   event asks for it.",
         checked "AG ((pf.Reduced -> AX !pf.Optimal) & \
-                 (pf.Odometric -> AX !(pf.Optimal | pf.Reduced)) & \
+                 (pf.Odometric -> AX !(pf.Optimal | pf.Reduced | pf.Reactive)) & \
+                 (pf.Reactive -> AX (pf.Reactive | pf.Degraded | pf.Off)) & \
                  (pf.Degraded -> AX (pf.Degraded | pf.Off)) & (to.Degraded -> AX !to.Full) & \
-                 (pf.Optimal & !(turn.pf.adapt_rt | turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> \
-                 AX (pf.Optimal | pf.Off)) & \
-                 (pf.Reduced & !(turn.pf.adapt_mcl | turn.pf.adapt_sonar) -> \
+                 (pf.Optimal & !(turn.pf.adapt_rt | turn.pf.adapt_mcl | turn.pf.adapt_sonar | \
+                 turn.pf.adapt_smz) -> AX (pf.Optimal | pf.Off)) & \
+                 (pf.Reduced & !(turn.pf.adapt_mcl | turn.pf.adapt_sonar | turn.pf.adapt_smz) -> \
                  AX (pf.Reduced | pf.Off)) & \
-                 (pf.Odometric & !turn.pf.adapt_sonar -> AX (pf.Odometric | pf.Off)) & \
+                 (pf.Odometric & !(turn.pf.adapt_sonar | turn.pf.adapt_smz) -> \
+                 AX (pf.Odometric | pf.Off)) & \
+                 (pf.Reactive & !(turn.pf.adapt_mcl | turn.pf.adapt_sonar | \
+                 turn.pf.adapt_avoidance) -> AX (pf.Reactive | pf.Off)) & \
                  (to.Full & !turn.to.adapt_sonar -> AX (to.Full | to.Off)))";
     AS4 Stated "Particles are reduced twice at most, each time with a request, and all are back \
                 when path following ends.",
-        checked "AG ((pf.Reduced -> pf.level <= 1) & (pf.Reduced | pf.level = 2) & \
-                 (pf.level = 0 -> AX (pf.level = 0 | !pf.Reduced)) & \
+        checked "AG ((pf.Reduced -> pf.level <= 1) & (pf.Reduced | pf.Reactive | pf.level = 2) & \
+                 (pf.level = 0 -> AX (pf.level = 0 | !(pf.Reduced | pf.Reactive))) & \
+                 (pf.Reactive & pf.level = 1 & \
+                 !turn.pf.adapt_rt -> AX (pf.level = 1 | !pf.Reactive)) & \
+                 (pf.Reactive & pf.level = 2 & !turn.pf.adapt_rt -> AX pf.level = 2) & \
                  (pf.Reduced & pf.level = 1 & \
                  !turn.pf.adapt_rt -> AX (pf.level = 1 | !pf.Reduced)))",
-        said [said("pf", &["Optimal", "Reduced"], &["Reduced"], "reduce_particles").on("adapt_rt")];
+        said [
+            said("pf", &["Optimal", "Reduced"], &["Reduced"], "reduce_particles").on("adapt_rt"),
+            said("pf", &["Reactive"], &["Reactive"], "reduce_particles").on("adapt_rt")
+        ];
     AS5 Inferred "An adapter event is read in the next round, and answered where it is not too \
                   late.",
         checked "AG ((after.pf.adapt_rt -> !pf.adapt_rt.waiting & !pf.Optimal) & \
                  (turn.pf.adapt_rt & pf.Reduced & pf.level = 1 -> AX pf.level = 0) & \
-                 (after.pf.adapt_mcl -> !pf.adapt_mcl.waiting & !pf.Optimal & !pf.Reduced) & \
+                 (after.pf.adapt_mcl -> !pf.adapt_mcl.waiting & !pf.Optimal & !pf.Reduced & \
+                 !pf.Reactive) & \
+                 (turn.pf.adapt_mcl & pf.Reactive -> AX pf.Degraded) & \
+                 (turn.pf.adapt_rt & pf.Reactive & pf.level = 1 -> AX pf.level = 0) & \
+                 (turn.pf.adapt_rt & pf.Reactive & pf.level = 2 -> AX pf.level = 1) & \
+                 (after.pf.adapt_smz -> !pf.adapt_smz.waiting & \
+                 (pf.Off | pf.Reactive | pf.Degraded)) & \
+                 (turn.pf.adapt_smz & gom.avoidance & (pf.Optimal | pf.Reduced) -> \
+                 AX pf.Reactive) & \
+                 (turn.pf.adapt_smz & pf.Reduced & pf.level = 1 & gom.avoidance -> \
+                 AX pf.level = 1) & \
+                 (after.pf.adapt_avoidance -> !pf.adapt_avoidance.waiting & \
+                 (pf.Off | pf.Degraded)) & \
                  (turn.pf.adapt_mcl & (pf.Optimal | pf.Reduced) -> AX pf.Odometric) & \
                  (after.pf.adapt_sonar -> !pf.adapt_sonar.waiting & (pf.Off | pf.Degraded)) & \
                  (after.pf.adapt_bump -> !pf.adapt_bump.waiting) & \
@@ -204,8 +230,8 @@ requirements! {
         said [
             said(
                 "pf",
-                &["Optimal", "Reduced", "Odometric"],
-                &["Optimal", "Reduced", "Odometric"],
+                &["Optimal", "Reduced", "Odometric", "Reactive"],
+                &["Optimal", "Reduced", "Odometric", "Reactive"],
                 "limit_speed"
             )
             .on("adapt_bump"),
@@ -218,10 +244,14 @@ requirements! {
             said("to", &[], &["Degraded"], "limit_speed")
         ];
     AS7 Stated "Path following starts with what is available: all modules, without localisation, \
-                or without sonars.",
+                with the other avoidance, or without any.",
         checked "AG (turn.outside -> (pf.Off & !faults.sonar -> AX (pf.Off | pf.Degraded)) & \
-                 (pf.Off & gom.sonar & !gom.mcl -> AX (pf.Off | pf.Odometric)) & \
-                 (pf.Off & gom.sonar & gom.mcl -> AX (pf.Off | pf.Optimal)) & \
+                 (pf.Off & gom.sonar & !gom.mcl & gom.smz -> AX (pf.Off | pf.Odometric)) & \
+                 (pf.Off & gom.sonar & gom.mcl & gom.smz -> AX (pf.Off | pf.Optimal)) & \
+                 (pf.Off & gom.sonar & !gom.smz & gom.mcl & gom.avoidance -> \
+                 AX (pf.Off | pf.Reactive)) & \
+                 (pf.Off & !gom.smz & !(gom.mcl & gom.avoidance) -> \
+                 AX (pf.Off | pf.Degraded)) & \
                  (to.Off & !faults.sonar -> AX !to.Full) & \
                  (to.Off & !faults.avoidance -> AX !to.Full) & \
                  (to.Off & gom.avoidance -> AX !to.Degraded) & \
@@ -239,9 +269,10 @@ requirements! {
         checked "AG ((turn.outside -> !(cs.ambiguous.waiting | cs.camera.waiting | \
                  cs.collision.waiting | cs.hard.waiting | cs.minor.waiting | cs.mcl_lost.waiting | \
                  cs.planner.waiting | cs.refusal.waiting | cs.slow.waiting | cs.sonar.waiting | \
-                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | \
+                 cs.vital.waiting | cs.wifi_lost.waiting | cs.avoidance.waiting | cs.smz.waiting | \
                  gom.vital_flag.waiting | gom.wifi_flag.waiting | gom.camera_flag.waiting | \
-                 gom.sonar_flag.waiting | gom.avoidance_flag.waiting | gom.mcl_flag.waiting | \
+                 gom.sonar_flag.waiting | gom.avoidance_flag.waiting | \
+                 gom.smz_flag.waiting | gom.mcl_flag.waiting | \
                  gom.drift_flag.waiting | gom.bumper_flag.waiting | gom.planner_flag.waiting | \
                  gom.hard_flag.waiting | gom.minor_flag.waiting | gom.deadline_flag.waiting)) & \
                  (turn.gom.vital_flag & gom.vital -> AX cs.vital.waiting) & \
@@ -250,6 +281,7 @@ requirements! {
                  (turn.gom.sonar_flag & gom.sonar -> AX cs.sonar.waiting) & \
                  (turn.gom.mcl_flag & gom.mcl -> AX cs.mcl_lost.waiting) & \
                  (turn.gom.avoidance_flag & gom.avoidance -> AX cs.avoidance.waiting) & \
+                 (turn.gom.smz_flag & gom.smz -> AX cs.smz.waiting) & \
                  (turn.gom.drift_flag & !gom.suspected -> AX cs.ambiguous.waiting) & \
                  (turn.gom.bumper_flag -> AX cs.collision.waiting) & \
                  (turn.gom.planner_flag -> AX cs.planner.waiting) & \
@@ -258,8 +290,8 @@ requirements! {
                  (turn.gom.deadline_flag -> AX cs.slow.waiting))";
     CS4 Inferred "The adapters are asked only for what they have the modules for.",
         checked "AG (turn.outside -> !((pf.adapt_rt.waiting | pf.adapt_mcl.waiting | \
-                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting | pf.adapt_minor.waiting) & \
-                 !faults.vital) & \
+                 pf.adapt_sonar.waiting | pf.adapt_bump.waiting | pf.adapt_minor.waiting | \
+                 pf.adapt_smz.waiting | pf.adapt_avoidance.waiting) & !faults.vital) & \
                  !((to.adapt_sonar.waiting | to.adapt_minor.waiting) & \
                  !(faults.camera & faults.wifi & faults.vital)))";
     CS5 Inferred "No operator is asked who cannot be reached, and none is waited for during more \
@@ -275,27 +307,28 @@ requirements! {
                   localisation by particles nor avoidance.",
         checked "AG ((gom.mcl -> gom.sonar) & (gom.avoidance -> gom.sonar) & \
                  (turn.outside -> (gom.avoidance <-> faults.sonar & faults.avoidance) & \
-                 (gom.sonar <-> faults.sonar) & \
+                 (gom.sonar <-> faults.sonar) & (gom.smz <-> faults.smz) & \
                  (gom.camera <-> faults.camera & faults.watch) & \
                  (gom.wifi <-> faults.wifi) & (gom.vital <-> faults.vital) & \
                  (gom.mcl -> faults.mcl)))",
         tested in "models/tests/cotama_data/availability.rs";
     GM2 Inferred "Nothing that is lost is available again.",
         checked "AG ((!gom.mcl -> AX !gom.mcl) & (!gom.sonar -> AX !gom.sonar) & \
-                 (!gom.avoidance -> AX !gom.avoidance) & (!gom.camera -> AX !gom.camera) & \
-                 (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital))",
+                 (!gom.avoidance -> AX !gom.avoidance) & (!gom.smz -> AX !gom.smz) & \
+                 (!gom.camera -> AX !gom.camera) & (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital))",
         tested in "models/tests/cotama_data/availability.rs";
     GM3 Inferred "What tells nothing new is not reported: a loss that is known, and a suspicion \
                   until the robot sets out again.",
         checked "AG ((after.gom.drift_flag -> gom.suspected) & \
                  (turn.gom.mcl_flag & !gom.mcl -> AX !cs.mcl_lost.waiting) & \
                  (turn.gom.avoidance_flag & !gom.avoidance -> AX !cs.avoidance.waiting) & \
+                 (turn.gom.smz_flag & !gom.smz -> AX !cs.smz.waiting) & \
                  (turn.gom.drift_flag & gom.suspected -> AX !cs.ambiguous.waiting) & \
                  cs.ambiguous.waiting + cs.camera.waiting + cs.collision.waiting + \
                  cs.hard.waiting + cs.minor.waiting + cs.mcl_lost.waiting + \
                  cs.planner.waiting + cs.refusal.waiting + \
                  cs.slow.waiting + cs.sonar.waiting + cs.vital.waiting + cs.wifi_lost.waiting + \
-                 cs.avoidance.waiting <= 1 & \
+                 cs.avoidance.waiting + cs.smz.waiting <= 1 & \
                  (gom.suspected & turn.outside & !ls.Planning & \
                  !ls.Following -> AX (gom.suspected <-> !ls.Planning & !ls.Following)) & \
                  (gom.suspected & turn.ls.start_drive & ls.Idle -> AX !gom.suspected) & \
@@ -333,19 +366,22 @@ requirements! {
 /// The cells of the table of decisions: what waits when the contextual supervisor has read a
 /// report.
 const DECISIONS: &str = "AG (\
-    (after.cs.slow -> (pf.adapt_rt.waiting <-> pf.Optimal | (pf.Reduced & pf.level >= 1)) & \
-        (pf.adapt_mcl.waiting <-> pf.Reduced & pf.level = 0) & \
-        (pf.Reduced & pf.level = 0 -> !gom.mcl) & \
+    (after.cs.slow -> (pf.adapt_rt.waiting <-> \
+        pf.Optimal | ((pf.Reduced | pf.Reactive) & pf.level >= 1)) & \
+        (pf.adapt_mcl.waiting <-> (pf.Reduced | pf.Reactive) & pf.level = 0) & \
+        ((pf.Reduced | pf.Reactive) & pf.level = 0 -> !gom.mcl) & \
         ls.local_event.waiting + gs.global_event.waiting + pf.adapt_sonar.waiting + \
         pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
-    (after.cs.mcl_lost -> (pf.adapt_mcl.waiting <-> pf.Optimal | pf.Reduced) & \
+    (after.cs.mcl_lost -> (pf.adapt_mcl.waiting <-> pf.Optimal | pf.Reduced | pf.Reactive) & \
         ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + \
         pf.adapt_sonar.waiting + pf.adapt_bump.waiting + to.adapt_sonar.waiting = 0) & \
     (after.cs.sonar -> (pf.adapt_sonar.waiting <-> ls.Following & !pf.Degraded) & \
         (to.adapt_sonar.waiting <-> to.Full) & \
         ls.local_event.waiting + gs.global_event.waiting + pf.adapt_rt.waiting + \
         pf.adapt_mcl.waiting + pf.adapt_bump.waiting = 0) & \
+    (after.cs.smz -> (pf.adapt_smz.waiting <-> ls.Following & !pf.Degraded)) & \
     (after.cs.avoidance -> (to.adapt_sonar.waiting <-> to.Full) & \
+        (pf.adapt_avoidance.waiting <-> pf.Reactive) & \
         ls.local_event.waiting + gs.global_event.waiting + \
         pf.adapt_rt.waiting + pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + \
         pf.adapt_bump.waiting = 0) & \
@@ -380,4 +416,5 @@ const DECISIONS: &str = "AG (\
         pf.adapt_minor.waiting + to.adapt_sonar.waiting + to.adapt_minor.waiting = 0) & \
     (turn.outside -> gs.global_event.waiting + ls.local_event.waiting + pf.adapt_rt.waiting + \
         pf.adapt_mcl.waiting + pf.adapt_sonar.waiting + pf.adapt_bump.waiting + \
-        pf.adapt_minor.waiting + to.adapt_sonar.waiting + to.adapt_minor.waiting <= 1))";
+        pf.adapt_smz.waiting + pf.adapt_avoidance.waiting + pf.adapt_minor.waiting + \
+        to.adapt_sonar.waiting + to.adapt_minor.waiting <= 1))";

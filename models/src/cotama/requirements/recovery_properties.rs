@@ -20,14 +20,15 @@ requirements! {
                  available, and with all particles.",
         checked "AG ((pf.Degraded & !turn.pf.adapt_better -> AX (pf.Degraded | pf.Off)) & \
                  (pf.Odometric & !turn.pf.adapt_better -> AX !(pf.Optimal | pf.Reduced)) & \
+                 (pf.Reactive -> AX (pf.Reactive | pf.Degraded | pf.Off)) & \
                  (pf.Reduced -> AX !pf.Optimal) & \
                  (turn.pf.adapt_better & !pf.Reduced -> AX !pf.Reduced) & \
                  (to.Degraded & !turn.to.adapt_better -> AX !to.Full))";
     RC4 Assumed "It goes up as far as what is known to be available, and no further.",
         checked "AG ((turn.pf.adapt_better & \
-                 pf.Degraded -> (!gom.sonar & AX pf.Degraded) | \
-                 (gom.sonar & gom.mcl & AX pf.Optimal) | \
-                 (gom.sonar & !gom.mcl & AX pf.Odometric)) & \
+                 pf.Degraded -> (!(gom.sonar & gom.smz) & AX pf.Degraded) | \
+                 (gom.sonar & gom.smz & gom.mcl & AX pf.Optimal) | \
+                 (gom.sonar & gom.smz & !gom.mcl & AX pf.Odometric)) & \
                  (turn.pf.adapt_better & \
                  pf.Odometric -> (gom.sonar & gom.mcl & AX pf.Optimal) | \
                  (!(gom.sonar & gom.mcl) & AX pf.Odometric)) & \
@@ -51,9 +52,9 @@ requirements! {
         checked "AG ((!gom.mcl & !turn.gom.mcl_sound -> AX !gom.mcl) & \
                  (!gom.sonar & !turn.gom.sonar_sound -> AX !gom.sonar) & \
                  (!gom.avoidance & !turn.gom.avoidance_sound -> AX !gom.avoidance) & \
-                 (!gom.camera -> AX !gom.camera) & (!gom.wifi -> AX !gom.wifi) & \
-                 (!gom.vital -> AX !gom.vital) & (gom.given_up -> !gom.mcl & AX gom.given_up) & \
-                 (after.cs.slow & pf.Reduced & pf.level = 0 -> gom.given_up))";
+                 (!gom.smz -> AX !gom.smz) & (!gom.camera -> AX !gom.camera) & \
+                 (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital) & (gom.given_up -> !gom.mcl & AX gom.given_up) & \
+                 (after.cs.slow & (pf.Reduced | pf.Reactive) & pf.level = 0 -> gom.given_up))";
     RC8 Assumed "A return is for the adapter that runs without the module, and else it is recorded \
                  only; it is read in the next round.",
         checked "AG ((turn.cs.sonar_back & pf.Degraded -> AX pf.adapt_better.waiting) & \
@@ -76,7 +77,12 @@ requirements! {
     RC9 Assumed "What has returned is used again after two rounds at most.",
         checked "AG (unused_sonar <= 2 & unused_mcl <= 2 & unused_avoidance <= 2)",
         watched by [
-            at_end("unused_sonar", "faults.sonar & pf.Degraded", "!faults.sonar | !pf.Degraded", 3),
+            at_end(
+                "unused_sonar",
+                "faults.sonar & faults.smz & pf.Degraded",
+                "!faults.sonar | !faults.smz | !pf.Degraded",
+                3
+            ),
             at_end(
                 "unused_mcl",
                 "faults.sonar & faults.mcl & !gom.given_up & pf.Odometric",

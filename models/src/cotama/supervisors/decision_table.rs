@@ -13,7 +13,7 @@ net! {
         }
         shared {
             planning, following, hand_over, teleprogrammed, teleoperated,
-            optimal, reduced, odometric, degraded, avoiding,
+            optimal, reduced, odometric, reactive, degraded, avoiding,
             level: 2 of 2,
             wifi: true, mcl: true,
         }
@@ -23,6 +23,8 @@ net! {
             hard,
             /// The operator's avoidance is lost, and the sonars are not.
             avoidance,
+            /// The avoidance of path following is lost, and the sonars are not.
+            smz,
             mcl_lost,
             /// Any other failure that is weak or medium where it happens.
             minor,
@@ -34,17 +36,23 @@ net! {
             /// A setting of a module is to change; the cause says which.
             adapt_minor,
             adapt_minor_teleoperation,
+            adapt_smz, adapt_avoidance,
         }
         transitions {
             slow1 on slow [optimal & level >= 1]: Ready => Ready emit adapt_rt;
             slow2 on slow [reduced & level >= 1]: Ready => Ready emit adapt_rt;
             /// At the floor of particles localisation counts as lost.
             slow3 on slow [reduced & level < 1]: Ready => Ready do mcl = false emit adapt_mcl;
+            slow4 on slow [reactive & level >= 1]: Ready => Ready emit adapt_rt;
+            slow5 on slow [reactive & level < 1]: Ready => Ready do mcl = false emit adapt_mcl;
             mcl1 on mcl_lost [optimal]: Ready => Ready emit adapt_mcl;
             mcl2 on mcl_lost [reduced]: Ready => Ready emit adapt_mcl;
+            mcl3 on mcl_lost [reactive]: Ready => Ready emit adapt_mcl;
+            smz1 on smz [following & !degraded]: Ready => Ready emit adapt_smz;
             sonar1 on sonar [following & !degraded]: Ready => Ready emit adapt_sonar;
             sonar2 on sonar [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
-            avoidance on avoidance [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
+            avoidance1 on avoidance [avoiding]: Ready => Ready emit adapt_sonar_teleoperation;
+            avoidance2 on avoidance [reactive]: Ready => Ready emit adapt_avoidance;
             ambiguous1 on ambiguous [planning & wifi]: Ready => Ready emit local_event;
             ambiguous2 on ambiguous [planning & !wifi]: Ready => Ready emit global_event;
             ambiguous3 on ambiguous [following & wifi]: Ready => Ready emit local_event;
@@ -89,6 +97,8 @@ net! {
         instead {
             /// At the floor of particles localisation counts as lost.
             slow3 on slow [reduced & level < 1]: Ready => Ready
+                do mcl = false & given_up = true emit adapt_mcl;
+            slow5 on slow [reactive & level < 1]: Ready => Ready
                 do mcl = false & given_up = true emit adapt_mcl;
         }
         transitions {

@@ -38,6 +38,8 @@ system! {
             cs.adapt_mcl => pf.adapt_mcl mail 1;
             cs.adapt_sonar => pf.adapt_sonar mail 1;
             cs.adapt_bump => pf.adapt_bump mail 1;
+            cs.adapt_smz => pf.adapt_smz mail 1;
+            cs.adapt_avoidance => pf.adapt_avoidance mail 1;
             cs.adapt_minor => pf.adapt_minor mail 1;
             cs.adapt_sonar_teleoperation => to.adapt_sonar mail 1;
             cs.adapt_minor_teleoperation => to.adapt_minor mail 1;
@@ -50,6 +52,7 @@ system! {
             gom.mcl_lost => cs.mcl_lost mail 1;
             gom.sonar_lost => cs.sonar mail 1;
             gom.avoidance_lost => cs.avoidance mail 1;
+            gom.smz_lost => cs.smz mail 1;
             gom.camera => cs.camera mail 1;
             gom.wifi_lost => cs.wifi_lost mail 1;
             gom.vital => cs.vital mail 1;
@@ -58,7 +61,8 @@ system! {
             ls.camera = gom.camera;
             ls.wifi & cs.wifi = gom.wifi;
             pf.sonar = gom.sonar;
-            to.sonar = gom.avoidance;
+            to.sonar & pf.avoidance = gom.avoidance;
+            pf.smz = gom.smz;
             pf.mcl & cs.mcl = gom.mcl;
             cs.planning = ls.Planning;
             cs.following = ls.Following;
@@ -68,6 +72,7 @@ system! {
             cs.optimal = pf.Optimal;
             cs.reduced = pf.Reduced;
             cs.odometric = pf.Odometric;
+            cs.reactive = pf.Reactive;
             cs.degraded = pf.Degraded;
             cs.avoiding = to.Full;
             cs.level = pf.level;
@@ -105,6 +110,7 @@ system! {
             faults.camera_flag => gom.camera_flag mail 1;
             faults.sonar_flag => gom.sonar_flag mail 1;
             faults.avoidance_flag => gom.avoidance_flag mail 1;
+            faults.smz_flag => gom.smz_flag mail 1;
             faults.mcl_flag => gom.mcl_flag mail 1;
             faults.drift_flag => gom.drift_flag mail 1;
             faults.bumper_flag => gom.bumper_flag mail 1;

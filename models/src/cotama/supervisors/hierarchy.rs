@@ -157,6 +157,8 @@ net! {
             Reduced,
             /// Odometry in place of Monte Carlo localisation.
             Odometric,
+            /// The other avoidance, with guidance apart: DVZ in place of SMZ.
+            Reactive,
             /// No avoidance, no localisation, lower speed.
             Degraded,
         }
@@ -164,9 +166,13 @@ net! {
             /// Particles: full, fewer, floor.
             level: 2 of 2,
         }
-        shared { sonar: true, mcl: true }
+        shared { sonar: true, mcl: true, smz: true, avoidance: true }
         events {
             adapt_rt, adapt_mcl, adapt_sonar, adapt_bump,
+            /// Its avoidance is lost, and the sonars are not.
+            adapt_smz,
+            /// The other avoidance is.
+            adapt_avoidance,
             /// A setting of a module is to change.
             adapt_minor,
             pf_start, pf_stop,
@@ -177,8 +183,8 @@ net! {
             adjust,
         }
         transitions {
-            a1 on pf_start [sonar & mcl]: Off => Optimal;
-            a2 on pf_start [sonar & !mcl]: Off => Odometric;
+            a1 on pf_start [sonar & mcl & smz]: Off => Optimal;
+            a2 on pf_start [sonar & !mcl & smz]: Off => Odometric;
             a3 on pf_start [!sonar]: Off => Degraded emit limit_speed;
             a4 on adapt_rt: Optimal => Reduced do level -= 1 emit reduce_particles;
             a5 on adapt_rt: Reduced => Reduced do level -= 1 emit reduce_particles;
@@ -190,14 +196,30 @@ net! {
             a11 on adapt_bump: Optimal => Optimal emit limit_speed;
             a12 on adapt_bump: Reduced => Reduced emit limit_speed;
             a13 on adapt_bump: Odometric => Odometric emit limit_speed;
+            a14 on pf_start [sonar & mcl & !smz & avoidance]: Off => Reactive;
+            a15 on pf_start [sonar & mcl & !smz & !avoidance]: Off => Degraded emit limit_speed;
+            a16 on pf_start [sonar & !mcl & !smz]: Off => Degraded emit limit_speed;
+            a17 on adapt_smz [avoidance]: Optimal => Reactive;
+            /// With so many particles as there are.
+            a18 on adapt_smz [avoidance]: Reduced => Reactive;
+            a19 on adapt_smz [!avoidance]: Optimal => Degraded do level = 2 emit limit_speed;
+            a20 on adapt_smz [!avoidance]: Reduced => Degraded do level = 2 emit limit_speed;
+            a21 on adapt_smz: Odometric => Degraded emit limit_speed;
+            a22 on adapt_rt: Reactive => Reactive do level -= 1 emit reduce_particles;
+            a23 on adapt_mcl: Reactive => Degraded do level = 2 emit limit_speed;
+            a24 on adapt_sonar: Reactive => Degraded do level = 2 emit limit_speed;
+            a25 on adapt_avoidance: Reactive => Degraded do level = 2 emit limit_speed;
+            a26 on adapt_bump: Reactive => Reactive emit limit_speed;
             m1 on adapt_minor: Optimal => Optimal emit adjust;
             m2 on adapt_minor: Reduced => Reduced emit adjust;
             m3 on adapt_minor: Odometric => Odometric emit adjust;
             m4 on adapt_minor: Degraded => Degraded emit adjust;
+            m5 on adapt_minor: Reactive => Reactive emit adjust;
             as1 on pf_stop: Optimal => Off do level = 2;
             as2 on pf_stop: Reduced => Off do level = 2;
             as3 on pf_stop: Odometric => Off;
             as4 on pf_stop: Degraded => Off;
+            as5 on pf_stop: Reactive => Off do level = 2;
         }
         ignore {
             adapt_rt in Off;
@@ -205,10 +227,12 @@ net! {
             adapt_sonar in Off;
             adapt_bump in Off;
             adapt_minor in Off;
+            adapt_smz in Off;
+            adapt_avoidance in Off;
             pf_stop in Off;
         }
         laws {
-            invariant(Off & Optimal & Reduced & Odometric & Degraded = 1);
+            invariant(Off & Optimal & Reduced & Odometric & Reactive & Degraded = 1);
             always_can(Off);
             deadlock_free;
             deterministic;
@@ -218,7 +242,8 @@ net! {
 
 net! {
     /// The adapter of path following where modules may return: it goes up again when it is told so
-    /// and what it needs is there. Assumed: the paper states no such transition.
+    /// and what it needs is there. Without SMZ it waits for the next path. Assumed: the paper
+    /// states no such transition.
     pub mod recovering_path_following extends path_following {
         events {
             /// More is available again than it uses.
@@ -229,8 +254,8 @@ net! {
             lift_limit,
         }
         transitions {
-            u1 on adapt_better [sonar & mcl]: Degraded => Optimal emit lift_limit;
-            u2 on adapt_better [sonar & !mcl]: Degraded => Odometric emit lift_limit;
+            u1 on adapt_better [sonar & mcl & smz]: Degraded => Optimal emit lift_limit;
+            u2 on adapt_better [sonar & !mcl & smz]: Degraded => Odometric emit lift_limit;
             u3 on adapt_better [sonar & mcl]: Odometric => Optimal;
         }
         ignore { adapt_better in Off; }

@@ -23,6 +23,8 @@ net! {
             sonar: true,
             /// Avoidance for the operator is: it needs the sonars too.
             avoidance: true,
+            /// The avoidance of path following is, as far as it does not need the sonars.
+            smz: true,
             /// The camera is.
             camera: true,
             /// The operator can be reached.
@@ -35,7 +37,7 @@ net! {
         events {
             /// The vital parts: power, micro-controller, effectors.
             vital_flag,
-            wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
+            wifi_flag, camera_flag, sonar_flag, avoidance_flag, smz_flag, mcl_flag,
             /// Odometry and localisation drift apart while the robot goes backward for too
             /// long.
             drift_flag,
@@ -51,8 +53,8 @@ net! {
             settle,
         }
         outputs {
-            vital, wifi_lost, camera, sonar_lost, avoidance_lost, mcl_lost, ambiguous, collision,
-            planner, hard, minor, slow,
+            vital, wifi_lost, camera, sonar_lost, avoidance_lost, smz_lost, mcl_lost, ambiguous,
+            collision, planner, hard, minor, slow,
         }
         transitions {
             vital on vital_flag [vital]: Watching => Watching do vital = false emit vital;
@@ -63,6 +65,7 @@ net! {
                 emit sonar_lost;
             avoidance on avoidance_flag [avoidance]:
                 Watching => Watching do avoidance = false emit avoidance_lost;
+            smz on smz_flag [smz]: Watching => Watching do smz = false emit smz_lost;
             mcl on mcl_flag [mcl]: Watching => Watching do mcl = false emit mcl_lost;
             drift on drift_flag [!suspected]:
                 Watching => Watching do suspected = true emit ambiguous;

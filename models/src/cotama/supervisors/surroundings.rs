@@ -18,6 +18,8 @@ net! {
             sonar: true,
             /// The operator's avoidance works.
             avoidance: true,
+            /// The avoidance of path following does.
+            smz: true,
             /// The camera works.
             camera: true,
             /// The operator can be reached.
@@ -28,7 +30,7 @@ net! {
             watch: true,
         }
         events {
-            lose_vital, lose_wifi, lose_camera, lose_sonar, lose_avoidance, lose_mcl,
+            lose_vital, lose_wifi, lose_camera, lose_sonar, lose_avoidance, lose_smz, lose_mcl,
             /// Odometry and localisation drift apart; why is not known.
             drift,
             bump, no_path,
@@ -43,7 +45,7 @@ net! {
             lose_watch,
         }
         outputs {
-            vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, mcl_flag,
+            vital_flag, wifi_flag, camera_flag, sonar_flag, avoidance_flag, smz_flag, mcl_flag,
             drift_flag, bumper_flag, planner_flag, hard_flag, minor_flag, deadline_flag,
         }
         transitions {
@@ -57,6 +59,7 @@ net! {
             sonar on lose_sonar [sonar]: Ready => Ready do sonar = false emit sonar_flag;
             avoidance on lose_avoidance [avoidance]:
                 Ready => Ready do avoidance = false emit avoidance_flag;
+            smz on lose_smz [smz]: Ready => Ready do smz = false emit smz_flag;
             mcl on lose_mcl [mcl]: Ready => Ready do mcl = false emit mcl_flag;
             drift on drift: Ready => Ready emit drift_flag;
             bump on bump: Ready => Ready emit bumper_flag;

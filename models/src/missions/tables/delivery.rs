@@ -48,9 +48,10 @@ pub static LABELS: [&[&str]; 4] = [
 ];
 
 #[rustfmt::skip]
-static ALTERNATIVES_0: [Alternative; 4] = [
+static ALTERNATIVES_0: [Alternative; 5] = [
+    travel(300, 7_720, 0x1001_1111, 5),
     travel(300, 7_720, 0x1001_1111, 4),
-    travel(300, 7_720, 0x1001_1111, 3),
+    travel(300, 7_720, 0x0001_0101_1111, 3),
     travel(300, 7_720, 0x1001_0111, 2),
     travel(150, 6_000, 0x0101_0001, 1),
 ];
@@ -61,8 +62,8 @@ static ALTERNATIVES_1: [Alternative; 1] = [
 ];
 
 #[rustfmt::skip]
-static LABELS_0: [&str; 4] = [
-    "PF.OPT", "PF.OPTR", "PF.ODO", "PF.DEG",
+static LABELS_0: [&str; 5] = [
+    "PF.OPT", "PF.OPTR", "PF.DVZ", "PF.ODO", "PF.DEG",
 ];
 
 #[rustfmt::skip]

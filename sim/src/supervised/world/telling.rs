@@ -184,7 +184,8 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             camera: left.has(Module::Cam) && !self.decider.situation().lost.has(Loss::Camera),
             planner_failed: report == Some(Report::Planner) && self.decider.plannings_failed() < 2,
             can_go_on: self.decider.plannings_failed() < 2
-                && left.covers(Configuration::FollowingOdometric.facts().required),
+                && (Configuration::FollowingOdometric.runs_on(left)
+                    || Configuration::FollowingDvz.runs_on(left)),
             at_goal: self.body().at_goal,
         }
     }
