@@ -111,7 +111,8 @@ fn a_file_is_written_as_a_whole_or_left_as_it_was() {
 #[test]
 fn a_system_is_exported_as_one_net() {
     let folder = Folder::new("export_system");
-    let question = ["--property", "AG (round & gs.Safe -> ls.Idle)", "--json"];
+    let question =
+        ["--property", "AG (round & gs.Safe -> ls.Idle)", "--engine", "explicit", "--json"];
     for format in ["pnml", "json", "net"] {
         let file = format!("delivery.{format}");
         let written = folder.cotama(&["export", "delivery", "--output", &file]);
