@@ -143,8 +143,18 @@ fn anytime_bounds_hold<const A: usize>(problem: &Problem<A>, optimum: Option<u64
 }
 
 #[test]
+fn exact_is_brute_force_on_2_000_small_problems() {
+    exact_is_brute_force_on(0..2_000);
+}
+
+#[test]
+#[ignore = "a minute: CI runs it"]
 fn exact_is_brute_force_on_20_000_small_problems() {
-    for seed in 0..20_000 {
+    exact_is_brute_force_on(0..20_000);
+}
+
+fn exact_is_brute_force_on(seeds: std::ops::Range<u64>) {
+    for seed in seeds {
         match seed % 3 {
             0 => exact_is_brute_force::<2>(seed),
             1 => exact_is_brute_force::<3>(seed),
@@ -185,6 +195,7 @@ fn at_every_step_budget_the_limit_named_is_the_one_that_no_plan_meets() {
 /// The documented promise to firmware: 17 activities within 100,000 steps and this memory. Most
 /// missions are proven with far fewer; the others end with a plan and a bound.
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn a_plan_of_17_activities_keeps_its_promised_steps_and_bytes() {
     let (mut proven, mut worst_gap, mut steps) = (0, 0, Vec::new());
     for seed in 0..10_000 {

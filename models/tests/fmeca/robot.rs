@@ -76,7 +76,15 @@ fn each_loss_leaves_what_the_typed_rows_leave() {
     }
 }
 
+/// A tenth of the usual number, which `PROPTEST_CASES` sets: a case takes a tenth of a second.
+fn cases() -> ProptestConfig {
+    let usual = ProptestConfig::default();
+    ProptestConfig { cases: usual.cases / 10, ..usual }
+}
+
 proptest! {
+    #![proptest_config(cases())]
+
     /// Whatever modules are available, even none that could be so together.
     #[test]
     fn groups_are_those_of_the_typed_rows(bits: u64) {
