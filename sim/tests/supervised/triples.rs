@@ -1,6 +1,6 @@
 //! Three failures at once, drawn at random.
 
-use super::delivery;
+use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode, Module, local};
 use cotama_models::missions::Mission;
@@ -10,6 +10,7 @@ use cotama_sim::supervised::{
     Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect,
 };
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 fn one<T: Copy>(stream: &mut Stream, of: &[T]) -> T {
     of[stream.below(of.len() as u64) as usize]
@@ -45,10 +46,7 @@ fn judge(run: &Run, script: &Script) -> bool {
         run.outcome != Outcome::Failed || run.x == Millimetres(80_000),
         "stuck after {script:?}"
     );
-    // Each loss alone: detected, two rounds, and standing still; they may follow each other.
-    let each =
-        script.injections.iter().map(|it| u64::from(it.mode.rule().latency_ms).max(2_000) + 1_200);
-    run.exposed.0 <= each.sum() || {
+    is_in_time(run, script) || {
         // But for what several failures at once hide: no diagnosis, or not of this one alone.
         let found = |it: &Conduct| match it.detected {
             Some((_, Diagnosis::Unique(mode))) => mode == it.mode,
@@ -59,9 +57,47 @@ fn judge(run: &Run, script: &Script) -> bool {
     }
 }
 
-fn campaign(mission: &Mission, runs: u64) -> BTreeMap<(Outcome, bool), u64> {
+/// Each loss alone: detected, two rounds, and standing still; they may follow each other.
+fn is_in_time(run: &Run, script: &Script) -> bool {
+    let each =
+        script.injections.iter().map(|it| u64::from(it.mode.rule().latency_ms).max(2_000) + 1_200);
+    run.exposed.0 <= each.sum()
+}
+
+/// The failures of a run, in the order in which they happened; and what was found of the one whose
+/// module was missed longest.
+fn story(run: &Run) -> String {
+    let names: Vec<_> = run.conduct.iter().map(|it| it.mode.name()).collect();
+    let Some(late) = run.conduct.iter().max_by_key(|it| it.exposed) else { return String::new() };
+    let found = match late.detected {
+        None => "is not seen".to_owned(),
+        Some((_, Diagnosis::Unique(mode))) if mode == late.mode => "is found".to_owned(),
+        Some((_, Diagnosis::Unique(mode))) => format!("is taken for {}", mode.name()),
+        Some((_, Diagnosis::Ambiguous(_))) => "is one of several".to_owned(),
+        Some((_, Diagnosis::Unexplained)) => "is seen with others".to_owned(),
+        Some((_, Diagnosis::None)) => "raises a flag that nobody explains".to_owned(),
+    };
+    format!("{}: {} {found}", names.join("+"), late.mode.name())
+}
+
+/// Which of the failures are late without the others: two of them, or only all three.
+fn explained(supervised: &Supervised<'_>, script: &Script, run: &Run) -> String {
+    let pairs = [[0, 1], [0, 2], [1, 2]].into_iter().filter_map(|pair| {
+        let injections = pair.map(|it| script.injections[it].clone()).to_vec();
+        let script = Script { injections, answers: Vec::new() };
+        let run = supervised.run(&script).unwrap();
+        (!is_in_time(&run, &script)).then(|| story(&run))
+    });
+    let pairs: Vec<_> = pairs.collect();
+    if pairs.is_empty() { format!("all three, {}", story(run)) } else { pairs.join(" / ") }
+}
+
+/// How many runs ended how, in time or not; and why those that were not.
+type Campaign = (BTreeMap<(Outcome, bool), u64>, BTreeMap<String, u64>);
+
+fn campaign(mission: &Mission, runs: u64) -> Campaign {
     let supervised = Supervised::new(mission).unwrap();
-    let mut outcomes = BTreeMap::new();
+    let (mut outcomes, mut late) = (BTreeMap::new(), BTreeMap::new());
     for seed in 0..runs {
         let mut stream = Streams::new(seed).stream("triple");
         let injections = (0..3).map(|_| injection(&mut stream)).collect();
@@ -69,20 +105,21 @@ fn campaign(mission: &Mission, runs: u64) -> BTreeMap<(Outcome, bool), u64> {
         let run = supervised.run(&script).unwrap();
         let in_time = judge(&run, &script);
         *outcomes.entry((run.outcome, in_time)).or_default() += 1;
+        if !in_time {
+            *late.entry(explained(&supervised, &script, &run)).or_default() += 1;
+        }
     }
-    outcomes
+    (outcomes, late)
 }
 
 #[test]
 fn three_failures_never_leave_the_robot_moving() {
     let expected = BTreeMap::from([
-        // Odometry that loses ticks hides an encoder that fails later.
-        ((Outcome::Completed, false), 1),
         ((Outcome::Completed, true), 480),
-        ((Outcome::Safe, true), 517),
+        ((Outcome::Safe, true), 518),
         ((Outcome::Failed, true), 2), // too late
     ]);
-    assert_eq!(campaign(&delivery(), 1_000), expected);
+    assert_eq!(campaign(&delivery(), 1_000), (expected, BTreeMap::new()));
 }
 
 /// A hundred thousand: `cargo test --release -p cotama-sim --test supervised -- --ignored
@@ -90,7 +127,16 @@ fn three_failures_never_leave_the_robot_moving() {
 #[test]
 #[ignore = "takes minutes"]
 fn a_hundred_thousand_triples() {
-    let outcomes = campaign(&delivery(), 100_000);
-    println!("{outcomes:?}");
+    let (outcomes, late) = campaign(&delivery(), 100_000);
     assert_eq!(outcomes.values().sum::<u64>(), 100_000);
+    let mut text = String::from("100000 runs of three failures\n\n");
+    for ((outcome, in_time), count) in &outcomes {
+        let time = if *in_time { "" } else { ", moved too long without a required module" };
+        writeln!(text, "{count:6} {}{time}", outcome.name()).unwrap();
+    }
+    text += "\nWhich failures alone make it too long, and what becomes of the one that does:\n\n";
+    let mut late: Vec<_> = late.into_iter().collect();
+    late.sort_by(|a, b| b.1.cmp(&a.1).then(a.0.cmp(&b.0)));
+    late.iter().for_each(|(why, count)| writeln!(text, "{count:6} {why}").unwrap());
+    golden("triples.txt", &text);
 }

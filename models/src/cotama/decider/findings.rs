@@ -3,7 +3,7 @@
 use super::{Cause, Decider, Origin, Plans};
 use crate::cotama::decisions::{Class, Losses, Report, Severity, by_availability, decide, judge};
 use crate::cotama::dependability::{
-    Diagnosis, FailureMode, FailureModes, Flag, Flags, diagnose, is_detectable,
+    Diagnosis, FailureMode, FailureModes, Flag, Flags, Signature, diagnose,
 };
 use crate::cotama::level::Told;
 use crate::cotama::modules::{Health, Module, Modules};
@@ -51,12 +51,13 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         let (judged, recorded) = (None, false);
         let mut finding = Finding { cause, flags: raised, diagnosis, judged, recorded };
         // Several at once: whatever always raises some of the flags may be among them, and is taken
-        // to be.
+        // to be. It may be about a module that is lost anyway: encoders break after they lost ticks.
         let mut shown = FailureModes::NONE;
         if diagnosis == Diagnosis::Unexplained {
             for &mode in FailureMode::ALL {
-                let all_raised = raised.covers(mode.rule().signature.always);
-                if all_raised && is_detectable(mode, observing) {
+                let Signature { always, absent, .. } = mode.rule().signature;
+                let all_raised = !always.is_empty() && raised.covers(always);
+                if all_raised && absent.common(observing).is_empty() {
                     shown = shown.with(mode);
                 }
             }
