@@ -1,9 +1,11 @@
 //! The decisional level with one rule of the papers taken back at a time: a requirement is broken,
 //! and the shortest way there is named, one event from outside a round.
 
+use crate::breaks::broken;
 use crate::delivery::watched;
+use crate::golden;
 use crate::steps::in_one_marking;
-use cotama_core::net::{Arc, Net, Role, Transition};
+use cotama_core::net::{Arc, Net, OutputId, Role, Transition};
 use cotama_core::system::{Component, System};
 use cotama_models::cotama::{REQUIREMENTS, delivery};
 use cotama_verification::explicit::{Goal, Graph, Limits};
@@ -145,4 +147,48 @@ fn a_wrong_use_of_the_other_avoidance_is_found() {
     let mutant = moved("pf.a25", "Reactive", "Odometric");
     let way = format!("{smz} lose_avoidance idle idle");
     found("odometry in its place", &mutant, "AS3", &way);
+}
+
+/// It says this in place of what it says.
+fn says(name: &str, output: &str) -> System<'static> {
+    with(name, |net, it| {
+        let output = net.outputs.iter().position(|it| it.name == output).unwrap();
+        it.emits = vec![OutputId(output as u32)].leak();
+    })
+}
+
+/// The rest of the corrections taken back, and the requirement that each breaks.
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn each_of_these_mutants_breaks_a_requirement() {
+    let mutants = [
+        ("a crash of the avoidance raises no flag", silent("faults.smz")),
+        ("the other avoidance is not used from the start", moved("pf.a14", "Off", "Degraded")),
+        ("nor does it matter whether the sonars work", without("pf.a3", "sonar")),
+        ("nor whether it works itself", without("pf.a14", "avoidance")),
+        ("with fewer particles avoidance is lost", moved("pf.a18", "Reduced", "Degraded")),
+        ("it is used though it is lost", moved("pf.a19", "Optimal", "Reactive")),
+        ("it is, with fewer particles", moved("pf.a20", "Reduced", "Reactive")),
+        ("it is, without localisation", moved("pf.a21", "Odometric", "Reactive")),
+        ("lost localisation leaves the lost avoidance", moved("pf.a23", "Reactive", "Odometric")),
+        ("lost sonars do", moved("pf.a24", "Reactive", "Odometric")),
+        ("lost sonars change nothing", moved("pf.a24", "Reactive", "Reactive")),
+        ("a bump does not slow it down", silent("pf.a26")),
+        ("it goes on when its activity ends", moved("pf.as5", "Reactive", "Reactive")),
+        ("late localisation is recorded only", silent("cs.slow4")),
+        ("at the floor of particles, too", silent("cs.slow5")),
+        ("a bump raises no report", silent("gom.bumper")),
+        ("a bump is ambiguous", says("gom.bumper", "ambiguous")),
+        ("a bump without avoidance is the adapter's", says("cs.collision3", "adapt_bump")),
+        ("a bump ends the mission", says("cs.collision3", "global_event")),
+        ("a minor failure asks the operator", says("cs.minor1", "local_event")),
+    ];
+    let lines = mutants.iter().map(|(what, mutant)| match broken(mutant) {
+        Ok(Some(id)) => format!("{what}: breaks {id}\n"),
+        Ok(None) => format!("{what}: survives\n"),
+        Err(error) => format!("{what}: refused: {error}\n"),
+    });
+    let table: String = lines.collect();
+    golden("corrections.txt", &table);
+    assert!(table.lines().all(|it| it.contains(": breaks ")), "{table}");
 }

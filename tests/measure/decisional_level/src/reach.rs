@@ -17,6 +17,7 @@ pub const TOLD: [Told; 25] = [
     Told::Failure(faults::Event::lose_watch),
     Told::Failure(faults::Event::lose_sonar),
     Told::Failure(faults::Event::lose_avoidance),
+    Told::Failure(faults::Event::lose_smz),
     Told::Failure(faults::Event::lose_mcl),
     Told::Failure(faults::Event::drift),
     Told::Failure(faults::Event::bump),

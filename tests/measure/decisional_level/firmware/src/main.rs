@@ -23,7 +23,7 @@ use entries::{
 };
 use semihosting::println;
 
-const STATES: usize = 56 * 1024;
+const STATES: usize = 112 * 1024;
 /// The situations of the supervisors of a drive, at most.
 const SITUATIONS: usize = 32;
 
