@@ -4,7 +4,7 @@ use cotama_core::units::Millis;
 use cotama_models::cotama::{Cause, DecisionalLevel, Told, faults, global, local, operator};
 
 /// Everything that the level can be told.
-pub const TOLD: [Told; 25] = [
+pub const TOLD: [Told; 26] = [
     Told::Mission(global::Event::mission_received),
     Told::Mission(global::Event::object_received),
     Told::Mission(global::Event::object_delivered),
