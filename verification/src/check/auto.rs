@@ -8,7 +8,7 @@ use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
 use crate::certificate::{Evidence, One, most_markings};
 use crate::diagnosis::shrink;
-use crate::explicit::{Limit, Limits};
+use crate::explicit::{Goal, Limit, Limits};
 use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
 use crate::structural;
 use crate::temporal::{Rest, Run};
@@ -20,7 +20,7 @@ const FEW: u64 = 200_000;
 
 /// Markings of a net whose graph is evidence: those that the small checker passes through in less
 /// than a minute.
-const CERTIFIED: u64 = 500_000;
+pub(super) const CERTIFIED: u64 = 500_000;
 
 /// The longest way of which it is tried to leave firings out.
 const SHRUNK: usize = 500;
@@ -100,12 +100,15 @@ impl Asked<'_, '_> {
             Question::Fair(..) | Question::Response { .. } => false,
             _ => true,
         };
-        let few = CERTIFIED.min(most_markings(self.net.pt().places.len()));
-        let states = self.budget.limits.states.min(few);
-        let few = Budget { limits: Limits { states, ..self.budget.limits }, ..self.budget };
         if !known {
             return Evidence::None;
         }
+        if let Some(graph) = self.net.made() {
+            return self.shown_by(&graph);
+        }
+        let few = CERTIFIED.min(most_markings(self.net.pt().places.len()));
+        let states = self.budget.limits.states.min(few);
+        let few = Budget { limits: Limits { states, ..self.budget.limits }, ..self.budget };
         self.net.graph(&few).map_or(Evidence::None, |it| Evidence::graph(&it))
     }
 
@@ -181,6 +184,10 @@ impl Asked<'_, '_> {
     /// A shortest way, if the net is small; otherwise one without firings that are not needed.
     fn shortened(&self, goal: &Formula, way: Vec<TransitionId>) -> Vec<TransitionId> {
         let pt = self.net.pt();
+        if let Some(graph) = self.net.made() {
+            let first = Goal::new(goal).and_then(|it| graph.first(it));
+            return first.map_or(way, |it| graph.way(it));
+        }
         let limits = Limits { states: self.budget.limits.states.min(SHOWN), ..self.budget.limits };
         let found =
             Explicit.find(self.net, Task::Reach(goal), &Budget { limits, ..self.budget }).found;
@@ -200,20 +207,22 @@ impl Asked<'_, '_> {
         if self.engine != Choice::Auto {
             return self.chosen(task);
         }
-        // A way that a glance finds; that there is none is shown better by others.
         let limits = self.budget.limits;
-        let first = Stubborn.find(
-            self.net,
-            task,
-            &Budget { limits: Limits { states: GLANCE, ..limits }, ..self.budget },
-        );
-        if matches!(first.found, Found::Way(_)) {
-            self.used(Stubborn.name());
-            return first;
+        if self.net.made().is_none() {
+            // A way that a glance finds; that there is none is shown better by others.
+            let limits = Limits { states: GLANCE, ..limits };
+            let first = Stubborn.find(self.net, task, &Budget { limits, ..self.budget });
+            if matches!(first.found, Found::Way(_)) {
+                self.used(Stubborn.name());
+                return first;
+            }
         }
         let first = self.ask(&Structural, self.net, task, limits);
         if first.is_something() {
             return first;
+        }
+        if let Some(graph) = self.graph() {
+            return self.reach_in(&graph, goal);
         }
         let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal));
         let Some(smaller) = smaller else { return self.search(self.net, goal) };
@@ -315,11 +324,16 @@ impl Asked<'_, '_> {
 
     fn temporal(&mut self, formula: &Formula) -> Shown {
         let pt = self.net.pt();
-        let smaller =
-            (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
-        let found = match &smaller {
-            None => self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits),
-            Some(smaller) => {
+        let stored = self.on_graph(formula);
+        let smaller = (self.engine == Choice::Auto && stored.is_none())
+            .then(|| Smaller::for_formula(pt, formula))
+            .flatten();
+        let found = match (stored, &smaller) {
+            (Some(found), _) => found,
+            (None, None) => {
+                self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits)
+            }
+            (None, Some(smaller)) => {
                 self.used("reductions");
                 let known = Known::new(&smaller.reduced.net);
                 self.ask(&Temporal, &known, Task::Temporal(&smaller.goal), self.budget.limits)
@@ -387,6 +401,12 @@ impl Asked<'_, '_> {
             self.used(engine.name());
         }
         found
+    }
+
+    /// An engine that decided, and how many states it met.
+    pub(super) fn met(&mut self, engine: &'static str, states: u64) {
+        self.states = self.states.max(states);
+        self.used(engine);
     }
 
     pub(super) fn used(&mut self, technique: &'static str) {

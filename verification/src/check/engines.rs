@@ -11,7 +11,7 @@ use crate::property::{Assumptions, Atom, Ctl, Formula, Linear};
 use crate::pt::Pt;
 use crate::structural;
 use crate::stubborn;
-use crate::temporal::{self, Fairness, Verdict, ctl};
+use crate::temporal::{self, Fairness, Verdict};
 use cotama_core::net::{PlaceId, TransitionId};
 
 /// Looks at the structure of the net and visits no marking.
@@ -247,33 +247,39 @@ impl Engine for Temporal {
             Task::Fair(formula, assumed) => return fair(net, formula, assumed, budget),
             _ => return Finding::nothing(Reason::Unsuited, 0),
         };
-        let graph = || net.graph(budget);
-        match temporal::answer_with(net.pt(), formula, &budget.limits, budget.progress, &graph) {
-            Verdict::Known { holds, run, states } => {
-                Finding { found: Found::Holds(holds, run, Evidence::None), states }
-            }
-            Verdict::Unknown { reason: temporal::Reason::Limit(limit), states } => {
-                Finding::nothing(Reason::Limit(limit), states)
-            }
-            Verdict::Unknown { states, .. } => Finding::nothing(Reason::Unsuited, states),
+        let (graph, made) = (|| net.graph(budget), net.made());
+        let limits = (&budget.limits, budget.jobs);
+        let graphs: (temporal::Graphs<'_>, _) = (&graph, made.as_deref());
+        found(temporal::answer_with(net.pt(), formula, limits, budget.progress, graphs))
+    }
+}
+
+pub(super) fn found(verdict: Verdict) -> Finding {
+    match verdict {
+        Verdict::Known { holds, run, states } => {
+            Finding { found: Found::Holds(holds, run, Evidence::None), states }
         }
+        Verdict::Unknown { reason, states } => Finding::nothing(reason.into(), states),
     }
 }
 
 /// A formula as it is: what is the same on all runs need not be on fair ones, of which there may be
 /// none.
 fn fair(net: &Known<'_>, formula: &Formula, assumed: &Assumptions, budget: &Budget<'_>) -> Finding {
-    let Some((formula, fairness)) = Ctl::new(formula).zip(Fairness::of(assumed)) else {
+    let Some(fairness) = Fairness::of(assumed) else {
         return Finding::nothing(Reason::Unsuited, 0);
     };
+    if Ctl::new(formula).is_none()
+        && let Formula::All(path) | Formula::Exists(path) = formula
+    {
+        let all = matches!(formula, Formula::All(_));
+        let asked = (&**path, assumed);
+        return found(temporal::fair_runs(net.pt(), asked, all, &budget.limits, budget.progress));
+    }
     match net.graph(budget) {
         Ok(graph) => {
-            let answer = ctl(&graph, &formula, &fairness);
-            let run = answer.witness.filter(|it| it.is_complete).map(|it| it.run);
-            Finding {
-                found: Found::Holds(answer.verdict, run, Evidence::None),
-                states: graph.states() as u64,
-            }
+            let bytes = budget.limits.bytes.saturating_sub(graph.bytes());
+            found(temporal::branching(&*graph, formula, &fairness, bytes, budget.jobs))
         }
         Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
     }

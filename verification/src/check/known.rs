@@ -4,6 +4,8 @@ use super::budget::Budget;
 use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
 use crate::pt::Pt;
 use crate::structural::{self, Structure};
+use crate::temporal::Successors;
+use crate::tpn::{self, ClassGraph, Classes, TimeNet};
 use std::cell::{OnceCell, RefCell, RefMut};
 use std::rc::Rc;
 
@@ -19,6 +21,8 @@ pub struct Known<'n> {
     structure: OnceCell<RefCell<Structure<'n>>>,
     graph: RefCell<Option<(Limits, Made)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
+    classes: OnceCell<Rc<Classes>>,
+    atomic: OnceCell<Rc<ClassGraph>>,
 }
 
 impl<'n> Known<'n> {
@@ -29,6 +33,8 @@ impl<'n> Known<'n> {
             structure: OnceCell::new(),
             graph: RefCell::new(None),
             space: RefCell::new(None),
+            classes: OnceCell::new(),
+            atomic: OnceCell::new(),
         }
     }
 
@@ -66,6 +72,46 @@ impl<'n> Known<'n> {
             *kept = Some((budget.limits, graph.clone()));
         }
         graph
+    }
+
+    /// The graph of its markings if it is there already.
+    pub(super) fn made(&self) -> Option<Rc<Graph>> {
+        match &*self.graph.borrow() {
+            Some((_, Ok(graph))) => Some(Rc::clone(graph)),
+            _ => None,
+        }
+    }
+
+    /// The linear state classes of the net with its intervals, or why they are not all known and
+    /// how many were met.
+    pub(super) fn classes(
+        &self,
+        net: &TimeNet,
+        limits: &tpn::Limits<'_>,
+    ) -> Result<Rc<Classes>, (tpn::Stop, usize)> {
+        if let Some(classes) = self.classes.get().filter(|it| it.classes() <= limits.classes) {
+            return Ok(Rc::clone(classes));
+        }
+        let classes = Rc::new(tpn::classes(net, limits));
+        match classes.stopped() {
+            None => Ok(Rc::clone(self.classes.get_or_init(|| classes))),
+            Some(stop) => Err((stop, classes.classes())),
+        }
+    }
+
+    /// The atomic ones.
+    pub(super) fn atomic(
+        &self,
+        net: &TimeNet,
+        limits: &tpn::Limits<'_>,
+    ) -> Result<Rc<ClassGraph>, (tpn::Stop, usize)> {
+        if let Some(classes) = self.atomic.get().filter(|it| it.states() <= limits.classes) {
+            return Ok(Rc::clone(classes));
+        }
+        // Where the linear ones are no end, these are none.
+        self.classes(net, limits)?;
+        let classes = Rc::new(tpn::atomic(net, limits)?);
+        Ok(Rc::clone(self.atomic.get_or_init(|| classes)))
     }
 
     /// What is counted of its markings.

@@ -34,6 +34,7 @@ mod liveness;
 mod model;
 mod reduced;
 mod report;
+mod stored;
 mod timed;
 mod unused;
 

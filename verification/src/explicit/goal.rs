@@ -4,7 +4,8 @@ use super::enabling::Seen;
 use super::markings::Look;
 use super::space::Space;
 use super::view::View;
-use crate::property::{Atom, Formula};
+use crate::property::{Atom, Condition, Formula, Marking};
+use cotama_core::net::PlaceId;
 
 /// A formula that speaks of one marking only.
 #[derive(Clone, Copy, Debug)]
@@ -16,33 +17,62 @@ impl<'f> Goal<'f> {
         formula.is_state().then_some(Self(formula))
     }
 
+    /// The formula.
+    pub fn formula(self) -> &'f Formula {
+        self.0
+    }
+
     /// What tells whether it holds in markings of a space.
-    pub(super) fn packed(self, space: &Space) -> Packed<'f> {
-        let asks = |it: &Formula| matches!(it, Formula::Atom(Atom::Fireable(_) | Atom::Deadlock));
-        Packed { formula: self.0, looks: self.0.any(&asks) || space.layout.computed > 0 }
+    pub(super) fn packed(self) -> Packed<'f> {
+        match Condition::of_tokens(self.0) {
+            Some(condition) => Packed::Tokens(condition),
+            None => Packed::Looks(self.0),
+        }
     }
 }
 
 /// A goal for the markings of a space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Packed<'f> {
-    formula: &'f Formula,
-    /// Whether it depends on more than stored words.
-    looks: bool,
+#[derive(Clone, Debug)]
+pub(super) enum Packed<'f> {
+    /// About tokens alone, of which it needs few.
+    Tokens(Condition<'f>),
+    /// About what is enabled, which is looked up for all transitions at once.
+    Looks(&'f Formula),
 }
 
 impl Packed<'_> {
     pub(super) fn holds(
-        self,
+        &self,
         space: &Space,
         packed: &[u64],
         view: &mut View,
         seen: &mut Seen,
     ) -> bool {
-        if self.looks {
-            space.enabling.look(packed, view, seen);
+        match self {
+            Self::Tokens(condition) => condition.holds(&Few { space, packed }),
+            Self::Looks(formula) => {
+                space.enabling.look(packed, view, seen);
+                holds(formula, &Look { space, packed, view })
+            }
         }
-        holds(self.formula, &Look { space, packed, view })
+    }
+}
+
+/// A marking of which only some places are asked: those that are implied are worked out one by one.
+struct Few<'m> {
+    space: &'m Space,
+    packed: &'m [u64],
+}
+
+impl Marking for Few<'_> {
+    #[inline]
+    fn tokens(&self, place: PlaceId) -> u64 {
+        let layout = &self.space.layout;
+        let Some(field) = layout.fields.get(place.0 as usize) else { return 0 };
+        match self.packed.get(field.word) {
+            Some(word) => field.tokens(*word),
+            None => layout.computed_tokens(place.0, self.packed),
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The reachable markings with the arcs between them.
 
+use super::bits::BitSet;
 use super::goal::Goal;
 use super::layout::Width;
 use super::space::{Search, Space, TooNarrow, search};
@@ -7,7 +8,11 @@ use super::table::hash;
 use super::{Limit, Limits, Progress, Unfinished};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
+use std::thread;
 use std::time::Instant;
+
+/// Markings that are worth a thread of their own.
+const WORTH: usize = 1 << 14;
 
 /// Successors whose places in the index are looked up at once: their loads overlap.
 const BATCH: usize = 256;
@@ -125,12 +130,41 @@ impl Graph {
         })
     }
 
-    /// For each marking whether the goal holds in it.
-    pub fn satisfying(&self, goal: Goal<'_>) -> Vec<bool> {
-        let goal = goal.packed(&self.space);
+    /// The markings in which the goal holds, looked at by so many threads.
+    pub fn satisfying(&self, goal: Goal<'_>, jobs: usize) -> BitSet {
+        let goal = goal.packed();
+        let mut set = BitSet::new(self.states(), false);
+        let fill = |words: &mut [u64], markings: &[u64]| {
+            let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+            for (word, markings) in words.iter_mut().zip(markings.chunks(64 * self.words)) {
+                for (bit, it) in markings.chunks_exact(self.words).enumerate() {
+                    let holds = goal.holds(&self.space, it, &mut view, &mut seen);
+                    *word |= u64::from(holds) << bit;
+                }
+            }
+        };
+        let jobs = jobs.clamp(1, self.states().div_ceil(WORTH));
+        let part = self.states().div_ceil(64).div_ceil(jobs).max(1);
+        let mut parts =
+            set.words().chunks_mut(part).zip(self.markings.chunks(part * 64 * self.words));
+        let first = parts.next();
+        thread::scope(|scope| {
+            for (words, markings) in parts {
+                scope.spawn(move || fill(words, markings));
+            }
+            if let Some((words, markings)) = first {
+                fill(words, markings);
+            }
+        });
+        set
+    }
+
+    /// The first marking in which the goal holds, which is one with a shortest way to it.
+    pub fn first(&self, goal: Goal<'_>) -> Option<u32> {
+        let goal = goal.packed();
         let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
         let holds = |it: &[u64]| goal.holds(&self.space, it, &mut view, &mut seen);
-        self.markings.chunks_exact(self.words).map(holds).collect()
+        self.markings.chunks_exact(self.words).position(holds).map(|it| it as u32)
     }
 
     /// A shortest way from the initial marking to another one.

@@ -75,7 +75,7 @@ pub(super) struct Layout {
     pub(super) stored: usize,
     /// How many words are computed from them: those of implied places.
     pub(super) computed: usize,
-    /// Places in computed words.
+    /// Places in computed words, in their order.
     pub(super) implied: Vec<Implied>,
     /// For each stored word the bits that tell that a guess was too small.
     pub(super) guards: Vec<u64>,
@@ -87,7 +87,8 @@ impl Layout {
     /// Packs places of these widths; `None` when a marking needs more words than the largest of
     /// [`SIZES`].
     pub(super) fn new(pt: &Pt, widths: &[Width]) -> Option<Self> {
-        let implied = left_out(pt, widths);
+        let mut implied = left_out(pt, widths);
+        implied.sort_by_key(|it| it.place);
         let mut is_stored = vec![true; widths.len()];
         for it in &implied {
             is_stored[it.place as usize] = false;
@@ -114,6 +115,19 @@ impl Layout {
             }
         }
         Some(Self { fields, stored, computed, implied, guards, initial })
+    }
+
+    /// The tokens of a place in a computed word.
+    pub(super) fn computed_tokens(&self, place: u32, packed: &[u64]) -> u64 {
+        let Ok(at) = self.implied.binary_search_by_key(&place, |it| it.place) else { return 0 };
+        let Implied { constant, terms, .. } = &self.implied[at];
+        let sum = terms.iter().fold(*constant, |sum, &(place, weight)| {
+            let field = self.fields[place as usize];
+            let tokens = packed.get(field.word).map_or(0, |word| field.tokens(*word));
+            sum.wrapping_add(weight.wrapping_mul(tokens.cast_signed()))
+        });
+        // A sum of terms that are no tokens wraps around, and comes back.
+        sum.cast_unsigned()
     }
 
     /// What firing a transition adds to the stored words.

@@ -44,7 +44,7 @@ impl<'n> Markings<'n> {
         let mut markings = Self {
             pt,
             limits: *limits,
-            memory: Memory { used: 0, most: limits.bytes },
+            memory: Memory::new(limits.bytes),
             words: space.layout.stored,
             deltas: deltas(pt, &space),
             after: space.layout.initial.clone(),
@@ -211,6 +211,25 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
+    /// Nothing is taken of so many bytes.
+    pub(crate) const fn new(most: u64) -> Self {
+        Self { used: 0, most }
+    }
+
+    /// Takes so many bytes.
+    ///
+    /// # Errors
+    /// [`Limit::Bytes`] when that is too much.
+    pub(crate) fn take(&mut self, bytes: u64) -> Result<(), Limit> {
+        self.used += bytes;
+        if self.used > self.most { Err(Limit::Bytes) } else { Ok(()) }
+    }
+
+    /// Gives back so many bytes.
+    pub(crate) fn release(&mut self, bytes: u64) {
+        self.used -= self.used.min(bytes);
+    }
+
     /// Makes room for so many more items in a list.
     ///
     /// # Errors

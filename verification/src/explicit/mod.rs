@@ -28,6 +28,7 @@
 //! ```
 
 mod apart;
+mod bits;
 mod block;
 mod boxes;
 mod crew;
@@ -49,11 +50,12 @@ mod table;
 mod view;
 mod worker;
 
+pub use bits::BitSet;
 pub use goal::Goal;
 pub use graph::Graph;
 pub use growth::Growth;
 pub use liveness::{Components, Liveness};
-pub(crate) use markings::{Index, Look, Markings, hash};
+pub(crate) use markings::{Index, Look, Markings, Memory, hash};
 pub use reach::{Reached, reach};
 pub use statespace::{StateSpace, statespace};
 

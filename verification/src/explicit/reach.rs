@@ -94,9 +94,10 @@ impl Search for Reach<'_> {
     type Found = Reached;
 
     fn search<const S: usize>(&mut self, space: Space) -> Result<Reached, TooNarrow> {
-        let goal = self.goal.packed(&space);
+        let goal = self.goal.packed();
         let Self { pt, limits, jobs, progress, .. } = *self;
-        let explored = explore::<S>(&space, Plan { pt, limits, jobs, progress, goal: Some(goal) })?;
+        let explored =
+            explore::<S>(&space, Plan { pt, limits, jobs, progress, goal: Some(&goal) })?;
         let states = explored.states;
         Ok(match explored.end {
             End::Exhausted => Reached::Never { states },

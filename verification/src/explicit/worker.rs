@@ -34,7 +34,7 @@ pub(super) struct Shared<'s, const S: usize> {
     deltas: Vec<[u64; S]>,
     diamonds: Diamonds,
     limits: &'s Limits,
-    goal: Option<Packed<'s>>,
+    goal: Option<&'s Packed<'s>>,
     tables: Vec<Mutex<Table<S>>>,
     /// Those of each thread; it holds the lock while it fills them.
     boxes: Vec<RwLock<Boxes<S>>>,

@@ -29,7 +29,7 @@
 //! | question | asks |
 //! | --- | --- |
 //! | a formula | [`Question::Formula`] |
-//! | CTL, then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
+//! | CTL or LTL, then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
 //! | `bounds(p1 + p2)` | [`Question::Bound`] |
 //! | `bound(t -> p)` | [`Question::Response`] |
 //! | `live` | [`Question::Liveness`] |
@@ -136,7 +136,8 @@ pub struct Property {
 pub enum Question {
     /// Whether a temporal formula holds at the start.
     Formula(Formula),
-    /// Whether a formula of CTL holds at the start when its quantifiers speak of fair runs only.
+    /// Whether a formula of CTL, or of LTL behind one quantifier, holds at the start when
+    /// quantifiers speak of fair runs only.
     Fair(Formula, Assumptions),
     /// The most tokens that these places ever hold together.
     Bound(Vec<PlaceId>),

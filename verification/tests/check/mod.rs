@@ -15,6 +15,7 @@ mod quick;
 mod replay;
 mod small;
 mod timed;
+mod timed_logic;
 mod unbounded;
 
 use cotama_verification::property::{Property, Question};
