@@ -112,10 +112,10 @@ impl Asked<'_, '_> {
     fn one_safe(&mut self) -> Shown {
         let pt = self.net.pt();
         if matches!(self.engine, Choice::Auto | Choice::Structural)
-            && let structural::Answer::Impossible(bounds) = { self.net.structure().one_safe() }
+            && let structural::Answer::Impossible(bounds) = { self.net.structure(&self.budget).one_safe() }
         {
             self.used("structural");
-            let evidence = Evidence::one_safe(pt, self.net.structure().dead(), &bounds);
+            let evidence = Evidence::one_safe(pt, self.net.structure(&self.budget).dead(), &bounds);
             return (Verdict::Holds(true), None, evidence.unwrap_or(Evidence::None));
         }
         let two =
@@ -215,7 +215,7 @@ impl Asked<'_, '_> {
         if first.is_something() {
             return first;
         }
-        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal));
+        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal, &limits));
         let Some(smaller) = smaller else { return self.search(self.net, goal) };
         let known = Known::new(&smaller.reduced.net);
         self.used("reductions");
@@ -286,7 +286,7 @@ impl Asked<'_, '_> {
             return first;
         }
         let pt = self.net.pt();
-        let Some(smaller) = Smaller::for_sum(pt, sum) else {
+        let Some(smaller) = Smaller::for_sum(pt, sum, &self.budget.limits) else {
             return self.search_most(self.net, sum);
         };
         let known = Known::new(&smaller.reduced.net);
@@ -316,7 +316,9 @@ impl Asked<'_, '_> {
     fn temporal(&mut self, formula: &Formula) -> Shown {
         let pt = self.net.pt();
         let smaller =
-            (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
+            (self.engine == Choice::Auto)
+                .then(|| Smaller::for_formula(pt, formula, &self.budget.limits))
+                .flatten();
         let found = match &smaller {
             None => self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits),
             Some(smaller) => {

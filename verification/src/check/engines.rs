@@ -6,7 +6,7 @@ use super::engine::{Engine, Extent, Finding, Found, Reason, Task};
 use super::known::Known;
 use crate::certificate::Evidence;
 use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};
-use crate::explicit::{Goal, Limit, Limits, Reached, reach};
+use crate::explicit::{Goal, Limit, Reached, reach};
 use crate::property::{Assumptions, Atom, Ctl, Formula, Linear};
 use crate::pt::Pt;
 use crate::structural;
@@ -23,11 +23,11 @@ impl Engine for Structural {
         "structural"
     }
 
-    fn find(&self, net: &Known<'_>, task: Task<'_>, _: &Budget<'_>) -> Finding {
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         let found = match task {
-            Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net),
-            Task::Reach(goal) => goal_by_clauses(net, goal),
-            Task::Bound(sum) => bound(net, sum),
+            Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net, budget),
+            Task::Reach(goal) => goal_by_clauses(net, goal, budget),
+            Task::Bound(sum) => bound(net, sum, budget),
             Task::Dead | Task::Live | Task::Temporal(_) | Task::Fair(..) => {
                 Found::Nothing(Reason::Unsuited)
             }
@@ -36,21 +36,28 @@ impl Engine for Structural {
     }
 }
 
-fn deadlock(net: &Known<'_>) -> Found {
-    let mut structure = net.structure();
+fn deadlock(net: &Known<'_>, budget: &Budget<'_>) -> Found {
+    let mut structure = net.structure(budget);
     match structure.deadlock() {
         structural::Answer::Impossible(proof) => {
             let evidence = Evidence::deadlock_free(net.pt(), structure.dead(), &proof);
             Found::Never(evidence.unwrap_or(Evidence::None))
         }
         structural::Answer::Reachable(way) => Found::Way(way),
-        structural::Answer::Unknown(_) => Found::Nothing(Reason::Undecided),
+        structural::Answer::Unknown(why) => Found::Nothing(undecided(&why)),
     }
 }
 
-fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
+fn undecided(why: &structural::Unknown) -> Reason {
+    match why {
+        structural::Unknown::Limit(structural::Stop::Time) => Reason::Limit(Limit::Time),
+        _ => Reason::Undecided,
+    }
+}
+
+fn goal_by_clauses(net: &Known<'_>, goal: &Formula, budget: &Budget<'_>) -> Found {
     let Some(clauses) = clauses(goal, net.pt()) else { return Found::Nothing(Reason::Undecided) };
-    let mut structure = net.structure();
+    let mut structure = net.structure(budget);
     let bounds: Vec<_> =
         structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     let mut undecided = false;
@@ -60,6 +67,9 @@ fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
             match structure.reach(clause) {
                 structural::Answer::Impossible(proof) => parts.push((clause.clone(), proof)),
                 structural::Answer::Reachable(way) => return Found::Way(way),
+                structural::Answer::Unknown(structural::Unknown::Limit(structural::Stop::Time)) => {
+                    return Found::Nothing(Reason::Limit(Limit::Time));
+                }
                 structural::Answer::Unknown(_) => undecided = true,
             }
         }
@@ -82,8 +92,8 @@ fn possible(linear: &Linear, bounds: &[Option<i64>]) -> bool {
     least.is_none_or(|it| it <= 0)
 }
 
-fn bound(net: &Known<'_>, sum: &Linear) -> Found {
-    let mut structure = net.structure();
+fn bound(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Found {
+    let mut structure = net.structure(budget);
     let bound = structure.upper_bound(&sum.weights);
     let full = bound
         .as_ref()
@@ -378,13 +388,5 @@ fn limit(limit: coverability::Limit) -> Limit {
         coverability::Limit::Bytes => Limit::Bytes,
         coverability::Limit::Stopped => Limit::Time,
         coverability::Limit::Numbers => Limit::Tokens,
-    }
-}
-
-/// The limits of the explicit engine are those of all engines.
-impl Limits {
-    /// Whether the time is over.
-    pub fn is_over(&self) -> bool {
-        self.deadline.is_some_and(|it| std::time::Instant::now() >= it)
     }
 }

@@ -4,7 +4,7 @@ use super::budget::Budget;
 use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
 use crate::pt::Pt;
 use crate::structural::{self, Structure};
-use std::cell::{OnceCell, RefCell, RefMut};
+use std::cell::{RefCell, RefMut};
 use std::rc::Rc;
 
 /// Of the memory that may be used, a graph that is kept takes at most one of so many parts.
@@ -16,7 +16,7 @@ type Made = Result<Rc<Graph>, Unfinished>;
 #[derive(Debug)]
 pub struct Known<'n> {
     pt: &'n Pt,
-    structure: OnceCell<RefCell<Structure<'n>>>,
+    structure: RefCell<Option<Structure<'n>>>,
     graph: RefCell<Option<(Limits, Made)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
 }
@@ -26,7 +26,7 @@ impl<'n> Known<'n> {
     pub fn new(pt: &'n Pt) -> Self {
         Self {
             pt,
-            structure: OnceCell::new(),
+            structure: RefCell::new(None),
             graph: RefCell::new(None),
             space: RefCell::new(None),
         }
@@ -37,10 +37,13 @@ impl<'n> Known<'n> {
         self.pt
     }
 
-    /// What its structure says.
-    pub(super) fn structure(&self) -> RefMut<'_, Structure<'n>> {
-        let made = || RefCell::new(Structure::new(self.pt, structural::Limits::default()));
-        self.structure.get_or_init(made).borrow_mut()
+    /// What its structure says, within this budget.
+    pub(super) fn structure(&self, budget: &Budget<'_>) -> RefMut<'_, Structure<'n>> {
+        let limits = structural::Limits::within(&budget.limits);
+        RefMut::map(self.structure.borrow_mut(), |kept| {
+            let known = kept.take().and_then(|it| it.within(limits));
+            kept.insert(known.unwrap_or_else(|| Structure::new(self.pt, limits)))
+        })
     }
 
     /// The graph of its markings, or the limit that keeps it from being made.

@@ -55,7 +55,7 @@ impl Graph {
     /// ```
     pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Unfinished> {
         let none = |limit| Unfinished { limit, states: 0 };
-        let widths = Width::of(pt).ok_or(none(Limit::Tokens))?;
+        let widths = Width::of(pt, limits).map_err(none)?;
         search(pt, widths, &mut Construction { pt, limits, progress }).map_err(none)?
     }
 

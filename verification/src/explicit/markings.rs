@@ -38,7 +38,7 @@ impl<'n> Markings<'n> {
     /// # Errors
     /// The limit that it passes.
     pub(crate) fn new(pt: &'n Pt, limits: &Limits) -> Result<Self, Limit> {
-        let widths = Width::of(pt).ok_or(Limit::Tokens)?;
+        let widths = Width::of(pt, limits)?;
         let space = Space::new(pt, &widths).ok_or(Limit::Words)?;
         let (view, seen) = (space.enabling.view(), space.enabling.unseen());
         let mut markings = Self {

@@ -70,6 +70,13 @@ pub struct Limits {
     pub deadline: Option<Instant>,
 }
 
+impl Limits {
+    /// Whether the time is over.
+    pub fn is_over(&self) -> bool {
+        self.deadline.is_some_and(|it| Instant::now() >= it)
+    }
+}
+
 impl Default for Limits {
     /// No limit on markings and time, 4 GiB.
     fn default() -> Self {

@@ -76,8 +76,7 @@ pub fn reach(
     jobs: usize,
     progress: &dyn Fn(Progress),
 ) -> Reached {
-    let widths = Width::of(pt).ok_or(Limit::Tokens);
-    widths
+    Width::of(pt, limits)
         .and_then(|it| search(pt, it, &mut Reach { pt, goal, limits, jobs, progress }))
         .unwrap_or_else(|limit| Reached::Unknown { limit, states: 0 })
 }

@@ -95,9 +95,12 @@ pub fn statespace(
     jobs: usize,
     progress: &dyn Fn(Progress),
 ) -> StateSpace {
-    let Some(widths) = Width::of(pt) else { return StateSpace::none(pt, Limit::Tokens) };
+    let widths = match Width::of(pt, limits) {
+        Ok(widths) => widths,
+        Err(limit) => return StateSpace::none(pt, limit),
+    };
     let is_bounded = widths.iter().all(|it| it.proved);
-    let growth = if is_bounded { None } else { growth(pt) };
+    let growth = if is_bounded { None } else { growth(pt, limits) };
     let few = Limits { states: limits.states.min(OF_AN_UNBOUNDED_NET), ..*limits };
     let limits = if growth.is_some() { &few } else { limits };
     let plan = Plan { pt, limits, jobs, progress, goal: None };

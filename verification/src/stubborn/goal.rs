@@ -30,8 +30,8 @@ impl Goal {
         Some(match formula {
             Formula::Atom(Atom::AtMost(linear)) => {
                 let sign = if positive { -1 } else { 1 };
-                let moves =
-                    transitions().filter(|it| linear.change(pt, *it).signum() == sign).collect();
+                let changers = linear.changers(pt).into_iter();
+                let moves = changers.filter(|it| linear.change(pt, *it).signum() == sign).collect();
                 if positive {
                     Self::AtMost(linear.clone(), moves)
                 } else {
