@@ -58,8 +58,8 @@ pub(crate) fn bounds_within<'p>(
 }
 
 fn proved(pt: &Pt, limits: &Limits) -> Result<Vec<Option<u32>>, Limit> {
-    let mut bounds = vec![None; pt.places.len()];
-    for sum in sums(pt, limits)?.iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0)) {
+    let mut bounds = single(pt);
+    for sum in sums(pt, &bounds, limits)?.iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0)) {
         let at_start = |&(place, weight): &(u32, i64)| {
             u128::from(weight.unsigned_abs()) * u128::from(pt.initial[place as usize])
         };
@@ -74,6 +74,48 @@ fn proved(pt: &Pt, limits: &Limits) -> Result<Vec<Option<u32>>, Limit> {
         }
     }
     Ok(bounds)
+}
+
+/// Bounds of the places of each component of the net that has one token at most, and in which no
+/// transition increases the number of tokens: no other sum says more.
+fn single(pt: &Pt) -> Vec<Option<u32>> {
+    let mut parts = Parts((0..pt.places.len() as u32).collect());
+    let transitions = 0..pt.transitions.len() as u32;
+    for transition in transitions.clone() {
+        if let Some((first, others)) = pt.effects.of(transition).split_first() {
+            others.iter().for_each(|it| parts.unite(first.0, it.0));
+        }
+    }
+    let mut tokens = vec![0_u64; pt.places.len()];
+    for place in 0..pt.places.len() as u32 {
+        tokens[parts.of(place) as usize] += u64::from(pt.initial[place as usize]);
+    }
+    for transition in transitions {
+        let effects = pt.effects.of(transition);
+        if effects.iter().map(|it| i128::from(it.1)).sum::<i128>() > 0 {
+            tokens[parts.of(effects[0].0) as usize] = u64::MAX;
+        }
+    }
+    let mut bound = |place| u32::try_from(tokens[parts.of(place) as usize]).ok().filter(|it| *it <= 1);
+    (0..pt.places.len() as u32).map(&mut bound).collect()
+}
+
+/// Sets without a common member, each with one that stands for it.
+struct Parts(Vec<u32>);
+
+impl Parts {
+    fn of(&mut self, mut it: u32) -> u32 {
+        while self.0[it as usize] != it {
+            self.0[it as usize] = self.0[self.0[it as usize] as usize];
+            it = self.0[it as usize];
+        }
+        it
+    }
+
+    fn unite(&mut self, one: u32, other: u32) {
+        let (one, other) = (self.of(one), self.of(other));
+        self.0[one.max(other) as usize] = one.min(other);
+    }
 }
 
 /// A weighted sum of tokens, and by how much each transition changes it. Lists are sorted.
@@ -132,7 +174,7 @@ struct Pair {
     replaces: Option<usize>,
 }
 
-fn sums(pt: &Pt, limits: &Limits) -> Result<Vec<Rc<Sum>>, Limit> {
+fn sums(pt: &Pt, known: &[Option<u32>], limits: &Limits) -> Result<Vec<Rc<Sum>>, Limit> {
     let (places, transitions) = (pt.places.len(), pt.transitions.len());
     let mut sums = Sums {
         initial: &pt.initial,
@@ -149,7 +191,8 @@ fn sums(pt: &Pt, limits: &Limits) -> Result<Vec<Rc<Sum>>, Limit> {
         bytes: 0,
     };
     let mut looked = 0;
-    for place in 0..places as u32 {
+    // No sum has places of more than one component.
+    for place in (0..places as u32).filter(|&it| known[it as usize].is_none()) {
         let grows = pt.changers.of(place).to_vec();
         sums.keep(Sum { weights: vec![(place, 1)], grows, places: 1 << (place % 64) });
     }

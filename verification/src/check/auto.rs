@@ -6,10 +6,12 @@ use super::engines::{Coverability, Explicit, Structural, Stubborn, Temporal, gro
 use super::known::Known;
 use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
+use crate::bounds::bounds_within;
 use crate::certificate::{Evidence, One, most_markings};
 use crate::diagnosis::shrink;
 use crate::explicit::{Limit, Limits};
 use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
+use crate::reductions::LiftError;
 use crate::structural;
 use crate::temporal::{Rest, Run};
 use cotama_core::net::{PlaceId, TransitionId};
@@ -27,6 +29,9 @@ const SHRUNK: usize = 500;
 
 /// Markings of a net that is looked at once more for a run.
 const SHOWN: u64 = 20_000;
+
+/// ω-markings of a first look at a net that may be unbounded.
+const OMEGAS: u64 = 2_000;
 
 /// Markings of a first look.
 const GLANCE: u64 = 1_000;
@@ -172,6 +177,7 @@ impl Asked<'_, '_> {
                 let evidence = Evidence::trace(self.net.pt(), &fire);
                 (Verdict::Holds(asked.expected), Some(Run { stem: way, rest: Rest::Any }), evidence)
             }
+            Found::Reached => (Verdict::Holds(asked.expected), None, Evidence::None),
             Found::Never(evidence) => (Verdict::Holds(!asked.expected), None, evidence),
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
             _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
@@ -207,6 +213,7 @@ impl Asked<'_, '_> {
             task,
             &Budget { limits: Limits { states: GLANCE, ..limits }, ..self.budget },
         );
+        self.states = self.states.max(first.states);
         if matches!(first.found, Found::Way(_)) {
             self.used(Stubborn.name());
             return first;
@@ -227,7 +234,8 @@ impl Asked<'_, '_> {
         match found.found {
             Found::Way(way) => match smaller.reduced.trail.lift(pt, &way) {
                 Ok(way) => Finding { found: Found::Way(way), ..found },
-                Err(_) => Finding::nothing(Reason::Limit(Limit::Bytes), found.states),
+                Err(LiftError::TooLong) => Finding { found: Found::Reached, ..found },
+                Err(LiftError::NotARun) => Finding::nothing(Reason::Undecided, found.states),
             },
             // What was shown of the smaller net says nothing to who does not believe the
             // reductions.
@@ -303,7 +311,18 @@ impl Asked<'_, '_> {
         found
     }
 
+    /// Of nets that no sum of places bounds, a few ω-markings may tell; else all markings.
     fn search_most(&mut self, net: &Known<'_>, sum: &Linear) -> Finding {
+        let limits = self.budget.limits;
+        let is_bounded =
+            bounds_within(net.pt(), &limits).is_ok_and(|it| it.iter().all(Option::is_some));
+        if !is_bounded {
+            let few = Limits { states: limits.states.min(OMEGAS), ..half(limits) };
+            let found = self.ask(&Coverability, net, Task::Bound(sum), few);
+            if found.is_something() {
+                return found;
+            }
+        }
         let found = self.ask(&Explicit, net, Task::Bound(sum), self.budget.limits);
         match found.found {
             Found::Nothing(Reason::Limit(Limit::Unbounded)) => {
@@ -380,6 +399,9 @@ impl Asked<'_, '_> {
         task: Task<'_>,
         limits: Limits,
     ) -> Finding {
+        // What is there already takes its part of the memory.
+        let bytes = limits.bytes.saturating_sub(self.net.bytes());
+        let limits = Limits { bytes, ..limits };
         let found = engine.find(net, task, &Budget { limits, ..self.budget });
         if !self.tried.contains(&engine.name()) {
             self.tried.push(engine.name());

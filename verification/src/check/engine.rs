@@ -62,6 +62,8 @@ impl fmt::Display for Extent {
 pub enum Found {
     /// A way to a marking that was looked for.
     Way(Vec<TransitionId>),
+    /// There is such a marking; the way to it is too long to be written.
+    Reached,
     /// There is no such marking.
     Never(Evidence),
     /// The most tokens, and a way to a marking that has them where one is known.
@@ -102,6 +104,8 @@ pub enum Reason {
     Limit(Limit),
     /// The engine cannot tell: what it looks at allows both.
     Undecided,
+    /// The automaton of a formula of LTL is too large.
+    Automaton,
     /// The engine does not answer such questions.
     Unsuited,
 }
@@ -114,9 +118,10 @@ impl fmt::Display for Reason {
             Self::Limit(Limit::Bytes) => "the limit of memory was reached",
             Self::Limit(Limit::Time) => "the limit of time was reached",
             Self::Limit(Limit::Tokens) => "a place can hold more than 4294967295 tokens",
-            Self::Limit(Limit::Words) => "markings take more than 128 words",
+            Self::Limit(Limit::Words) => "markings have come to take more than 128 words",
             Self::Limit(Limit::Unbounded) => "the net is unbounded",
             Self::Undecided => "what the engine looks at allows both answers",
+            Self::Automaton => "the automaton of the formula is too large",
             Self::Unsuited => "the engine does not answer such questions",
         })
     }

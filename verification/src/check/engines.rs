@@ -6,7 +6,7 @@ use super::engine::{Engine, Extent, Finding, Found, Reason, Task};
 use super::known::Known;
 use crate::certificate::Evidence;
 use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};
-use crate::explicit::{Goal, Limit, Reached, reach};
+use crate::explicit::{self, Goal, Limit, Reached, reach};
 use crate::property::{Assumptions, Atom, Ctl, Formula, Linear};
 use crate::pt::Pt;
 use crate::structural;
@@ -121,13 +121,6 @@ fn extent(tokens: i128) -> Extent {
     Extent::Finite(u64::try_from(tokens.max(0)).unwrap_or(u64::MAX))
 }
 
-fn value(sum: &Linear, marking: &[u32]) -> i128 {
-    let tokens = |place: PlaceId| marking.get(place.0 as usize).copied().map_or(0, i128::from);
-    sum.weights
-        .iter()
-        .fold(sum.constant.into(), |all, &(place, weight)| all + i128::from(weight) * tokens(place))
-}
-
 /// Meets all reachable markings, one by one, breadth first.
 #[derive(Clone, Copy, Debug)]
 pub struct Explicit;
@@ -176,8 +169,7 @@ fn reached(reached: Reached) -> Finding {
     Finding { found, states }
 }
 
-/// The most of a sum, by asking for more than the most that was seen until there is no such
-/// marking.
+/// The most of a sum.
 fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
     if let (&[(place, 1)], 0) = (&sum.weights[..], sum.constant) {
         let space = net.space(budget);
@@ -187,38 +179,19 @@ fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
         };
         return Finding { found, states: space.states };
     }
-    let (mut best, mut way, mut states) = (value(sum, &net.pt().initial), Vec::new(), 0);
-    loop {
-        let more = i64::try_from(best + 1).ok().and_then(|least| above(sum, least));
-        let goal = more.map(|it| Formula::Atom(Atom::AtMost(it)));
-        let Some(asked) = goal.as_ref().and_then(Goal::new) else {
-            return Finding::nothing(Reason::Undecided, states);
-        };
-        let found = reach(net.pt(), asked, &budget.limits, budget.jobs, budget.progress);
-        states = states.max(found.states());
-        match found {
-            Reached::Trace { transitions, .. } => {
-                let Some(marking) = after(net.pt(), &transitions) else {
-                    return Finding::nothing(Reason::Limit(Limit::Tokens), states);
-                };
-                (best, way) = (value(sum, &marking), transitions);
-            }
-            Reached::Never { .. } => {
-                return Finding {
-                    found: Found::Most(extent(best), Some(way), Evidence::None),
-                    states,
-                };
-            }
-            Reached::Unknown { limit, .. } => {
-                return Finding::nothing(Reason::Limit(limit), states);
-            }
-        }
-    }
-}
-
-/// The marking after these firings.
-fn after(pt: &Pt, way: &[TransitionId]) -> Option<Vec<u32>> {
-    way.iter().try_fold(pt.initial.clone(), |marking, it| pt.fire(&marking, it.0))
+    let (limits, jobs) = (&budget.limits, budget.jobs);
+    let (most, states) = match explicit::most(net.pt(), sum, limits, jobs, budget.progress) {
+        Ok(found) => found,
+        Err(it) => return Finding::nothing(Reason::Limit(it.limit), it.states),
+    };
+    // A way is a search of its own, which needs no longer than the first one.
+    let goal = above(sum, most).map(|it| Formula::Atom(Atom::AtMost(it)));
+    let asked = goal.as_ref().and_then(Goal::new);
+    let way = asked.and_then(|it| match reach(net.pt(), it, limits, jobs, budget.progress) {
+        Reached::Trace { transitions, .. } => Some(transitions),
+        _ => None,
+    });
+    Finding { found: Found::Most(extent(most.into()), way, Evidence::None), states }
 }
 
 /// Meets markings best first, firing only some of the transitions in each.
@@ -265,6 +238,9 @@ impl Engine for Temporal {
             Verdict::Unknown { reason: temporal::Reason::Limit(limit), states } => {
                 Finding::nothing(Reason::Limit(limit), states)
             }
+            Verdict::Unknown { reason: temporal::Reason::Formula, states } => {
+                Finding::nothing(Reason::Automaton, states)
+            }
             Verdict::Unknown { states, .. } => Finding::nothing(Reason::Unsuited, states),
         }
     }
@@ -309,7 +285,7 @@ impl Engine for Coverability {
                 None => Finding::nothing(Reason::Unsuited, 0),
                 Some(Coverable::Yes(way)) => match way.firings {
                     Some(way) => Finding { found: Found::Way(way), states: 0 },
-                    None => Finding::nothing(Reason::Undecided, 0),
+                    None => Finding { found: Found::Reached, states: 0 },
                 },
                 Some(Coverable::No) => Finding { found: Found::Never(Evidence::None), states: 0 },
                 Some(Coverable::Unknown(it)) => unfinished(it),

@@ -37,6 +37,15 @@ impl<'n> Known<'n> {
         self.pt
     }
 
+    /// About how many bytes the net and what is known of its structure take: in the forms in which
+    /// it was read, and in which it is checked.
+    pub(super) fn bytes(&self) -> u64 {
+        let nodes = (self.pt.places.len() + self.pt.transitions.len()) as u64;
+        let arcs = self.pt.arcs as u64;
+        let structure = self.structure.try_borrow().is_ok_and(|it| it.is_some());
+        300 * nodes + 60 * arcs + if structure { 100 * (nodes + arcs) } else { 0 }
+    }
+
     /// What its structure says, within this budget.
     pub(super) fn structure(&self, budget: &Budget<'_>) -> RefMut<'_, Structure<'n>> {
         let limits = structural::Limits::within(&budget.limits);

@@ -57,7 +57,7 @@ impl Asked<'_, '_> {
         for transition in (0..self.net.pt().transitions.len() as u32).map(TransitionId) {
             match self.reach(&Formula::Atom(Atom::Fireable(vec![transition]))).found {
                 Found::Never(_) => dead.push(transition),
-                Found::Way(_) => {}
+                Found::Way(_) | Found::Reached => {}
                 _ => open.push(transition),
             }
             if self.budget.limits.is_over() {

@@ -44,9 +44,11 @@ mod markings;
 mod plan;
 mod reach;
 mod space;
+mod sparse;
 mod statespace;
 mod table;
 mod view;
+mod wide;
 mod worker;
 
 pub use goal::Goal;
@@ -54,6 +56,7 @@ pub use graph::Graph;
 pub use growth::Growth;
 pub use liveness::{Components, Liveness};
 pub(crate) use markings::{Index, Look, Markings, hash};
+pub(crate) use reach::most;
 pub use reach::{Reached, reach};
 pub use statespace::{StateSpace, statespace};
 
@@ -95,7 +98,8 @@ pub enum Limit {
     Time,
     /// A place with more than 4,294,967,295 tokens.
     Tokens,
-    /// A marking that does not fit in 128 words.
+    /// A marking that no longer fits in 128 words, as places hold more than it seemed. Nets of which
+    /// no marking does are searched too.
     Words,
     /// The net is unbounded: it has no end.
     Unbounded,
