@@ -46,6 +46,8 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
 }
 
 fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+    // Reading is part of the work.
+    let budget = Budget::start(args.budget);
     let engine = engine(args.engine)?;
     let mut files = Files::new(args)?;
     let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
@@ -63,7 +65,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     }
     let subject = if asked.are_laws { subject.without_time() } else { subject };
     files.of = asked.properties.len();
-    let (budget, progress) = (Budget::start(args.budget), Progress::new());
+    let progress = Progress::new();
     let (mut results, mut texts) = (Vec::new(), Vec::new());
     // A person sees each verdict when it is known.
     let shows = !args.json.json && !args.mcc;

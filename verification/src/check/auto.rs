@@ -6,10 +6,12 @@ use super::engines::{Coverability, Explicit, Structural, Stubborn, Temporal, gro
 use super::known::Known;
 use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
+use crate::bounds::bounds_within;
 use crate::certificate::{Evidence, One, most_markings};
 use crate::diagnosis::shrink;
 use crate::explicit::{Goal, Limit, Limits};
 use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
+use crate::reductions::LiftError;
 use crate::structural;
 use crate::temporal::{Rest, Run};
 use cotama_core::net::{PlaceId, TransitionId};
@@ -27,6 +29,9 @@ const SHRUNK: usize = 500;
 
 /// Markings of a net that is looked at once more for a run.
 const SHOWN: u64 = 20_000;
+
+/// ω-markings of a first look at a net that may be unbounded.
+const OMEGAS: u64 = 2_000;
 
 /// Markings of a first look.
 const GLANCE: u64 = 1_000;
@@ -115,10 +120,11 @@ impl Asked<'_, '_> {
     fn one_safe(&mut self) -> Shown {
         let pt = self.net.pt();
         if matches!(self.engine, Choice::Auto | Choice::Structural)
-            && let structural::Answer::Impossible(bounds) = { self.net.structure().one_safe() }
+            && let structural::Answer::Impossible(bounds) =
+                { self.net.structure(&self.budget).one_safe() }
         {
             self.used("structural");
-            let evidence = Evidence::one_safe(pt, self.net.structure().dead(), &bounds);
+            let evidence = Evidence::one_safe(pt, self.net.structure(&self.budget).dead(), &bounds);
             return (Verdict::Holds(true), None, evidence.unwrap_or(Evidence::None));
         }
         let two =
@@ -175,6 +181,7 @@ impl Asked<'_, '_> {
                 let evidence = Evidence::trace(self.net.pt(), &fire);
                 (Verdict::Holds(asked.expected), Some(Run { stem: way, rest: Rest::Any }), evidence)
             }
+            Found::Reached => (Verdict::Holds(asked.expected), None, Evidence::None),
             Found::Never(evidence) => (Verdict::Holds(!asked.expected), None, evidence),
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
             _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
@@ -212,6 +219,7 @@ impl Asked<'_, '_> {
             // A way that a glance finds; that there is none is shown better by others.
             let limits = Limits { states: GLANCE, ..limits };
             let first = Stubborn.find(self.net, task, &Budget { limits, ..self.budget });
+            self.states = self.states.max(first.states);
             if matches!(first.found, Found::Way(_)) {
                 self.used(Stubborn.name());
                 return first;
@@ -224,7 +232,7 @@ impl Asked<'_, '_> {
         if let Some(graph) = self.graph() {
             return self.reach_in(&graph, goal);
         }
-        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal));
+        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal, &limits));
         let Some(smaller) = smaller else { return self.search(self.net, goal) };
         let known = Known::new(&smaller.reduced.net);
         self.used("reductions");
@@ -236,7 +244,8 @@ impl Asked<'_, '_> {
         match found.found {
             Found::Way(way) => match smaller.reduced.trail.lift(pt, &way) {
                 Ok(way) => Finding { found: Found::Way(way), ..found },
-                Err(_) => Finding::nothing(Reason::Limit(Limit::Bytes), found.states),
+                Err(LiftError::TooLong) => Finding { found: Found::Reached, ..found },
+                Err(LiftError::NotARun) => Finding::nothing(Reason::Undecided, found.states),
             },
             // What was shown of the smaller net says nothing to who does not believe the
             // reductions.
@@ -295,7 +304,7 @@ impl Asked<'_, '_> {
             return first;
         }
         let pt = self.net.pt();
-        let Some(smaller) = Smaller::for_sum(pt, sum) else {
+        let Some(smaller) = Smaller::for_sum(pt, sum, &self.budget.limits) else {
             return self.search_most(self.net, sum);
         };
         let known = Known::new(&smaller.reduced.net);
@@ -312,7 +321,18 @@ impl Asked<'_, '_> {
         found
     }
 
+    /// Of nets that no sum of places bounds, a few ω-markings may tell; else all markings.
     fn search_most(&mut self, net: &Known<'_>, sum: &Linear) -> Finding {
+        let limits = self.budget.limits;
+        let is_bounded =
+            bounds_within(net.pt(), &limits).is_ok_and(|it| it.iter().all(Option::is_some));
+        if !is_bounded {
+            let few = Limits { states: limits.states.min(OMEGAS), ..half(limits) };
+            let found = self.ask(&Coverability, net, Task::Bound(sum), few);
+            if found.is_something() {
+                return found;
+            }
+        }
         let found = self.ask(&Explicit, net, Task::Bound(sum), self.budget.limits);
         match found.found {
             Found::Nothing(Reason::Limit(Limit::Unbounded)) => {
@@ -326,7 +346,7 @@ impl Asked<'_, '_> {
         let pt = self.net.pt();
         let stored = self.on_graph(formula);
         let smaller = (self.engine == Choice::Auto && stored.is_none())
-            .then(|| Smaller::for_formula(pt, formula))
+            .then(|| Smaller::for_formula(pt, formula, &self.budget.limits))
             .flatten();
         let found = match (stored, &smaller) {
             (Some(found), _) => found,
@@ -392,6 +412,9 @@ impl Asked<'_, '_> {
         task: Task<'_>,
         limits: Limits,
     ) -> Finding {
+        // What is there already takes its part of the memory.
+        let bytes = limits.bytes.saturating_sub(self.net.bytes());
+        let limits = Limits { bytes, ..limits };
         let found = engine.find(net, task, &Budget { limits, ..self.budget });
         if !self.tried.contains(&engine.name()) {
             self.tried.push(engine.name());

@@ -62,6 +62,8 @@ impl fmt::Display for Extent {
 pub enum Found {
     /// A way to a marking that was looked for.
     Way(Vec<TransitionId>),
+    /// There is such a marking; the way to it is too long to be written.
+    Reached,
     /// There is no such marking.
     Never(Evidence),
     /// The most tokens, and a way to a marking that has them where one is known.
@@ -102,8 +104,8 @@ pub enum Reason {
     Limit(Limit),
     /// The engine cannot tell: what it looks at allows both.
     Undecided,
-    /// The automaton of the formula is too large.
-    Formula,
+    /// The automaton of a formula of LTL is too large.
+    Automaton,
     /// The engine does not answer such questions.
     Unsuited,
 }
@@ -112,7 +114,7 @@ impl From<temporal::Reason> for Reason {
     fn from(reason: temporal::Reason) -> Self {
         match reason {
             temporal::Reason::Limit(limit) => Self::Limit(limit),
-            temporal::Reason::Formula => Self::Formula,
+            temporal::Reason::Formula => Self::Automaton,
             temporal::Reason::Kind => Self::Unsuited,
         }
     }
@@ -134,7 +136,7 @@ impl Reason {
             }
             Self::Limit(Limit::Tokens | Limit::Words) => "check a smaller net",
             Self::Undecided => "let all engines be asked",
-            Self::Formula => "ask for its parts one by one",
+            Self::Automaton => "ask for its parts one by one",
             Self::Unsuited => match question {
                 Question::Response { .. } if !is_timed => "keep the intervals of the net",
                 Question::Formula(formula) | Question::Fair(formula, _) if formula.any(&within) => {
@@ -161,10 +163,10 @@ impl fmt::Display for Reason {
             Self::Limit(Limit::Bytes) => "the limit of memory was reached",
             Self::Limit(Limit::Time) => "the limit of time was reached",
             Self::Limit(Limit::Tokens) => "a place can hold more than 4294967295 tokens",
-            Self::Limit(Limit::Words) => "markings take more than 128 words",
+            Self::Limit(Limit::Words) => "markings have come to take more than 128 words",
             Self::Limit(Limit::Unbounded) => "the net is unbounded",
-            Self::Formula => "the automaton of the formula is too large",
             Self::Undecided => "what the engine looks at allows both answers",
+            Self::Automaton => "the automaton of the formula is too large",
             Self::Unsuited => "the engine does not answer such questions",
         })
     }

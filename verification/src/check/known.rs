@@ -18,7 +18,7 @@ type Made = Result<Rc<Graph>, Unfinished>;
 #[derive(Debug)]
 pub struct Known<'n> {
     pt: &'n Pt,
-    structure: OnceCell<RefCell<Structure<'n>>>,
+    structure: RefCell<Option<Structure<'n>>>,
     graph: RefCell<Option<(Limits, Made)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
     classes: OnceCell<Rc<Classes>>,
@@ -30,7 +30,7 @@ impl<'n> Known<'n> {
     pub fn new(pt: &'n Pt) -> Self {
         Self {
             pt,
-            structure: OnceCell::new(),
+            structure: RefCell::new(None),
             graph: RefCell::new(None),
             space: RefCell::new(None),
             classes: OnceCell::new(),
@@ -43,10 +43,22 @@ impl<'n> Known<'n> {
         self.pt
     }
 
-    /// What its structure says.
-    pub(super) fn structure(&self) -> RefMut<'_, Structure<'n>> {
-        let made = || RefCell::new(Structure::new(self.pt, structural::Limits::default()));
-        self.structure.get_or_init(made).borrow_mut()
+    /// About how many bytes the net and what is known of its structure take: in the forms in which
+    /// it was read, and in which it is checked.
+    pub(super) fn bytes(&self) -> u64 {
+        let nodes = (self.pt.places.len() + self.pt.transitions.len()) as u64;
+        let arcs = self.pt.arcs as u64;
+        let structure = self.structure.try_borrow().is_ok_and(|it| it.is_some());
+        300 * nodes + 60 * arcs + if structure { 100 * (nodes + arcs) } else { 0 }
+    }
+
+    /// What its structure says, within this budget.
+    pub(super) fn structure(&self, budget: &Budget<'_>) -> RefMut<'_, Structure<'n>> {
+        let limits = structural::Limits::within(&budget.limits);
+        RefMut::map(self.structure.borrow_mut(), |kept| {
+            let known = kept.take().and_then(|it| it.within(limits));
+            kept.insert(known.unwrap_or_else(|| Structure::new(self.pt, limits)))
+        })
     }
 
     /// The graph of its markings, or the limit that keeps it from being made.

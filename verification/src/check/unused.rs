@@ -32,7 +32,7 @@ impl<'m> Checker<'m> {
             Model::Timed { net, .. } => self.in_time(net, options),
         };
         all.unwrap_or_else(|| {
-            let mut structure = self.known.structure();
+            let mut structure = self.known.structure(&budget);
             structure.find_dead_transitions();
             Unused::with_dead(self.known.pt(), &structure.dead().transitions)
         })

@@ -234,6 +234,12 @@ impl Enabling {
         self.listed = Some(Listed { chunks, rows: Lists::new(rows), rest: Lists::new(rests) });
     }
 
+    /// About how much memory it takes.
+    pub(super) fn bytes(&self) -> u64 {
+        let listed = self.listed.as_ref().map_or(0, |it| it.rows.len() * size_of::<Vec<u32>>());
+        (size_of_val(&self.rows[..]) + listed) as u64
+    }
+
     /// Room for a view.
     pub(super) fn view(&self) -> View {
         self.start.clone()

@@ -4,29 +4,49 @@ use super::enabling::Seen;
 use super::markings::Look;
 use super::space::Space;
 use super::view::View;
-use crate::property::{Atom, Condition, Formula, Marking};
+use crate::property::{Atom, Condition, Formula, Linear, Marking};
 use cotama_core::net::PlaceId;
+use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 
 /// A formula that speaks of one marking only.
 #[derive(Clone, Copy, Debug)]
-pub struct Goal<'f>(&'f Formula);
+pub struct Goal<'f>(Asked<'f>);
+
+/// What is asked of a marking.
+#[derive(Clone, Copy, Debug)]
+enum Asked<'f> {
+    Formula(&'f Formula),
+    /// Nothing: the most that a sum ever is is kept.
+    Most(&'f Linear, &'f AtomicI64),
+}
 
 impl<'f> Goal<'f> {
     /// `None` when the formula has temporal operators.
     pub fn new(formula: &'f Formula) -> Option<Self> {
-        formula.is_state().then_some(Self(formula))
+        formula.is_state().then_some(Self(Asked::Formula(formula)))
     }
 
-    /// The formula.
-    pub fn formula(self) -> &'f Formula {
-        self.0
+    /// What holds in no marking, and keeps the most that a sum is in those that it is asked of.
+    pub(super) const fn most(sum: &'f Linear, most: &'f AtomicI64) -> Self {
+        Self(Asked::Most(sum, most))
+    }
+
+    /// The formula; `None` of what asks for the most of a sum.
+    pub(crate) fn formula(self) -> Option<&'f Formula> {
+        match self.0 {
+            Asked::Formula(formula) => Some(formula),
+            Asked::Most(..) => None,
+        }
     }
 
     /// What tells whether it holds in markings of a space.
     pub(super) fn packed(self) -> Packed<'f> {
-        match Condition::of_tokens(self.0) {
-            Some(condition) => Packed::Tokens(condition),
-            None => Packed::Looks(self.0),
+        match self.0 {
+            Asked::Formula(formula) => match Condition::of_tokens(formula) {
+                Some(condition) => Packed::Tokens(condition),
+                None => Packed::Looks(self),
+            },
+            Asked::Most(sum, most) => Packed::Most(sum, most),
         }
     }
 }
@@ -37,7 +57,9 @@ pub(super) enum Packed<'f> {
     /// About tokens alone, of which it needs few.
     Tokens(Condition<'f>),
     /// About what is enabled, which is looked up for all transitions at once.
-    Looks(&'f Formula),
+    Looks(Goal<'f>),
+    /// The most that a sum ever is.
+    Most(&'f Linear, &'f AtomicI64),
 }
 
 impl Packed<'_> {
@@ -50,10 +72,11 @@ impl Packed<'_> {
     ) -> bool {
         match self {
             Self::Tokens(condition) => condition.holds(&Few { space, packed }),
-            Self::Looks(formula) => {
+            Self::Looks(goal) => {
                 space.enabling.look(packed, view, seen);
-                holds(formula, &Look { space, packed, view })
+                goal.holds(&Look::packed(space, packed, view))
             }
+            Self::Most(sum, most) => keep(most, sum, &Few { space, packed }),
         }
     }
 }
@@ -72,6 +95,23 @@ impl Marking for Few<'_> {
         match self.packed.get(field.word) {
             Some(word) => field.tokens(*word),
             None => layout.computed_tokens(place.0, self.packed),
+        }
+    }
+}
+
+/// Keeps the most that a sum is.
+fn keep(most: &AtomicI64, sum: &Linear, marking: &impl Marking) -> bool {
+    let value = sum.value(marking).clamp(i64::MIN.into(), i64::MAX.into());
+    most.fetch_max(value as i64, Relaxed);
+    false
+}
+
+impl Goal<'_> {
+    /// Whether it holds in a marking.
+    pub(super) fn holds(self, look: &Look<'_>) -> bool {
+        match self.0 {
+            Asked::Formula(formula) => holds(formula, look),
+            Asked::Most(sum, most) => keep(most, sum, look),
         }
     }
 }

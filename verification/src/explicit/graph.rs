@@ -3,11 +3,15 @@
 use super::bits::BitSet;
 use super::goal::Goal;
 use super::layout::Width;
+use super::markings::Look;
 use super::space::{Search, Space, TooNarrow, search};
+use super::sparse::{Cursor, Sparse};
 use super::table::hash;
-use super::{Limit, Limits, Progress, Unfinished};
+use super::view::View;
+use super::{Limit, Limits, Progress, Unfinished, wide};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
+use std::sync::{Mutex, PoisonError};
 use std::thread;
 use std::time::Instant;
 
@@ -21,10 +25,7 @@ const BATCH: usize = 256;
 /// that fires transitions in their order; and for each marking those that follow it.
 #[derive(Debug)]
 pub struct Graph {
-    space: Space,
-    /// Words of a marking.
-    words: usize,
-    markings: Vec<u64>,
+    markings: Kept,
     /// For each marking where its successors begin.
     starts: Vec<usize>,
     successors: Vec<u32>,
@@ -32,6 +33,51 @@ pub struct Graph {
     transitions: u32,
     /// A bit for each transition that some marking enables.
     fired: Vec<u64>,
+}
+
+/// How markings are kept.
+#[derive(Debug)]
+enum Kept {
+    Packed(Packed),
+    Sparse(Box<Sparse>, Box<Mutex<Cursor>>),
+}
+
+/// Markings of so many words each.
+#[derive(Debug)]
+struct Packed {
+    space: Space,
+    words: usize,
+    markings: Vec<u64>,
+}
+
+impl Packed {
+    fn of(&self, state: u32) -> &[u64] {
+        &self.markings[state as usize * self.words..][..self.words]
+    }
+
+    fn each(&self, states: impl Iterator<Item = u32>, mut look: impl FnMut(&[u64], &View)) {
+        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
+        for state in states {
+            let packed = self.of(state);
+            self.space.enabling.look(packed, &mut view, &mut seen);
+            look(packed, &view);
+        }
+    }
+}
+
+impl Kept {
+    /// Looks at markings.
+    fn each(&self, states: impl Iterator<Item = u32>, mut look: impl FnMut(&Look<'_>)) {
+        match self {
+            Self::Packed(it) => {
+                it.each(states, |packed, view| look(&Look::packed(&it.space, packed, view)));
+            }
+            Self::Sparse(it, cursor) => {
+                let mut cursor = cursor.lock().unwrap_or_else(PoisonError::into_inner);
+                states.for_each(|state| look(&it.look(&mut cursor, state)));
+            }
+        }
+    }
 }
 
 impl Graph {
@@ -60,8 +106,20 @@ impl Graph {
     /// ```
     pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Unfinished> {
         let none = |limit| Unfinished { limit, states: 0 };
-        let widths = Width::of(pt).ok_or(none(Limit::Tokens))?;
-        search(pt, widths, &mut Construction { pt, limits, progress }).map_err(none)?
+        let widths = Width::of(pt, limits).map_err(none)?;
+        match search(pt, widths, &mut Construction { pt, limits, progress }) {
+            Err(Limit::Words) => {
+                let (markings, cursor, arcs) = wide::graph(pt, limits, progress)?;
+                Ok(Self {
+                    markings: Kept::Sparse(Box::new(markings), Box::new(Mutex::new(cursor))),
+                    starts: arcs.starts,
+                    successors: arcs.successors,
+                    transitions: pt.transitions.len() as u32,
+                    fired: arcs.fired,
+                })
+            }
+            found => found.map_err(none)?,
+        }
     }
 
     /// How many markings there are.
@@ -76,9 +134,11 @@ impl Graph {
 
     /// About how much memory it takes.
     pub fn bytes(&self) -> u64 {
-        (size_of_val(&self.markings[..])
-            + size_of_val(&self.starts[..])
-            + size_of_val(&self.successors[..])) as u64
+        let markings = match &self.markings {
+            Kept::Packed(it) => size_of_val(&it.markings[..]) as u64,
+            Kept::Sparse(it, _) => it.bytes(),
+        };
+        markings + (size_of_val(&self.starts[..]) + size_of_val(&self.successors[..])) as u64
     }
 
     /// The markings that follow a marking, one for each transition that is enabled in it, in their
@@ -97,9 +157,10 @@ impl Graph {
     /// # Panics
     /// When there is no such marking.
     pub fn transitions(&self, state: u32) -> Vec<TransitionId> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        self.space.enabling.look(self.packed(state), &mut view, &mut seen);
-        view.transitions().map(TransitionId).collect()
+        let mut all = Vec::new();
+        let each = |look: &Look<'_>| all.extend(look.transitions().map(TransitionId));
+        self.markings.each(std::iter::once(state), each);
+        all
     }
 
     /// The tokens of each place.
@@ -107,11 +168,19 @@ impl Graph {
     /// # Panics
     /// When there is no such marking.
     pub fn marking(&self, state: u32) -> Vec<u32> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let (marking, stored) = (self.packed(state), self.words);
-        self.space.enabling.look(marking, &mut view, &mut seen);
-        let word = |at: usize| if at < stored { marking[at] } else { view.computed[at - stored] };
-        self.space.layout.fields.iter().map(|it| it.tokens(word(it.word)) as u32).collect()
+        let it = match &self.markings {
+            Kept::Packed(it) => it,
+            Kept::Sparse(it, _) => return it.marking(state),
+        };
+        let mut tokens = Vec::new();
+        it.each(std::iter::once(state), |marking, view| {
+            let word = |at: usize| {
+                marking.get(at).copied().unwrap_or_else(|| view.computed[at - it.words])
+            };
+            let fields = &it.space.layout.fields;
+            tokens = fields.iter().map(|it| it.tokens(word(it.word)) as u32).collect();
+        });
+        tokens
     }
 
     /// The tokens of a place in each marking.
@@ -119,34 +188,53 @@ impl Graph {
     /// # Panics
     /// When there is no such place.
     pub fn tokens(&self, place: PlaceId) -> impl Iterator<Item = u32> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let field = &self.space.layout.fields[place.0 as usize];
-        self.markings.chunks_exact(self.words).map(move |marking| {
+        let it = match &self.markings {
+            Kept::Packed(it) => it,
+            Kept::Sparse(it, _) => {
+                let tokens = (0..self.states() as u32).map(move |state| it.tokens(state, place.0));
+                return Either::Sparse(tokens);
+            }
+        };
+        let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
+        let field = &it.space.layout.fields[place.0 as usize];
+        Either::Packed(it.markings.chunks_exact(it.words).map(move |marking| {
             let word = marking.get(field.word).copied().unwrap_or_else(|| {
-                self.space.enabling.look(marking, &mut view, &mut seen);
-                view.computed[field.word - self.words]
+                it.space.enabling.look(marking, &mut view, &mut seen);
+                view.computed[field.word - it.words]
             });
             field.tokens(word) as u32
-        })
+        }))
     }
 
     /// The markings in which the goal holds, looked at by so many threads.
     pub fn satisfying(&self, goal: Goal<'_>, jobs: usize) -> BitSet {
-        let goal = goal.packed();
         let mut set = BitSet::new(self.states(), false);
+        let it = match &self.markings {
+            Kept::Packed(it) => it,
+            Kept::Sparse(..) => {
+                let mut state = 0;
+                self.markings.each(0..self.states() as u32, |look| {
+                    if goal.holds(look) {
+                        set.insert(state);
+                    }
+                    state += 1;
+                });
+                return set;
+            }
+        };
+        let goal = goal.packed();
         let fill = |words: &mut [u64], markings: &[u64]| {
-            let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-            for (word, markings) in words.iter_mut().zip(markings.chunks(64 * self.words)) {
-                for (bit, it) in markings.chunks_exact(self.words).enumerate() {
-                    let holds = goal.holds(&self.space, it, &mut view, &mut seen);
+            let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
+            for (word, markings) in words.iter_mut().zip(markings.chunks(64 * it.words)) {
+                for (bit, marking) in markings.chunks_exact(it.words).enumerate() {
+                    let holds = goal.holds(&it.space, marking, &mut view, &mut seen);
                     *word |= u64::from(holds) << bit;
                 }
             }
         };
         let jobs = jobs.clamp(1, self.states().div_ceil(WORTH));
         let part = self.states().div_ceil(64).div_ceil(jobs).max(1);
-        let mut parts =
-            set.words().chunks_mut(part).zip(self.markings.chunks(part * 64 * self.words));
+        let mut parts = set.words().chunks_mut(part).zip(it.markings.chunks(part * 64 * it.words));
         let first = parts.next();
         thread::scope(|scope| {
             for (words, markings) in parts {
@@ -161,10 +249,13 @@ impl Graph {
 
     /// The first marking in which the goal holds, which is one with a shortest way to it.
     pub fn first(&self, goal: Goal<'_>) -> Option<u32> {
+        let Kept::Packed(it) = &self.markings else {
+            return self.satisfying(goal, 1).ones().next();
+        };
         let goal = goal.packed();
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let holds = |it: &[u64]| goal.holds(&self.space, it, &mut view, &mut seen);
-        self.markings.chunks_exact(self.words).position(holds).map(|it| it as u32)
+        let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
+        let holds = |marking: &[u64]| goal.holds(&it.space, marking, &mut view, &mut seen);
+        it.markings.chunks_exact(it.words).position(holds).map(|it| it as u32)
     }
 
     /// A shortest way from the initial marking to another one.
@@ -207,17 +298,28 @@ impl Graph {
 
     /// Transitions that some of these markings enable: a bit for each, 64 to a word.
     pub(super) fn enabled(&self, states: impl Iterator<Item = u32>) -> Vec<u64> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let mut all = vec![0; view.enabled.len()];
-        for state in states {
-            self.space.enabling.look(self.packed(state), &mut view, &mut seen);
-            all.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
-        }
+        let mut all = vec![0; self.fired.len()];
+        self.markings.each(states, |look| {
+            all.iter_mut().zip(&*look.view.enabled).for_each(|(all, it)| *all |= it);
+        });
         all
     }
+}
 
-    fn packed(&self, state: u32) -> &[u64] {
-        &self.markings[state as usize * self.words..][..self.words]
+/// One of two iterators.
+enum Either<A, B> {
+    Packed(A),
+    Sparse(B),
+}
+
+impl<T, A: Iterator<Item = T>, B: Iterator<Item = T>> Iterator for Either<A, B> {
+    type Item = T;
+
+    fn next(&mut self) -> Option<T> {
+        match self {
+            Self::Packed(it) => it.next(),
+            Self::Sparse(it) => it.next(),
+        }
     }
 }
 
@@ -242,8 +344,8 @@ impl Search for Construction<'_> {
         let transitions = self.pt.transitions.len() as u32;
         Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
             starts.push(successors.len());
-            let markings = markings.into_flattened();
-            Graph { space, words: S, markings, starts, successors, transitions, fired }
+            let markings = Packed { space, words: S, markings: markings.into_flattened() };
+            Graph { markings: Kept::Packed(markings), starts, successors, transitions, fired }
         }))
     }
 }

@@ -230,7 +230,8 @@ impl<const S: usize> Worker<S> {
                 break;
             };
             if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
-                shared.stop(Limit::Time);
+                // Also when the level is only counted to its end.
+                shared.stop.store(Limit::Time.code(), Relaxed);
             }
             // Other limits let the level be counted to its end, so that the counts are those of
             // complete levels.

@@ -159,6 +159,14 @@ fn enabled<M: Marking + ?Sized>(marking: &M, needs: &[(u32, u32)]) -> bool {
 }
 
 impl Linear {
+    /// What it adds up to in a marking.
+    pub(crate) fn value<M: Marking + ?Sized>(&self, marking: &M) -> i128 {
+        let part = |&(place, weight): &(PlaceId, i64)| {
+            i128::from(weight) * i128::from(marking.tokens(place))
+        };
+        self.weights.iter().map(part).fold(self.constant.into(), i128::saturating_add)
+    }
+
     /// Whether the inequality holds in a marking.
     #[inline]
     pub fn holds<M: Marking + ?Sized>(&self, marking: &M) -> bool {

@@ -134,7 +134,9 @@ impl<'s> Search<'s> {
             if is_visited[marking as usize] {
                 continue;
             }
-            if visited.is_multiple_of(TICK) {
+            // What is done for a marking grows with the net.
+            let tick = TICK.min((1 << 16) / (1 + self.pt.transitions.len())).max(1);
+            if visited.is_multiple_of(tick) {
                 self.markings.check_time()?;
                 let (states, depth) =
                     (self.markings.len() as u64, self.from[marking as usize].2.into());

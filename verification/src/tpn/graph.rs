@@ -97,7 +97,8 @@ impl Successors for ClassGraph {
     /// Classes are few: one thread looks at each marking once.
     fn satisfying(&self, goal: Goal<'_>, _: usize) -> BitSet {
         let mut set = BitSet::new(self.states(), false);
-        let Some(condition) = Condition::new(goal.formula(), &self.pt) else { return set };
+        let condition = goal.formula().and_then(|it| Condition::new(it, &self.pt));
+        let Some(condition) = condition else { return set };
         let markings = self.tokens.chunks(self.pt.initial.len().max(1));
         let holds: Vec<bool> = markings.map(|it| condition.holds(it)).collect();
         // A net without places has one marking.

@@ -8,9 +8,10 @@
 mod contest;
 mod fair;
 mod laws;
+mod limits;
 mod message;
 mod mutations;
-mod nets;
+pub(crate) mod nets;
 mod quick;
 mod replay;
 mod small;
