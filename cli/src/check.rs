@@ -4,7 +4,7 @@ pub(crate) mod contest;
 mod explained;
 mod files;
 mod junit;
-mod questions;
+pub(crate) mod questions;
 mod sarif;
 mod watch;
 

@@ -77,7 +77,7 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
 }
 
 /// A property that was typed, or a question by its name.
-fn one(text: &str, initial: bool, subject: &Subject) -> Result<Property, Failure> {
+pub(crate) fn one(text: &str, initial: bool, subject: &Subject) -> Result<Property, Failure> {
     let (name, pt) = (text.trim(), subject.model.pt());
     if let Some(known) = mcc::examination(name).filter(|_| pt.place(name).is_none()) {
         return Ok(known);

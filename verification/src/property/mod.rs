@@ -173,6 +173,15 @@ impl Question {
         Self::Formula(Formula::All(Formula::Globally(alive.into()).into()))
     }
 
+    /// The same question with its formula simplified, as certificates hold it.
+    #[must_use]
+    pub fn simplified(&self) -> Self {
+        match self {
+            Self::Formula(formula) => Self::Formula(formula.simplified()),
+            other => other.clone(),
+        }
+    }
+
     /// The formula that it asks for.
     pub fn formula(&self) -> Option<&Formula> {
         match self {
