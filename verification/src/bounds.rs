@@ -46,10 +46,7 @@ pub fn bounds(pt: &Pt) -> &[Option<u32>] {
 ///
 /// # Errors
 /// Time is up.
-pub(crate) fn bounds_within<'p>(
-    pt: &'p Pt,
-    limits: &Limits,
-) -> Result<&'p [Option<u32>], Limit> {
+pub(crate) fn bounds_within<'p>(pt: &'p Pt, limits: &Limits) -> Result<&'p [Option<u32>], Limit> {
     if let Some(known) = pt.bounds.0.get() {
         return Ok(known);
     }
@@ -59,7 +56,11 @@ pub(crate) fn bounds_within<'p>(
 
 fn proved(pt: &Pt, limits: &Limits) -> Result<Vec<Option<u32>>, Limit> {
     let mut bounds = single(pt);
-    for sum in sums(pt, &bounds, limits)?.iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0)) {
+    if bounds.iter().all(Option::is_some) {
+        return Ok(bounds);
+    }
+    for sum in sums(pt, &bounds, limits)?.iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0))
+    {
         let at_start = |&(place, weight): &(u32, i64)| {
             u128::from(weight.unsigned_abs()) * u128::from(pt.initial[place as usize])
         };
@@ -96,7 +97,8 @@ fn single(pt: &Pt) -> Vec<Option<u32>> {
             tokens[parts.of(effects[0].0) as usize] = u64::MAX;
         }
     }
-    let mut bound = |place| u32::try_from(tokens[parts.of(place) as usize]).ok().filter(|it| *it <= 1);
+    let mut bound =
+        |place| u32::try_from(tokens[parts.of(place) as usize]).ok().filter(|it| *it <= 1);
     (0..pt.places.len() as u32).map(&mut bound).collect()
 }
 

@@ -1,8 +1,8 @@
 //! A question to a smaller net.
 
+use crate::explicit;
 use crate::property::{Atom, Formula, Linear};
 use crate::pt::Pt;
-use crate::explicit;
 use crate::reductions::{Goal, Keep, Limits, Reduced, Tokens, Trail, reduce_within};
 use crate::temporal::{Rest, Run};
 use cotama_core::net::PlaceId;
@@ -45,12 +45,7 @@ impl Smaller {
         }
     }
 
-    fn new(
-        pt: &Pt,
-        formula: &Formula,
-        goal: Goal,
-        limits: &explicit::Limits,
-    ) -> Option<Self> {
+    fn new(pt: &Pt, formula: &Formula, goal: Goal, limits: &explicit::Limits) -> Option<Self> {
         let formula = in_tokens(formula, pt)?;
         let keep = Keep { places: visible(&formula), ..Keep::new(goal) };
         let reduced = smaller(pt, &keep, limits)?;
@@ -85,7 +80,7 @@ const BYTES: u64 = 200;
 /// A smaller net, if there is memory to make it.
 fn smaller(pt: &Pt, keep: &Keep, limits: &explicit::Limits) -> Option<Reduced> {
     let size = (pt.places.len() + pt.transitions.len() + pt.arcs) as u64;
-    if size * BYTES > limits.bytes {
+    if size * BYTES > limits.bytes || limits.is_over() {
         return None;
     }
     let limits = Limits { deadline: limits.deadline, ..Limits::default() };

@@ -266,9 +266,12 @@ impl Marking for Look<'_> {
             Held::Plain(tokens) => tokens.get(at).copied().unwrap_or(0).into(),
             Held::Packed(space, packed) => space.layout.fields.get(at).map_or(0, |field| {
                 let at = field.word;
-                field.tokens(packed.get(at).copied().unwrap_or_else(|| {
-                    self.view.computed[at - packed.len()]
-                }))
+                field.tokens(
+                    packed
+                        .get(at)
+                        .copied()
+                        .unwrap_or_else(|| self.view.computed[at - packed.len()]),
+                )
             }),
         }
     }
@@ -291,7 +294,7 @@ impl Memory {
     ///
     /// # Errors
     /// [`Limit::Bytes`] when that is too much.
-    pub(super) fn take(&mut self, bytes: u64) -> Result<(), Limit> {
+    pub(crate) fn take(&mut self, bytes: u64) -> Result<(), Limit> {
         self.used += bytes;
         if self.used > self.most { Err(Limit::Bytes) } else { Ok(()) }
     }

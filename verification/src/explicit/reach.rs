@@ -2,8 +2,8 @@
 
 use super::block::Block;
 use super::explore::{End, explore};
-use super::growth::growth;
 use super::goal::Goal;
+use super::growth::growth;
 use super::layout::Width;
 use super::plan::Plan;
 use super::space::{Search, Space, TooNarrow, search};

@@ -73,11 +73,7 @@ impl<'s> Search<'s> {
             marking += 1;
             if marking == level {
                 let states = self.markings.len() as u64;
-                progress(Progress {
-                    states,
-                    depth: self.depth,
-                    waiting: states - marking as u64,
-                });
+                progress(Progress { states, depth: self.depth, waiting: states - marking as u64 });
                 if self.markings.len() > level {
                     self.depth += 1;
                 }

@@ -187,9 +187,8 @@ fn replayed(pt: &Pt, mut marking: Vec<u32>, run: &[u32]) -> Option<Vec<u32>> {
 
 /// Fires a transition, if it can.
 fn fire(pt: &Pt, marking: &mut [u32], transition: u32) -> bool {
-    let after = |&(place, by): &(u32, i64)| {
-        u32::try_from(i64::from(marking[place as usize]) + by).is_ok()
-    };
+    let after =
+        |&(place, by): &(u32, i64)| u32::try_from(i64::from(marking[place as usize]) + by).is_ok();
     let can = (transition as usize) < pt.transitions.len()
         && pt.enabled(marking, transition)
         && pt.effects.of(transition).iter().all(after);
@@ -222,8 +221,7 @@ fn rest(
             let mut fired = Vec::new();
             layer.expand(step, 1, &mut fired)?;
             loop {
-                let count =
-                    fired.iter().take_while(|&&it| fire(original, marking, it)).count();
+                let count = fired.iter().take_while(|&&it| fire(original, marking, it)).count();
                 if count < fired.len() || fired.is_empty() {
                     fired[..count].iter().rev().for_each(|&it| unfire(original, marking, it));
                     break;

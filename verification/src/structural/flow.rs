@@ -97,11 +97,7 @@ fn flow(row: &Row, width: u32) -> Flow {
 }
 
 /// A basis of what multiplied with the rows of a matrix of this width gives zero.
-pub(super) fn basis(
-    matrix: &Lists<i64>,
-    width: u32,
-    work: &mut Work,
-) -> Result<Vec<Flow>, Stop> {
+pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<Vec<Flow>, Stop> {
     let mut rows: Vec<Row> = augmented(matrix, width).collect();
     rows.sort_by_key(Vec::len);
     let mut leading: BTreeMap<u32, Row> = BTreeMap::new();
