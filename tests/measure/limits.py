@@ -56,8 +56,9 @@ def questions(n):
 def write(path, net):
     tokens, transitions = net
     with open(path, "w", encoding="utf-8") as file:
-        file.write('<?xml version="1.0"?><pnml xmlns="http://www.pnml.org/version-2009/grammar/pnml">')
-        file.write('<net id="n" type="http://www.pnml.org/version-2009/grammar/ptnet">')
+        grammar = "http://www.pnml.org/version-2009/grammar"
+        file.write(f'<?xml version="1.0"?><pnml xmlns="{grammar}/pnml">')
+        file.write(f'<net id="n" type="{grammar}/ptnet">')
         file.write('<page id="page">\n')
         for at, count in enumerate(tokens):
             mark = f"<initialMarking><text>{count}</text></initialMarking>" if count else ""
@@ -114,7 +115,7 @@ def main():
                     known = result["verdict"] in ("true", "false")
                     rows[-1] += (None if known else result.get("reason") or result["verdict"],)
                     if args.rows:
-                        what = result.get("bound") if known and result.get("bound") else result["verdict"]
+                        what = result.get("bound") or result["verdict"]
                         print(f"  {name} {size} {question}: {what}, {result['engine']}, "
                               f"{rows[-1][2] or ''} {seconds:.2f} s, {memory:.0f} MB", flush=True)
             most, peak = max(it[0] for it in rows), max(it[1] for it in rows)

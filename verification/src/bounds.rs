@@ -56,6 +56,9 @@ pub(crate) fn bounds_within<'p>(pt: &'p Pt, limits: &Limits) -> Result<&'p [Opti
 
 fn proved(pt: &Pt, limits: &Limits) -> Result<Vec<Option<u32>>, Limit> {
     let mut bounds = single(pt);
+    if bounds.iter().all(Option::is_some) {
+        return Ok(bounds);
+    }
     for sum in sums(pt, &bounds, limits)?.iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0))
     {
         let at_start = |&(place, weight): &(u32, i64)| {

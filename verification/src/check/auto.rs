@@ -6,15 +6,15 @@ use super::engines::{Coverability, Explicit, Structural, Stubborn, Temporal, gro
 use super::known::Known;
 use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
-use crate::bounds::bounds_within;
 use crate::certificate::{Evidence, One, most_markings};
 use crate::diagnosis::shrink;
 use crate::explicit::{Goal, Limit, Limits};
-use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
+use crate::property::{Condition, Ctl, Formula, Question, Reachability};
 use crate::reductions::LiftError;
-use crate::structural;
+use crate::structural::Structure;
 use crate::temporal::{Rest, Run};
-use cotama_core::net::{PlaceId, TransitionId};
+use cotama_core::net::TransitionId;
+use std::cell::RefMut;
 use std::time::{Duration, Instant};
 
 /// Markings that are few enough to be met before anything cleverer is tried.
@@ -29,9 +29,6 @@ const SHRUNK: usize = 500;
 
 /// Markings of a net that is looked at once more for a run.
 const SHOWN: u64 = 20_000;
-
-/// ω-markings of a first look at a net that may be unbounded.
-const OMEGAS: u64 = 2_000;
 
 /// Markings of a first look.
 const GLANCE: u64 = 1_000;
@@ -69,7 +66,7 @@ pub(super) struct Asked<'a, 'n> {
     states: u64,
 }
 
-impl Asked<'_, '_> {
+impl<'a, 'n> Asked<'a, 'n> {
     fn question(&mut self, question: &Question) -> Shown {
         match question {
             Question::Formula(formula) => self.formula(&formula.simplified()),
@@ -117,20 +114,12 @@ impl Asked<'_, '_> {
         self.net.graph(&few).map_or(Evidence::None, |it| Evidence::graph(&it))
     }
 
-    fn one_safe(&mut self) -> Shown {
-        let pt = self.net.pt();
-        if matches!(self.engine, Choice::Auto | Choice::Structural)
-            && let structural::Answer::Impossible(bounds) =
-                { self.net.structure(&self.budget).one_safe() }
-        {
-            self.used("structural");
-            let evidence = Evidence::one_safe(pt, self.net.structure(&self.budget).dead(), &bounds);
-            return (Verdict::Holds(true), None, evidence.unwrap_or(Evidence::None));
-        }
-        let two =
-            |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
-        let goal = Formula::Or((0..pt.places.len() as u32).map(|it| two(PlaceId(it))).collect());
-        self.reachability(&Reachability { goal, expected: false })
+    /// The structure of the net, within half of what is left: others may be asked afterwards.
+    pub(super) fn structure(&self) -> Option<RefMut<'a, Structure<'n>>> {
+        let limits = half(self.budget.limits);
+        let bytes = limits.bytes.saturating_sub(self.net.bytes());
+        let limits = Limits { bytes, ..limits };
+        self.net.structure(&Budget { limits, ..self.budget })
     }
 
     fn formula(&mut self, formula: &Formula) -> Shown {
@@ -173,7 +162,7 @@ impl Asked<'_, '_> {
         }
     }
 
-    fn reachability(&mut self, asked: &Reachability) -> Shown {
+    pub(super) fn reachability(&mut self, asked: &Reachability) -> Shown {
         match self.reach(&asked.goal).found {
             Found::Way(way) => {
                 let way = self.shortened(&asked.goal, way);
@@ -276,72 +265,6 @@ impl Asked<'_, '_> {
         self.ask(&Explicit, net, Task::Reach(goal), limits)
     }
 
-    fn bound(&mut self, places: &[PlaceId]) -> Shown {
-        let mut sum = Linear::default();
-        for &place in places {
-            match sum.weights.binary_search_by_key(&place, |it| it.0) {
-                Ok(at) => sum.weights[at].1 += 1,
-                Err(at) => sum.weights.insert(at, (place, 1)),
-            }
-        }
-        let found = self.most(&sum);
-        match found.found {
-            Found::Most(most, way, evidence) => {
-                let run = way.map(|stem| Run { stem, rest: Rest::Any });
-                (Verdict::Bound(most), run, evidence)
-            }
-            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
-            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
-        }
-    }
-
-    fn most(&mut self, sum: &Linear) -> Finding {
-        if self.engine != Choice::Auto {
-            return self.chosen(Task::Bound(sum));
-        }
-        let first = self.ask(&Structural, self.net, Task::Bound(sum), self.budget.limits);
-        if first.is_something() {
-            return first;
-        }
-        let pt = self.net.pt();
-        let Some(smaller) = Smaller::for_sum(pt, sum, &self.budget.limits) else {
-            return self.search_most(self.net, sum);
-        };
-        let known = Known::new(&smaller.reduced.net);
-        self.used("reductions");
-        let mut found =
-            self.ask(&Structural, &known, Task::Bound(&smaller.sum), self.budget.limits);
-        if !found.is_something() {
-            found = self.search_most(&known, &smaller.sum);
-        }
-        if let Found::Most(most, way, _) = found.found {
-            let way = way.and_then(|it| smaller.reduced.trail.lift(pt, &it).ok());
-            found.found = Found::Most(most, way, Evidence::None);
-        }
-        found
-    }
-
-    /// Of nets that no sum of places bounds, a few ω-markings may tell; else all markings.
-    fn search_most(&mut self, net: &Known<'_>, sum: &Linear) -> Finding {
-        let limits = self.budget.limits;
-        let is_bounded =
-            bounds_within(net.pt(), &limits).is_ok_and(|it| it.iter().all(Option::is_some));
-        if !is_bounded {
-            let few = Limits { states: limits.states.min(OMEGAS), ..half(limits) };
-            let found = self.ask(&Coverability, net, Task::Bound(sum), few);
-            if found.is_something() {
-                return found;
-            }
-        }
-        let found = self.ask(&Explicit, net, Task::Bound(sum), self.budget.limits);
-        match found.found {
-            Found::Nothing(Reason::Limit(Limit::Unbounded)) => {
-                self.ask(&Coverability, net, Task::Bound(sum), self.budget.limits)
-            }
-            _ => found,
-        }
-    }
-
     fn temporal(&mut self, formula: &Formula) -> Shown {
         let pt = self.net.pt();
         let stored = self.on_graph(formula);
@@ -396,7 +319,7 @@ impl Asked<'_, '_> {
         }
     }
 
-    fn chosen(&mut self, task: Task<'_>) -> Finding {
+    pub(super) fn chosen(&mut self, task: Task<'_>) -> Finding {
         let engine: &dyn Engine = match self.engine {
             Choice::Structural => &Structural,
             Choice::Stubborn => &Stubborn,
@@ -412,13 +335,16 @@ impl Asked<'_, '_> {
         task: Task<'_>,
         limits: Limits,
     ) -> Finding {
+        if !self.tried.contains(&engine.name()) {
+            self.tried.push(engine.name());
+        }
+        if limits.is_over() {
+            return Finding::nothing(Reason::Limit(Limit::Time), 0);
+        }
         // What is there already takes its part of the memory.
         let bytes = limits.bytes.saturating_sub(self.net.bytes());
         let limits = Limits { bytes, ..limits };
         let found = engine.find(net, task, &Budget { limits, ..self.budget });
-        if !self.tried.contains(&engine.name()) {
-            self.tried.push(engine.name());
-        }
         self.states = self.states.max(found.states);
         if found.is_something() {
             self.used(engine.name());
@@ -450,7 +376,7 @@ fn is_of_runs(formula: &Formula) -> bool {
 }
 
 /// Half of the memory and of the time that is left.
-fn half(limits: Limits) -> Limits {
+pub(super) fn half(limits: Limits) -> Limits {
     let now = Instant::now();
     let left = |it: Instant| now + it.saturating_duration_since(now) / 2 + Duration::from_millis(1);
     Limits { bytes: limits.bytes / 2, deadline: limits.deadline.map(left), ..limits }

@@ -37,7 +37,7 @@ impl Engine for Structural {
 }
 
 fn deadlock(net: &Known<'_>, budget: &Budget<'_>) -> Found {
-    let mut structure = net.structure(budget);
+    let Some(mut structure) = net.structure(budget) else { return NO_ROOM };
     match structure.deadlock() {
         structural::Answer::Impossible(proof) => {
             let evidence = Evidence::deadlock_free(net.pt(), structure.dead(), &proof);
@@ -48,6 +48,9 @@ fn deadlock(net: &Known<'_>, budget: &Budget<'_>) -> Found {
     }
 }
 
+/// There is no memory to look at the structure.
+const NO_ROOM: Found = Found::Nothing(Reason::Limit(Limit::Bytes));
+
 fn undecided(why: &structural::Unknown) -> Reason {
     match why {
         structural::Unknown::Limit(structural::Stop::Time) => Reason::Limit(Limit::Time),
@@ -57,7 +60,7 @@ fn undecided(why: &structural::Unknown) -> Reason {
 
 fn goal_by_clauses(net: &Known<'_>, goal: &Formula, budget: &Budget<'_>) -> Found {
     let Some(clauses) = clauses(goal, net.pt()) else { return Found::Nothing(Reason::Undecided) };
-    let mut structure = net.structure(budget);
+    let Some(mut structure) = net.structure(budget) else { return NO_ROOM };
     let bounds: Vec<_> =
         structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     let mut undecided = false;
@@ -93,7 +96,7 @@ fn possible(linear: &Linear, bounds: &[Option<i64>]) -> bool {
 }
 
 fn bound(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Found {
-    let mut structure = net.structure(budget);
+    let Some(mut structure) = net.structure(budget) else { return NO_ROOM };
     let bound = structure.upper_bound(&sum.weights);
     let full = bound
         .as_ref()

@@ -46,19 +46,26 @@ impl<'n> Known<'n> {
     /// About how many bytes the net and what is known of its structure take: in the forms in which
     /// it was read, and in which it is checked.
     pub(super) fn bytes(&self) -> u64 {
-        let nodes = (self.pt.places.len() + self.pt.transitions.len()) as u64;
-        let arcs = self.pt.arcs as u64;
-        let structure = self.structure.try_borrow().is_ok_and(|it| it.is_some());
-        300 * nodes + 60 * arcs + if structure { 100 * (nodes + arcs) } else { 0 }
+        let kept = self.structure.try_borrow().is_ok_and(|it| it.is_some());
+        self.size() + if kept { self.size() / 2 } else { 0 }
     }
 
-    /// What its structure says, within this budget.
-    pub(super) fn structure(&self, budget: &Budget<'_>) -> RefMut<'_, Structure<'n>> {
+    /// About how many bytes the net takes; and its structure takes as many while it is made.
+    fn size(&self) -> u64 {
+        let nodes = (self.pt.places.len() + self.pt.transitions.len()) as u64;
+        300 * nodes + 60 * self.pt.arcs as u64
+    }
+
+    /// What its structure says, within this budget; `None` where it does not allow to look.
+    pub(super) fn structure(&self, budget: &Budget<'_>) -> Option<RefMut<'_, Structure<'n>>> {
         let limits = structural::Limits::within(&budget.limits);
-        RefMut::map(self.structure.borrow_mut(), |kept| {
-            let known = kept.take().and_then(|it| it.within(limits));
-            kept.insert(known.unwrap_or_else(|| Structure::new(self.pt, limits)))
-        })
+        let mut kept = self.structure.borrow_mut();
+        let known = kept.take().and_then(|it| it.within(limits));
+        if known.is_none() && (self.size() > budget.limits.bytes || budget.limits.is_over()) {
+            return None;
+        }
+        *kept = Some(known.unwrap_or_else(|| Structure::new(self.pt, limits)));
+        RefMut::filter_map(kept, Option::as_mut).ok()
     }
 
     /// The graph of its markings, or the limit that keeps it from being made.

@@ -19,10 +19,7 @@ impl Asked<'_, '_> {
     pub(super) fn dead(&mut self, holds: impl Fn(&Known<'_>, &[TransitionId]) -> bool) -> Shown {
         let none = holds(self.net, &[]);
         if self.engine == Choice::Auto || self.engine == Choice::Structural {
-            let mut structure = self.net.structure(&self.budget);
-            structure.find_dead_transitions();
-            let some = structure.dead().transitions.clone();
-            drop(structure);
+            let some = self.found_dead();
             // More dead transitions change neither `yes, there is one` nor `yes, it is stable`.
             if holds(self.net, &some) != none {
                 self.used("structural");
@@ -43,6 +40,13 @@ impl Asked<'_, '_> {
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
             _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
         }
+    }
+
+    /// Transitions of which the structure shows that they never fire.
+    fn found_dead(&self) -> Vec<TransitionId> {
+        let Some(mut structure) = self.structure() else { return Vec::new() };
+        structure.find_dead_transitions();
+        structure.dead().transitions.clone()
     }
 
     /// Asks for each transition alone; few markings may suffice for most.
@@ -76,11 +80,7 @@ impl Asked<'_, '_> {
     pub(super) fn live(&mut self) -> Shown {
         let pt = self.net.pt();
         if self.engine == Choice::Auto && !pt.transitions.is_empty() {
-            let mut structure = self.net.structure(&self.budget);
-            structure.find_dead_transitions();
-            let dead = !structure.dead().transitions.is_empty();
-            drop(structure);
-            if dead {
+            if !self.found_dead().is_empty() {
                 self.used("structural");
                 return (Verdict::Holds(false), None, Evidence::None);
             }

@@ -32,6 +32,7 @@ mod known;
 mod laws;
 mod liveness;
 mod model;
+mod most;
 mod reduced;
 mod report;
 mod stored;

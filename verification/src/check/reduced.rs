@@ -80,7 +80,7 @@ const BYTES: u64 = 200;
 /// A smaller net, if there is memory to make it.
 fn smaller(pt: &Pt, keep: &Keep, limits: &explicit::Limits) -> Option<Reduced> {
     let size = (pt.places.len() + pt.transitions.len() + pt.arcs) as u64;
-    if size * BYTES > limits.bytes {
+    if size * BYTES > limits.bytes || limits.is_over() {
         return None;
     }
     let limits = Limits { deadline: limits.deadline, ..Limits::default() };

@@ -2,21 +2,16 @@
 
 use super::bits::BitSet;
 use super::goal::Goal;
+use super::kept::{Kept, Packed};
 use super::layout::Width;
 use super::markings::Look;
 use super::space::{Search, Space, TooNarrow, search};
-use super::sparse::{Cursor, Sparse};
 use super::table::hash;
-use super::view::View;
 use super::{Limit, Limits, Progress, Unfinished, wide};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
-use std::sync::{Mutex, PoisonError};
-use std::thread;
+use std::sync::Mutex;
 use std::time::Instant;
-
-/// Markings that are worth a thread of their own.
-const WORTH: usize = 1 << 14;
 
 /// Successors whose places in the index are looked up at once: their loads overlap.
 const BATCH: usize = 256;
@@ -33,51 +28,6 @@ pub struct Graph {
     transitions: u32,
     /// A bit for each transition that some marking enables.
     fired: Vec<u64>,
-}
-
-/// How markings are kept.
-#[derive(Debug)]
-enum Kept {
-    Packed(Packed),
-    Sparse(Box<Sparse>, Box<Mutex<Cursor>>),
-}
-
-/// Markings of so many words each.
-#[derive(Debug)]
-struct Packed {
-    space: Space,
-    words: usize,
-    markings: Vec<u64>,
-}
-
-impl Packed {
-    fn of(&self, state: u32) -> &[u64] {
-        &self.markings[state as usize * self.words..][..self.words]
-    }
-
-    fn each(&self, states: impl Iterator<Item = u32>, mut look: impl FnMut(&[u64], &View)) {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        for state in states {
-            let packed = self.of(state);
-            self.space.enabling.look(packed, &mut view, &mut seen);
-            look(packed, &view);
-        }
-    }
-}
-
-impl Kept {
-    /// Looks at markings.
-    fn each(&self, states: impl Iterator<Item = u32>, mut look: impl FnMut(&Look<'_>)) {
-        match self {
-            Self::Packed(it) => {
-                it.each(states, |packed, view| look(&Look::packed(&it.space, packed, view)));
-            }
-            Self::Sparse(it, cursor) => {
-                let mut cursor = cursor.lock().unwrap_or_else(PoisonError::into_inner);
-                states.for_each(|state| look(&it.look(&mut cursor, state)));
-            }
-        }
-    }
 }
 
 impl Graph {
@@ -134,11 +84,8 @@ impl Graph {
 
     /// About how much memory it takes.
     pub fn bytes(&self) -> u64 {
-        let markings = match &self.markings {
-            Kept::Packed(it) => size_of_val(&it.markings[..]) as u64,
-            Kept::Sparse(it, _) => it.bytes(),
-        };
-        markings + (size_of_val(&self.starts[..]) + size_of_val(&self.successors[..])) as u64
+        self.markings.bytes()
+            + (size_of_val(&self.starts[..]) + size_of_val(&self.successors[..])) as u64
     }
 
     /// The markings that follow a marking, one for each transition that is enabled in it, in their
@@ -168,19 +115,7 @@ impl Graph {
     /// # Panics
     /// When there is no such marking.
     pub fn marking(&self, state: u32) -> Vec<u32> {
-        let it = match &self.markings {
-            Kept::Packed(it) => it,
-            Kept::Sparse(it, _) => return it.marking(state),
-        };
-        let mut tokens = Vec::new();
-        it.each(std::iter::once(state), |marking, view| {
-            let word = |at: usize| {
-                marking.get(at).copied().unwrap_or_else(|| view.computed[at - it.words])
-            };
-            let fields = &it.space.layout.fields;
-            tokens = fields.iter().map(|it| it.tokens(word(it.word)) as u32).collect();
-        });
-        tokens
+        self.markings.marking(state)
     }
 
     /// The tokens of a place in each marking.
@@ -188,74 +123,17 @@ impl Graph {
     /// # Panics
     /// When there is no such place.
     pub fn tokens(&self, place: PlaceId) -> impl Iterator<Item = u32> {
-        let it = match &self.markings {
-            Kept::Packed(it) => it,
-            Kept::Sparse(it, _) => {
-                let tokens = (0..self.states() as u32).map(move |state| it.tokens(state, place.0));
-                return Either::Sparse(tokens);
-            }
-        };
-        let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
-        let field = &it.space.layout.fields[place.0 as usize];
-        Either::Packed(it.markings.chunks_exact(it.words).map(move |marking| {
-            let word = marking.get(field.word).copied().unwrap_or_else(|| {
-                it.space.enabling.look(marking, &mut view, &mut seen);
-                view.computed[field.word - it.words]
-            });
-            field.tokens(word) as u32
-        }))
+        self.markings.tokens(place, self.states() as u32)
     }
 
     /// The markings in which the goal holds, looked at by so many threads.
     pub fn satisfying(&self, goal: Goal<'_>, jobs: usize) -> BitSet {
-        let mut set = BitSet::new(self.states(), false);
-        let it = match &self.markings {
-            Kept::Packed(it) => it,
-            Kept::Sparse(..) => {
-                let mut state = 0;
-                self.markings.each(0..self.states() as u32, |look| {
-                    if goal.holds(look) {
-                        set.insert(state);
-                    }
-                    state += 1;
-                });
-                return set;
-            }
-        };
-        let goal = goal.packed();
-        let fill = |words: &mut [u64], markings: &[u64]| {
-            let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
-            for (word, markings) in words.iter_mut().zip(markings.chunks(64 * it.words)) {
-                for (bit, marking) in markings.chunks_exact(it.words).enumerate() {
-                    let holds = goal.holds(&it.space, marking, &mut view, &mut seen);
-                    *word |= u64::from(holds) << bit;
-                }
-            }
-        };
-        let jobs = jobs.clamp(1, self.states().div_ceil(WORTH));
-        let part = self.states().div_ceil(64).div_ceil(jobs).max(1);
-        let mut parts = set.words().chunks_mut(part).zip(it.markings.chunks(part * 64 * it.words));
-        let first = parts.next();
-        thread::scope(|scope| {
-            for (words, markings) in parts {
-                scope.spawn(move || fill(words, markings));
-            }
-            if let Some((words, markings)) = first {
-                fill(words, markings);
-            }
-        });
-        set
+        self.markings.satisfying(goal, self.states(), jobs)
     }
 
     /// The first marking in which the goal holds, which is one with a shortest way to it.
     pub fn first(&self, goal: Goal<'_>) -> Option<u32> {
-        let Kept::Packed(it) = &self.markings else {
-            return self.satisfying(goal, 1).ones().next();
-        };
-        let goal = goal.packed();
-        let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
-        let holds = |marking: &[u64]| goal.holds(&it.space, marking, &mut view, &mut seen);
-        it.markings.chunks_exact(it.words).position(holds).map(|it| it as u32)
+        self.markings.first(goal, self.states())
     }
 
     /// A shortest way from the initial marking to another one.
@@ -303,23 +181,6 @@ impl Graph {
             all.iter_mut().zip(&*look.view.enabled).for_each(|(all, it)| *all |= it);
         });
         all
-    }
-}
-
-/// One of two iterators.
-enum Either<A, B> {
-    Packed(A),
-    Sparse(B),
-}
-
-impl<T, A: Iterator<Item = T>, B: Iterator<Item = T>> Iterator for Either<A, B> {
-    type Item = T;
-
-    fn next(&mut self) -> Option<T> {
-        match self {
-            Self::Packed(it) => it.next(),
-            Self::Sparse(it) => it.next(),
-        }
     }
 }
 

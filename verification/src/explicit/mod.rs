@@ -39,6 +39,7 @@ mod goal;
 mod graph;
 mod growth;
 mod implied;
+mod kept;
 mod layout;
 mod liveness;
 mod markings;
@@ -100,8 +101,8 @@ pub enum Limit {
     Time,
     /// A place with more than 4,294,967,295 tokens.
     Tokens,
-    /// A marking that no longer fits in 128 words, as places hold more than it seemed. Nets of which
-    /// no marking does are searched too.
+    /// A marking that no longer fits in 128 words, as places hold more than it seemed. Nets of
+    /// which no marking fits are searched too.
     Words,
     /// The net is unbounded: it has no end.
     Unbounded,

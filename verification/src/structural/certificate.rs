@@ -39,7 +39,8 @@ pub struct Sum {
     pub premises: Vec<(usize, i128)>,
     /// Which traps take part, as `1 - tokens in the trap <= 0`, and how often.
     pub traps: Vec<(Trap, i128)>,
-    /// What no transition changes for the worse; it takes part once. Bounds of many places share it.
+    /// What no transition changes for the worse; it takes part once. Bounds of many places share
+    /// it.
     pub invariant: Arc<LinearInvariant>,
 }
 

@@ -26,7 +26,7 @@ fn padded(pt: &Pt, more: usize) -> Pt {
 
 #[test]
 fn markings_that_are_not_packed_are_the_same() {
-    let mut random = Random::new(17);
+    let mut random = Random(17);
     let limits = Limits { states: 2_000, ..Limits::default() };
     let mut compared = 0;
     for _ in 0..400 {
