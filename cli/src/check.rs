@@ -4,7 +4,7 @@ pub(crate) mod contest;
 mod explained;
 mod files;
 mod junit;
-mod questions;
+pub(crate) mod questions;
 mod sarif;
 mod watch;
 
@@ -46,6 +46,8 @@ pub(crate) fn check(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> 
 }
 
 fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
+    // Reading is part of the work.
+    let budget = Budget::start(args.budget);
     let engine = engine(args.engine)?;
     let mut files = Files::new(args)?;
     let subject = Subject::load(&args.model, args.untimed, args.semantics)?;
@@ -63,7 +65,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     }
     let subject = if asked.are_laws { subject.without_time() } else { subject };
     files.of = asked.properties.len();
-    let (budget, progress) = (Budget::start(args.budget), Progress::new());
+    let progress = Progress::new();
     let (mut results, mut texts) = (Vec::new(), Vec::new());
     // A person sees each verdict when it is known.
     let shows = !args.json.json && !args.mcc;
@@ -78,6 +80,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         let (subject, checker) = (watched.unwrap_or(&subject), own.as_ref().unwrap_or(&plain));
         let requirement = asked.requirements.get(position);
         let budget = budget.share(asked.properties.len() - position);
+        progress.begin(position + 1, asked.properties.len(), &property.name);
         let show = |it| progress.show(it);
         let options = Options {
             engine,
@@ -93,7 +96,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         if args.mcc {
             Screen::raw((line(property, &answer, budget.jobs) + "\n").as_bytes())?;
         }
-        let mut row = row(subject, property, &answer, seconds);
+        let mut row = row(subject, property, &answer, engine, seconds);
         (row.id, row.sentence) = (requirement.map(|it| it.id), requirement.map(|it| it.sentence));
         row.certificate = files.certificate(position, subject, property, &answer, screen)?;
         let mut text = None;
@@ -204,7 +207,13 @@ fn ended(results: &[ResultRow]) -> Exit {
     }
 }
 
-fn row(subject: &Subject, property: &Property, answer: &Answer, seconds: f64) -> ResultRow {
+fn row(
+    subject: &Subject,
+    property: &Property,
+    answer: &Answer,
+    engine: Choice,
+    seconds: f64,
+) -> ResultRow {
     let pt = subject.model.pt();
     let (mut bound, mut response) = (None, None);
     let (verdict, reason) = match answer.verdict {
@@ -222,15 +231,23 @@ fn row(subject: &Subject, property: &Property, answer: &Answer, seconds: f64) ->
             response = Some(ResponseRow { min, max });
             (VerdictName::True, None)
         }
-        Verdict::Unknown(reason) => (VerdictName::Unknown, Some(reason.to_string())),
+        Verdict::Unknown(reason) => (VerdictName::Unknown, Some(reason)),
     };
+    let way_out = reason.map(|reason| match reason {
+        Reason::Limit(Limit::States) => "--max-states allows more",
+        Reason::Limit(Limit::Bytes) => "--max-memory allows more",
+        Reason::Limit(Limit::Time) => "--max-seconds allows more",
+        _ if engine != Choice::Auto => "--engine auto asks the others too",
+        _ => reason.way_out(&property.question, subject.is_timed()),
+    });
     ResultRow {
         name: property.name.clone(),
         id: None,
         sentence: None,
         property: property.question.display(pt).to_string(),
         verdict,
-        reason,
+        reason: reason.map(|it| it.to_string()),
+        way_out,
         bound,
         response,
         engine: answer.engine().to_owned(),

@@ -1,8 +1,9 @@
 //! How far a search is, on a terminal.
 
 use crate::render::numbers::grouped;
+use crate::render::visible;
 use cotama_verification::explicit;
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
 use std::io::{self, IsTerminal, Write};
 use std::time::{Duration, Instant};
 
@@ -16,6 +17,8 @@ pub(crate) struct Progress {
     begun: Cell<Instant>,
     written: Cell<Option<Instant>>,
     before: Cell<u64>,
+    /// Which of several questions it is about.
+    of: RefCell<String>,
 }
 
 impl Progress {
@@ -26,6 +29,17 @@ impl Progress {
             begun: Cell::new(Instant::now()),
             written: Cell::new(None),
             before: Cell::new(0),
+            of: RefCell::default(),
+        }
+    }
+
+    /// The next of so many questions begins.
+    pub(crate) fn begin(&self, number: usize, of: usize, name: &str) {
+        self.begun.set(Instant::now());
+        self.before.set(0);
+        if of > 1 {
+            let short: String = visible(name).chars().take(20).collect();
+            self.of.replace(format!("{number} of {of}, {short}: "));
         }
     }
 
@@ -44,7 +58,7 @@ impl Progress {
         }
         self.written.set(Some(now));
         let line = line(progress, now.duration_since(self.begun.get()), resident_mib());
-        let _ = write!(io::stderr(), "\r{line}\u{1b}[K");
+        let _ = write!(io::stderr(), "\r{}{line}\u{1b}[K", self.of.borrow());
     }
 
     /// Takes the line away.

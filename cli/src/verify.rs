@@ -7,7 +7,9 @@ use crate::input;
 use crate::kind::{self, Kind};
 use crate::output::Screen;
 use crate::render;
-use cotama_verification::certificate::{VerifyError, verify as verify_text};
+use crate::check::questions;
+use crate::subject::Subject;
+use cotama_verification::certificate::{Certificate, VerifyError, verify as verify_text};
 
 /// Checks a certificate again.
 pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -24,7 +26,17 @@ pub(crate) fn verify(args: &VerifyArgs, screen: &Screen) -> Result<Exit, Failure
         at: None,
         message: None,
     };
-    let answer = match verify_text(&text) {
+    let shown = match (&args.model, &args.property) {
+        (Some(model), Some(property)) => {
+            let subject = Subject::load(model, true, args.semantics)?;
+            let property = questions::one(property, true, &subject)?;
+            let pt = subject.model.pt();
+            let about = || Certificate::read(&text).and_then(|it| it.is_about(pt, &property));
+            verify_text(&text).and_then(|shown| about().map(|()| shown))
+        }
+        _ => verify_text(&text),
+    };
+    let answer = match shown {
         Ok(shown) => VerifyAnswer {
             verified: true,
             net: Some(shown.net),

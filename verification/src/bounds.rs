@@ -4,6 +4,7 @@
 //! no place in it its share of that. Such sums are found by the method of Farkas: start with each
 //! place alone, and combine sums until no transition increases any of them.
 
+use crate::explicit::{Limit, Limits};
 use crate::pt::Pt;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -13,6 +14,11 @@ use std::rc::Rc;
 const SUMS: usize = 2_000;
 /// Numbers that may be looked at: some tenths of a second.
 const WORK: usize = 50_000_000;
+/// Numbers between two looks at the clock: some milliseconds.
+const TICK: usize = 1 << 18;
+/// Bytes of a number in the two lists that have it, and of a sum beside its numbers.
+const NUMBER: u64 = 20;
+const SUM: u64 = 160;
 
 /// For each place the most tokens that it can hold by the sums found; `None` where none was found.
 ///
@@ -32,12 +38,29 @@ const WORK: usize = 50_000_000;
 /// assert_eq!(bounds(&Pt::from(&net.view().net())), [Some(1), Some(1), None]);
 /// ```
 pub fn bounds(pt: &Pt) -> &[Option<u32>] {
-    pt.bounds.0.get_or_init(|| proved(pt))
+    bounds_within(pt, &Limits::default()).unwrap_or_default()
 }
 
-fn proved(pt: &Pt) -> Vec<Option<u32>> {
-    let mut bounds = vec![None; pt.places.len()];
-    for sum in sums(pt).iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0)) {
+/// The same within a time and a memory. With less memory less is found; what was found first is
+/// kept with the net.
+///
+/// # Errors
+/// Time is up.
+pub(crate) fn bounds_within<'p>(pt: &'p Pt, limits: &Limits) -> Result<&'p [Option<u32>], Limit> {
+    if let Some(known) = pt.bounds.0.get() {
+        return Ok(known);
+    }
+    let found = proved(pt, limits)?;
+    Ok(pt.bounds.0.get_or_init(|| found))
+}
+
+fn proved(pt: &Pt, limits: &Limits) -> Result<Vec<Option<u32>>, Limit> {
+    let mut bounds = single(pt);
+    if bounds.iter().all(Option::is_some) {
+        return Ok(bounds);
+    }
+    for sum in sums(pt, &bounds, limits)?.iter().filter(|it| it.grows.iter().all(|&(_, by)| by < 0))
+    {
         let at_start = |&(place, weight): &(u32, i64)| {
             u128::from(weight.unsigned_abs()) * u128::from(pt.initial[place as usize])
         };
@@ -51,7 +74,50 @@ fn proved(pt: &Pt) -> Vec<Option<u32>> {
             };
         }
     }
-    bounds
+    Ok(bounds)
+}
+
+/// Bounds of the places of each component of the net that has one token at most, and in which no
+/// transition increases the number of tokens: no other sum says more.
+fn single(pt: &Pt) -> Vec<Option<u32>> {
+    let mut parts = Parts((0..pt.places.len() as u32).collect());
+    let transitions = 0..pt.transitions.len() as u32;
+    for transition in transitions.clone() {
+        if let Some((first, others)) = pt.effects.of(transition).split_first() {
+            others.iter().for_each(|it| parts.unite(first.0, it.0));
+        }
+    }
+    let mut tokens = vec![0_u64; pt.places.len()];
+    for place in 0..pt.places.len() as u32 {
+        tokens[parts.of(place) as usize] += u64::from(pt.initial[place as usize]);
+    }
+    for transition in transitions {
+        let effects = pt.effects.of(transition);
+        if effects.iter().map(|it| i128::from(it.1)).sum::<i128>() > 0 {
+            tokens[parts.of(effects[0].0) as usize] = u64::MAX;
+        }
+    }
+    let mut bound =
+        |place| u32::try_from(tokens[parts.of(place) as usize]).ok().filter(|it| *it <= 1);
+    (0..pt.places.len() as u32).map(&mut bound).collect()
+}
+
+/// Sets without a common member, each with one that stands for it.
+struct Parts(Vec<u32>);
+
+impl Parts {
+    fn of(&mut self, mut it: u32) -> u32 {
+        while self.0[it as usize] != it {
+            self.0[it as usize] = self.0[self.0[it as usize] as usize];
+            it = self.0[it as usize];
+        }
+        it
+    }
+
+    fn unite(&mut self, one: u32, other: u32) {
+        let (one, other) = (self.of(one), self.of(other));
+        self.0[one.max(other) as usize] = one.min(other);
+    }
 }
 
 /// A weighted sum of tokens, and by how much each transition changes it. Lists are sorted.
@@ -86,6 +152,8 @@ struct Sums<'p> {
     settled: Vec<bool>,
     /// Numbers that were looked at.
     work: usize,
+    /// Bytes of the sums that are kept.
+    bytes: u64,
 }
 
 /// What it costs that a transition increases no sum: how many pairs there are, and how long all
@@ -108,7 +176,7 @@ struct Pair {
     replaces: Option<usize>,
 }
 
-fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
+fn sums(pt: &Pt, known: &[Option<u32>], limits: &Limits) -> Result<Vec<Rc<Sum>>, Limit> {
     let (places, transitions) = (pt.places.len(), pt.transitions.len());
     let mut sums = Sums {
         initial: &pt.initial,
@@ -122,22 +190,32 @@ fn sums(pt: &Pt) -> Vec<Rc<Sum>> {
         stale: Vec::new(),
         settled: vec![false; transitions],
         work: 0,
+        bytes: 0,
     };
-    for place in 0..places as u32 {
+    let mut looked = 0;
+    // No sum has places of more than one component.
+    for place in (0..places as u32).filter(|&it| known[it as usize].is_none()) {
         let grows = pt.changers.of(place).to_vec();
         sums.keep(Sum { weights: vec![(place, 1)], grows, places: 1 << (place % 64) });
     }
     while let Some(transition) = sums.cheapest().filter(|_| sums.work < WORK) {
         for pair in sums.settle(transition) {
+            if sums.work >= looked + TICK {
+                looked = sums.work;
+                if limits.is_over() {
+                    return Err(Limit::Time);
+                }
+            }
             let Some(sum) = balanced(&pair.up, &pair.down, transition) else { continue };
             sums.work += sum.weights.len() + sum.grows.len();
-            if sums.kept < places + SUMS && !sums.has_within(&sum) {
+            let has_room = sums.bytes + sum.bytes() <= limits.bytes / 2;
+            if sums.kept < places + SUMS && has_room && !sums.has_within(&sum) {
                 sums.keep(sum);
                 sums.give_up(pair.replaces);
             }
         }
     }
-    sums.all.into_iter().flatten().collect()
+    Ok(sums.all.into_iter().flatten().collect())
 }
 
 impl Sums<'_> {
@@ -149,6 +227,7 @@ impl Sums<'_> {
         }
         self.count(&sum, usize::wrapping_add);
         self.kept += 1;
+        self.bytes += sum.bytes();
         self.all.push(Some(Rc::new(sum)));
     }
 
@@ -186,6 +265,7 @@ impl Sums<'_> {
     fn give_up(&mut self, number: Option<usize>) {
         if let Some(sum) = number.and_then(|it| self.all[it].take()) {
             self.kept -= 1;
+            self.bytes -= sum.bytes();
             self.count(&sum, usize::wrapping_sub);
         }
     }
@@ -213,6 +293,7 @@ impl Sums<'_> {
         }
         self.kept -= grown.len();
         for sum in &grown {
+            self.bytes -= sum.bytes();
             self.count(sum, usize::wrapping_sub);
         }
         let length = |it: usize| self.all[it].as_ref().map(|it| it.weights.len());
@@ -334,6 +415,10 @@ pub(crate) fn gcd(mut a: u64, mut b: u64) -> u64 {
 }
 
 impl Sum {
+    fn bytes(&self) -> u64 {
+        (self.weights.len() + self.grows.len()) as u64 * NUMBER + SUM
+    }
+
     /// Whether the places of this sum, and the settled transitions that decrease it, are among
     /// those of the other one: then the other one says nothing new.
     fn is_within(&self, other: &Self, settled: &[bool]) -> bool {

@@ -91,6 +91,11 @@ impl<T: Copy> Lists<T> {
         }
     }
 
+    /// Bytes.
+    pub(crate) fn size(&self) -> usize {
+        size_of_val(&self.starts[..]) + size_of_val(&self.items[..])
+    }
+
     /// How many lists there are.
     pub fn len(&self) -> usize {
         self.starts.len().saturating_sub(1)

@@ -53,6 +53,9 @@ pub(crate) struct ResultRow {
     pub(crate) verdict: VerdictName,
     /// Why it is unknown, in words.
     pub(crate) reason: Option<String>,
+    /// What can be done about it, for people.
+    #[serde(skip)]
+    pub(crate) way_out: Option<&'static str>,
     /// The most tokens, of `bounds(...)`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) bound: Option<Amount>,

@@ -17,7 +17,8 @@ Properties:
   bounds(a + b)            the most tokens that both ever hold together
   bound(t -> p)            time nets: the least and the most time from t to p
   AG (f -> AF<=200ms o)    time nets: at the latest after 200 ms
-  AF a assuming weak(t)    not on runs that could fire t for ever and never do
+  AF a assuming weak(t)    not on runs that could fire t for ever and never do;
+                           of LTL too, and of time nets
 About one marking, behind a quantifier or with --initial:
   a, a <= 2, 2*a - b = 1   tokens of places
   fireable(t1, t2)         one of these transitions can fire
@@ -185,6 +186,15 @@ pub(crate) struct StatespaceArgs {
 pub(crate) struct VerifyArgs {
     /// The certificate, a JSON file, or `-`
     pub(crate) certificate: String,
+    /// Also that it is about this model, by its name or its file, without its time
+    #[arg(long, value_name = "MODEL", requires = "property")]
+    pub(crate) model: Option<String>,
+    /// And about this property
+    #[arg(long, value_name = "TEXT", requires = "model")]
+    pub(crate) property: Option<String>,
+    /// What it means that nets of a system work together [default: rounds]
+    #[arg(long, value_name = "MEANING", requires = "model")]
+    pub(crate) semantics: Option<Semantics>,
     #[command(flatten)]
     pub(crate) json: Json,
 }

@@ -149,6 +149,7 @@ pub(super) fn vacuity(
         _ => return None,
     };
     let found = vacuous(formula)
+        .asked
         .into_iter()
         .take(QUESTIONS)
         .find(|stronger| holds(Question::Formula(stronger.formula.clone())))?;

@@ -77,7 +77,7 @@ fn requirements(all: &[&'static Requirement], subject: &Subject) -> Result<Asked
 }
 
 /// A property that was typed, or a question by its name.
-fn one(text: &str, initial: bool, subject: &Subject) -> Result<Property, Failure> {
+pub(crate) fn one(text: &str, initial: bool, subject: &Subject) -> Result<Property, Failure> {
     let (name, pt) = (text.trim(), subject.model.pt());
     if let Some(known) = mcc::examination(name).filter(|_| pt.place(name).is_none()) {
         return Ok(known);
@@ -157,16 +157,21 @@ fn parsed(text: &str, initial: bool, subject: &Subject) -> Result<Property, Prop
     if is_state && !initial {
         let start = text.len() - text.trim_start().len();
         let message = "this speaks of one marking, and no quantifier says of which".to_owned();
-        let shown = if name.chars().count() > 40 { "..".to_owned() } else { visible(name) };
+        let is_word = |it: char| it.is_alphanumeric() || matches!(it, '!' | '_' | '.');
+        let shown = match visible(name) {
+            _ if name.chars().count() > 40 => "(..)".to_owned(),
+            name if name.chars().all(is_word) => name,
+            name => format!("({name})"),
+        };
         let help = match property.question.formula() {
             Some(Formula::Atom(Atom::Deadlock)) => {
-                "`deadlock_free`: no run comes to an end; `EF deadlock`: some run does; with \
-                 --initial: at the start"
+                "did you mean `EF deadlock`? some run comes to an end; or `deadlock_free`: none \
+                 does; or, with --initial, at the start?"
                     .to_owned()
             }
             _ => format!(
-                "`AG ({shown})`: in all markings; `EF ({shown})`: in some marking; with \
-                 --initial: at the start"
+                "did you mean `AG {shown}`? in all markings; or `EF {shown}`: in some marking; \
+                 or, with --initial, at the start?"
             ),
         };
         let column = 1 + text[..start].chars().count();

@@ -91,6 +91,7 @@ pub(crate) fn result(row: &ResultRow, is_usual: bool, unit: Option<&str>, width:
     let mut text = format!("  {style}{verdict}{style:#}{space}{said}");
     let mut how = Vec::new();
     how.extend(row.reason.clone());
+    how.extend(row.way_out.map(str::to_owned));
     if !row.techniques.is_empty() {
         how.push(format!("by {}", row.techniques.join(", ")));
     }

@@ -47,6 +47,7 @@
 //!
 //! Each kind of [`Evidence`] says what it shows, and why that is so.
 
+mod about;
 mod build;
 mod display;
 mod read;

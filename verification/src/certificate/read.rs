@@ -148,3 +148,16 @@ impl<'a> Numbered<'a> {
         ensure(self.work.get() <= MAX_WORK, "is too much work to check")
     }
 }
+
+impl Formula {
+    /// Whether each temporal operator stands inside of a quantifier.
+    pub(super) fn is_about_markings(&self) -> bool {
+        match self {
+            Self::Not(a) | Self::ExistsNext(a) | Self::AllNext(a) => a.is_about_markings(),
+            Self::And(all) | Self::Or(all) => all.iter().all(Self::is_about_markings),
+            Self::Next(_) | Self::Finally(_) | Self::Globally(_) | Self::Until(_) => false,
+            Self::AtMost(_) | Self::Fireable(_) | Self::Deadlock => true,
+            Self::Exists(_) | Self::All(_) => true,
+        }
+    }
+}

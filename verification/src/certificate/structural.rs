@@ -10,8 +10,9 @@ use crate::structural::certificate::{
     self as proof, Bound, DeadTransitions, DeadlockFree, disabled,
 };
 use cotama_core::net::{PlaceId, TransitionId};
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::iter::once;
+use std::sync::Arc;
 
 /// A case whose inequalities are not numbered yet, as more facts may be found.
 enum Draft {
@@ -30,6 +31,8 @@ struct Draught<'a> {
     facts: Vec<Fact>,
     /// Where facts are.
     numbers: BTreeMap<Key, usize>,
+    /// Those of invariants that bounds of many places share.
+    invariants: HashMap<*const proof::LinearInvariant, usize>,
     cases: Vec<Draft>,
 }
 
@@ -136,9 +139,9 @@ impl Evidence {
         if pt.places.len() != 1 {
             draught.cases.push(Draft::Split(0));
         }
+        let of_places = of_places(bounds.iter().filter(|it| it.at_most <= 1));
         for place in 0..pt.places.len() as u32 {
-            let bound =
-                bounds.iter().find(|it| it.at_most <= 1 && it.weights == [(PlaceId(place), 1)])?;
+            let bound = of_places.get(&PlaceId(place))?;
             draught.refutation(&bound.refutation, &Node::default().and())?;
         }
         draught.finish()
@@ -147,7 +150,8 @@ impl Evidence {
 
 impl<'a> Draught<'a> {
     fn new(pt: &'a Pt, dead: &'a DeadTransitions) -> Self {
-        Self { pt, dead, facts: Vec::new(), numbers: BTreeMap::new(), cases: Vec::new() }
+        let (facts, cases) = (Vec::new(), Vec::new());
+        Self { pt, dead, facts, numbers: BTreeMap::new(), invariants: HashMap::new(), cases }
     }
 
     fn finish(mut self) -> Option<Evidence> {
@@ -215,16 +219,25 @@ impl<'a> Draught<'a> {
             facts.push((self.fact(true, 1, places), factor(*times)?));
         }
         if !sum.invariant.weights.is_empty() || sum.invariant.constant != 0 {
-            let weights =
-                sum.invariant.weights.iter().map(|it| Some((it.0.0, i64::try_from(it.1).ok()?)));
-            let constant = i64::try_from(sum.invariant.constant.checked_neg()?).ok()?;
-            facts.push((self.fact(false, constant, weights.collect::<Option<_>>()?), 1));
+            facts.push((self.invariant(&sum.invariant)?, 1));
         }
         let assumed =
             sum.premises.iter().map(|it| Some((*node.premises.get(it.0)?, factor(it.1)?)));
         let assumed = assumed.collect::<Option<_>>()?;
         self.cases.push(Draft::Leaf { facts, assumed });
         Some(())
+    }
+
+    fn invariant(&mut self, invariant: &Arc<proof::LinearInvariant>) -> Option<usize> {
+        // The proofs outlive the draught.
+        if let Some(&known) = self.invariants.get(&Arc::as_ptr(invariant)) {
+            return Some(known);
+        }
+        let weights = invariant.weights.iter().map(|it| Some((it.0.0, i64::try_from(it.1).ok()?)));
+        let constant = i64::try_from(invariant.constant.checked_neg()?).ok()?;
+        let fact = self.fact(false, constant, weights.collect::<Option<_>>()?);
+        self.invariants.insert(Arc::as_ptr(invariant), fact);
+        Some(fact)
     }
 
     fn never_fires(&mut self, transition: TransitionId) -> Option<()> {
@@ -300,7 +313,8 @@ impl<'a> Draught<'a> {
         let cut: Vec<_> = cut.into_iter().filter(|it| !single.contains_key(it)).collect();
         let needed: BTreeSet<u32> =
             cut.iter().flat_map(|it| self.pt.needs.of(it.0).iter().map(|need| need.0)).collect();
-        let bound = |place: PlaceId| by.bounds.iter().find(|it| it.weights == [(place, 1)]);
+        let of_places = of_places(by.bounds.iter());
+        let bound = |place: PlaceId| of_places.get(&place).copied();
         let bounds: Vec<_> = needed
             .into_iter()
             .map(|it| bound(PlaceId(it)).map(|bound| (it, bound)))
@@ -346,6 +360,17 @@ impl<'a> Draught<'a> {
         let mut others = bounds.iter().zip(&nodes).rev();
         others.try_for_each(|((_, bound), node)| self.refutation(&bound.refutation, node))
     }
+}
+
+/// The first bound of each place alone.
+fn of_places<'b>(bounds: impl Iterator<Item = &'b Bound>) -> HashMap<PlaceId, &'b Bound> {
+    let mut all = HashMap::new();
+    for bound in bounds {
+        if let [(place, 1)] = bound.weights[..] {
+            all.entry(place).or_insert(bound);
+        }
+    }
+    all
 }
 
 /// Which assumptions take part.

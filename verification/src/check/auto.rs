@@ -8,11 +8,13 @@ use super::reduced::Smaller;
 use super::{Answer, Choice, Options, Verdict};
 use crate::certificate::{Evidence, One, most_markings};
 use crate::diagnosis::shrink;
-use crate::explicit::{Limit, Limits};
-use crate::property::{Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
-use crate::structural;
+use crate::explicit::{Goal, Limit, Limits};
+use crate::property::{Condition, Ctl, Formula, Question, Reachability};
+use crate::reductions::LiftError;
+use crate::structural::Structure;
 use crate::temporal::{Rest, Run};
-use cotama_core::net::{PlaceId, TransitionId};
+use cotama_core::net::TransitionId;
+use std::cell::RefMut;
 use std::time::{Duration, Instant};
 
 /// Markings that are few enough to be met before anything cleverer is tried.
@@ -20,7 +22,7 @@ const FEW: u64 = 200_000;
 
 /// Markings of a net whose graph is evidence: those that the small checker passes through in less
 /// than a minute.
-const CERTIFIED: u64 = 500_000;
+pub(super) const CERTIFIED: u64 = 500_000;
 
 /// The longest way of which it is tried to leave firings out.
 const SHRUNK: usize = 500;
@@ -64,7 +66,7 @@ pub(super) struct Asked<'a, 'n> {
     states: u64,
 }
 
-impl Asked<'_, '_> {
+impl<'a, 'n> Asked<'a, 'n> {
     fn question(&mut self, question: &Question) -> Shown {
         match question {
             Question::Formula(formula) => self.formula(&formula.simplified()),
@@ -100,28 +102,24 @@ impl Asked<'_, '_> {
             Question::Fair(..) | Question::Response { .. } => false,
             _ => true,
         };
-        let few = CERTIFIED.min(most_markings(self.net.pt().places.len()));
-        let states = self.budget.limits.states.min(few);
-        let few = Budget { limits: Limits { states, ..self.budget.limits }, ..self.budget };
         if !known {
             return Evidence::None;
         }
+        if let Some(graph) = self.net.made() {
+            return self.shown_by(&graph);
+        }
+        let few = CERTIFIED.min(most_markings(self.net.pt().places.len()));
+        let states = self.budget.limits.states.min(few);
+        let few = Budget { limits: Limits { states, ..self.budget.limits }, ..self.budget };
         self.net.graph(&few).map_or(Evidence::None, |it| Evidence::graph(&it))
     }
 
-    fn one_safe(&mut self) -> Shown {
-        let pt = self.net.pt();
-        if matches!(self.engine, Choice::Auto | Choice::Structural)
-            && let structural::Answer::Impossible(bounds) = { self.net.structure().one_safe() }
-        {
-            self.used("structural");
-            let evidence = Evidence::one_safe(pt, self.net.structure().dead(), &bounds);
-            return (Verdict::Holds(true), None, evidence.unwrap_or(Evidence::None));
-        }
-        let two =
-            |place| Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }));
-        let goal = Formula::Or((0..pt.places.len() as u32).map(|it| two(PlaceId(it))).collect());
-        self.reachability(&Reachability { goal, expected: false })
+    /// The structure of the net, within half of what is left: others may be asked afterwards.
+    pub(super) fn structure(&self) -> Option<RefMut<'a, Structure<'n>>> {
+        let limits = half(self.budget.limits);
+        let bytes = limits.bytes.saturating_sub(self.net.bytes());
+        let limits = Limits { bytes, ..limits };
+        self.net.structure(&Budget { limits, ..self.budget })
     }
 
     fn formula(&mut self, formula: &Formula) -> Shown {
@@ -164,7 +162,7 @@ impl Asked<'_, '_> {
         }
     }
 
-    fn reachability(&mut self, asked: &Reachability) -> Shown {
+    pub(super) fn reachability(&mut self, asked: &Reachability) -> Shown {
         match self.reach(&asked.goal).found {
             Found::Way(way) => {
                 let way = self.shortened(&asked.goal, way);
@@ -172,6 +170,7 @@ impl Asked<'_, '_> {
                 let evidence = Evidence::trace(self.net.pt(), &fire);
                 (Verdict::Holds(asked.expected), Some(Run { stem: way, rest: Rest::Any }), evidence)
             }
+            Found::Reached => (Verdict::Holds(asked.expected), None, Evidence::None),
             Found::Never(evidence) => (Verdict::Holds(!asked.expected), None, evidence),
             Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
             _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
@@ -181,6 +180,10 @@ impl Asked<'_, '_> {
     /// A shortest way, if the net is small; otherwise one without firings that are not needed.
     fn shortened(&self, goal: &Formula, way: Vec<TransitionId>) -> Vec<TransitionId> {
         let pt = self.net.pt();
+        if let Some(graph) = self.net.made() {
+            let first = Goal::new(goal).and_then(|it| graph.first(it));
+            return first.map_or(way, |it| graph.way(it));
+        }
         let limits = Limits { states: self.budget.limits.states.min(SHOWN), ..self.budget.limits };
         let found =
             Explicit.find(self.net, Task::Reach(goal), &Budget { limits, ..self.budget }).found;
@@ -200,22 +203,25 @@ impl Asked<'_, '_> {
         if self.engine != Choice::Auto {
             return self.chosen(task);
         }
-        // A way that a glance finds; that there is none is shown better by others.
         let limits = self.budget.limits;
-        let first = Stubborn.find(
-            self.net,
-            task,
-            &Budget { limits: Limits { states: GLANCE, ..limits }, ..self.budget },
-        );
-        if matches!(first.found, Found::Way(_)) {
-            self.used(Stubborn.name());
-            return first;
+        if self.net.made().is_none() {
+            // A way that a glance finds; that there is none is shown better by others.
+            let limits = Limits { states: GLANCE, ..limits };
+            let first = Stubborn.find(self.net, task, &Budget { limits, ..self.budget });
+            self.states = self.states.max(first.states);
+            if matches!(first.found, Found::Way(_)) {
+                self.used(Stubborn.name());
+                return first;
+            }
         }
         let first = self.ask(&Structural, self.net, task, limits);
         if first.is_something() {
             return first;
         }
-        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal));
+        if let Some(graph) = self.graph() {
+            return self.reach_in(&graph, goal);
+        }
+        let (pt, smaller) = (self.net.pt(), Smaller::for_goal(self.net.pt(), goal, &limits));
         let Some(smaller) = smaller else { return self.search(self.net, goal) };
         let known = Known::new(&smaller.reduced.net);
         self.used("reductions");
@@ -227,7 +233,8 @@ impl Asked<'_, '_> {
         match found.found {
             Found::Way(way) => match smaller.reduced.trail.lift(pt, &way) {
                 Ok(way) => Finding { found: Found::Way(way), ..found },
-                Err(_) => Finding::nothing(Reason::Limit(Limit::Bytes), found.states),
+                Err(LiftError::TooLong) => Finding { found: Found::Reached, ..found },
+                Err(LiftError::NotARun) => Finding::nothing(Reason::Undecided, found.states),
             },
             // What was shown of the smaller net says nothing to who does not believe the
             // reductions.
@@ -258,68 +265,18 @@ impl Asked<'_, '_> {
         self.ask(&Explicit, net, Task::Reach(goal), limits)
     }
 
-    fn bound(&mut self, places: &[PlaceId]) -> Shown {
-        let mut sum = Linear::default();
-        for &place in places {
-            match sum.weights.binary_search_by_key(&place, |it| it.0) {
-                Ok(at) => sum.weights[at].1 += 1,
-                Err(at) => sum.weights.insert(at, (place, 1)),
-            }
-        }
-        let found = self.most(&sum);
-        match found.found {
-            Found::Most(most, way, evidence) => {
-                let run = way.map(|stem| Run { stem, rest: Rest::Any });
-                (Verdict::Bound(most), run, evidence)
-            }
-            Found::Nothing(reason) => (Verdict::Unknown(reason), None, Evidence::None),
-            _ => (Verdict::Unknown(Reason::Unsuited), None, Evidence::None),
-        }
-    }
-
-    fn most(&mut self, sum: &Linear) -> Finding {
-        if self.engine != Choice::Auto {
-            return self.chosen(Task::Bound(sum));
-        }
-        let first = self.ask(&Structural, self.net, Task::Bound(sum), self.budget.limits);
-        if first.is_something() {
-            return first;
-        }
-        let pt = self.net.pt();
-        let Some(smaller) = Smaller::for_sum(pt, sum) else {
-            return self.search_most(self.net, sum);
-        };
-        let known = Known::new(&smaller.reduced.net);
-        self.used("reductions");
-        let mut found =
-            self.ask(&Structural, &known, Task::Bound(&smaller.sum), self.budget.limits);
-        if !found.is_something() {
-            found = self.search_most(&known, &smaller.sum);
-        }
-        if let Found::Most(most, way, _) = found.found {
-            let way = way.and_then(|it| smaller.reduced.trail.lift(pt, &it).ok());
-            found.found = Found::Most(most, way, Evidence::None);
-        }
-        found
-    }
-
-    fn search_most(&mut self, net: &Known<'_>, sum: &Linear) -> Finding {
-        let found = self.ask(&Explicit, net, Task::Bound(sum), self.budget.limits);
-        match found.found {
-            Found::Nothing(Reason::Limit(Limit::Unbounded)) => {
-                self.ask(&Coverability, net, Task::Bound(sum), self.budget.limits)
-            }
-            _ => found,
-        }
-    }
-
     fn temporal(&mut self, formula: &Formula) -> Shown {
         let pt = self.net.pt();
-        let smaller =
-            (self.engine == Choice::Auto).then(|| Smaller::for_formula(pt, formula)).flatten();
-        let found = match &smaller {
-            None => self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits),
-            Some(smaller) => {
+        let stored = self.on_graph(formula);
+        let smaller = (self.engine == Choice::Auto && stored.is_none())
+            .then(|| Smaller::for_formula(pt, formula, &self.budget.limits))
+            .flatten();
+        let found = match (stored, &smaller) {
+            (Some(found), _) => found,
+            (None, None) => {
+                self.ask(&Temporal, self.net, Task::Temporal(formula), self.budget.limits)
+            }
+            (None, Some(smaller)) => {
                 self.used("reductions");
                 let known = Known::new(&smaller.reduced.net);
                 self.ask(&Temporal, &known, Task::Temporal(&smaller.goal), self.budget.limits)
@@ -362,7 +319,7 @@ impl Asked<'_, '_> {
         }
     }
 
-    fn chosen(&mut self, task: Task<'_>) -> Finding {
+    pub(super) fn chosen(&mut self, task: Task<'_>) -> Finding {
         let engine: &dyn Engine = match self.engine {
             Choice::Structural => &Structural,
             Choice::Stubborn => &Stubborn,
@@ -378,15 +335,27 @@ impl Asked<'_, '_> {
         task: Task<'_>,
         limits: Limits,
     ) -> Finding {
-        let found = engine.find(net, task, &Budget { limits, ..self.budget });
         if !self.tried.contains(&engine.name()) {
             self.tried.push(engine.name());
         }
+        if limits.is_over() {
+            return Finding::nothing(Reason::Limit(Limit::Time), 0);
+        }
+        // What is there already takes its part of the memory.
+        let bytes = limits.bytes.saturating_sub(self.net.bytes());
+        let limits = Limits { bytes, ..limits };
+        let found = engine.find(net, task, &Budget { limits, ..self.budget });
         self.states = self.states.max(found.states);
         if found.is_something() {
             self.used(engine.name());
         }
         found
+    }
+
+    /// An engine that decided, and how many states it met.
+    pub(super) fn met(&mut self, engine: &'static str, states: u64) {
+        self.states = self.states.max(states);
+        self.used(engine);
     }
 
     pub(super) fn used(&mut self, technique: &'static str) {
@@ -407,7 +376,7 @@ fn is_of_runs(formula: &Formula) -> bool {
 }
 
 /// Half of the memory and of the time that is left.
-fn half(limits: Limits) -> Limits {
+pub(super) fn half(limits: Limits) -> Limits {
     let now = Instant::now();
     let left = |it: Instant| now + it.saturating_duration_since(now) / 2 + Duration::from_millis(1);
     Limits { bytes: limits.bytes / 2, deadline: limits.deadline.map(left), ..limits }

@@ -4,8 +4,8 @@ use super::budget::Budget;
 use super::known::Known;
 use crate::certificate::Evidence;
 use crate::explicit::Limit;
-use crate::property::{Assumptions, Formula, Linear};
-use crate::temporal::Run;
+use crate::property::{Assumptions, Formula, Linear, Question};
+use crate::temporal::{self, Run};
 use cotama_core::net::TransitionId;
 use std::fmt;
 
@@ -62,6 +62,8 @@ impl fmt::Display for Extent {
 pub enum Found {
     /// A way to a marking that was looked for.
     Way(Vec<TransitionId>),
+    /// There is such a marking; the way to it is too long to be written.
+    Reached,
     /// There is no such marking.
     Never(Evidence),
     /// The most tokens, and a way to a marking that has them where one is known.
@@ -102,8 +104,55 @@ pub enum Reason {
     Limit(Limit),
     /// The engine cannot tell: what it looks at allows both.
     Undecided,
+    /// The automaton of a formula of LTL is too large.
+    Automaton,
     /// The engine does not answer such questions.
     Unsuited,
+}
+
+impl From<temporal::Reason> for Reason {
+    fn from(reason: temporal::Reason) -> Self {
+        match reason {
+            temporal::Reason::Limit(limit) => Self::Limit(limit),
+            temporal::Reason::Formula => Self::Automaton,
+            temporal::Reason::Kind => Self::Unsuited,
+        }
+    }
+}
+
+impl Reason {
+    /// What can be done about it, half a sentence; of a question to a net with time or without.
+    pub fn way_out(self, question: &Question, is_timed: bool) -> &'static str {
+        let within = |it: &Formula| matches!(it, Formula::Within(..));
+        match self {
+            Self::Limit(Limit::States) => "allow more markings",
+            Self::Limit(Limit::Bytes) => "allow more memory",
+            Self::Limit(Limit::Time) => "allow more time",
+            Self::Limit(Limit::Unbounded) if is_timed => {
+                "give the place that grows a place for the room that is left"
+            }
+            Self::Limit(Limit::Unbounded) => {
+                "`EF`, `AG` and `bounds(..)` of sums of tokens are answered without a bound"
+            }
+            Self::Limit(Limit::Tokens | Limit::Words) => "check a smaller net",
+            Self::Undecided => "let all engines be asked",
+            Self::Automaton => "ask for its parts one by one",
+            Self::Unsuited => match question {
+                Question::Response { .. } if !is_timed => "keep the intervals of the net",
+                Question::Formula(formula) | Question::Fair(formula, _) if formula.any(&within) => {
+                    if is_timed {
+                        "ask for `AF<=5ms p` or `AG (cause -> AF<=5ms effect)`"
+                    } else {
+                        "limits of time ask for a net with intervals"
+                    }
+                }
+                Question::Formula(_) | Question::Fair(..) => {
+                    "put a quantifier in front of each temporal operator, or one in front of all"
+                }
+                _ => "let all engines be asked",
+            },
+        }
+    }
 }
 
 impl fmt::Display for Reason {
@@ -114,9 +163,10 @@ impl fmt::Display for Reason {
             Self::Limit(Limit::Bytes) => "the limit of memory was reached",
             Self::Limit(Limit::Time) => "the limit of time was reached",
             Self::Limit(Limit::Tokens) => "a place can hold more than 4294967295 tokens",
-            Self::Limit(Limit::Words) => "markings take more than 128 words",
+            Self::Limit(Limit::Words) => "markings have come to take more than 128 words",
             Self::Limit(Limit::Unbounded) => "the net is unbounded",
             Self::Undecided => "what the engine looks at allows both answers",
+            Self::Automaton => "the automaton of the formula is too large",
             Self::Unsuited => "the engine does not answer such questions",
         })
     }

@@ -6,12 +6,12 @@ use super::engine::{Engine, Extent, Finding, Found, Reason, Task};
 use super::known::Known;
 use crate::certificate::Evidence;
 use crate::coverability::{self, Bounded, CoverabilitySet, Coverable};
-use crate::explicit::{Goal, Limit, Limits, Reached, reach};
+use crate::explicit::{self, Goal, Limit, Reached, reach};
 use crate::property::{Assumptions, Atom, Ctl, Formula, Linear};
 use crate::pt::Pt;
 use crate::structural;
 use crate::stubborn;
-use crate::temporal::{self, Fairness, Verdict, ctl};
+use crate::temporal::{self, Fairness, Verdict};
 use cotama_core::net::{PlaceId, TransitionId};
 
 /// Looks at the structure of the net and visits no marking.
@@ -23,11 +23,11 @@ impl Engine for Structural {
         "structural"
     }
 
-    fn find(&self, net: &Known<'_>, task: Task<'_>, _: &Budget<'_>) -> Finding {
+    fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         let found = match task {
-            Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net),
-            Task::Reach(goal) => goal_by_clauses(net, goal),
-            Task::Bound(sum) => bound(net, sum),
+            Task::Reach(Formula::Atom(Atom::Deadlock)) => deadlock(net, budget),
+            Task::Reach(goal) => goal_by_clauses(net, goal, budget),
+            Task::Bound(sum) => bound(net, sum, budget),
             Task::Dead | Task::Live | Task::Temporal(_) | Task::Fair(..) => {
                 Found::Nothing(Reason::Unsuited)
             }
@@ -36,21 +36,31 @@ impl Engine for Structural {
     }
 }
 
-fn deadlock(net: &Known<'_>) -> Found {
-    let mut structure = net.structure();
+fn deadlock(net: &Known<'_>, budget: &Budget<'_>) -> Found {
+    let Some(mut structure) = net.structure(budget) else { return NO_ROOM };
     match structure.deadlock() {
         structural::Answer::Impossible(proof) => {
             let evidence = Evidence::deadlock_free(net.pt(), structure.dead(), &proof);
             Found::Never(evidence.unwrap_or(Evidence::None))
         }
         structural::Answer::Reachable(way) => Found::Way(way),
-        structural::Answer::Unknown(_) => Found::Nothing(Reason::Undecided),
+        structural::Answer::Unknown(why) => Found::Nothing(undecided(&why)),
     }
 }
 
-fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
+/// There is no memory to look at the structure.
+const NO_ROOM: Found = Found::Nothing(Reason::Limit(Limit::Bytes));
+
+fn undecided(why: &structural::Unknown) -> Reason {
+    match why {
+        structural::Unknown::Limit(structural::Stop::Time) => Reason::Limit(Limit::Time),
+        _ => Reason::Undecided,
+    }
+}
+
+fn goal_by_clauses(net: &Known<'_>, goal: &Formula, budget: &Budget<'_>) -> Found {
     let Some(clauses) = clauses(goal, net.pt()) else { return Found::Nothing(Reason::Undecided) };
-    let mut structure = net.structure();
+    let Some(mut structure) = net.structure(budget) else { return NO_ROOM };
     let bounds: Vec<_> =
         structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     let mut undecided = false;
@@ -60,6 +70,9 @@ fn goal_by_clauses(net: &Known<'_>, goal: &Formula) -> Found {
             match structure.reach(clause) {
                 structural::Answer::Impossible(proof) => parts.push((clause.clone(), proof)),
                 structural::Answer::Reachable(way) => return Found::Way(way),
+                structural::Answer::Unknown(structural::Unknown::Limit(structural::Stop::Time)) => {
+                    return Found::Nothing(Reason::Limit(Limit::Time));
+                }
                 structural::Answer::Unknown(_) => undecided = true,
             }
         }
@@ -82,8 +95,8 @@ fn possible(linear: &Linear, bounds: &[Option<i64>]) -> bool {
     least.is_none_or(|it| it <= 0)
 }
 
-fn bound(net: &Known<'_>, sum: &Linear) -> Found {
-    let mut structure = net.structure();
+fn bound(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Found {
+    let Some(mut structure) = net.structure(budget) else { return NO_ROOM };
     let bound = structure.upper_bound(&sum.weights);
     let full = bound
         .as_ref()
@@ -109,13 +122,6 @@ fn above(sum: &Linear, least: i64) -> Option<Linear> {
 
 fn extent(tokens: i128) -> Extent {
     Extent::Finite(u64::try_from(tokens.max(0)).unwrap_or(u64::MAX))
-}
-
-fn value(sum: &Linear, marking: &[u32]) -> i128 {
-    let tokens = |place: PlaceId| marking.get(place.0 as usize).copied().map_or(0, i128::from);
-    sum.weights
-        .iter()
-        .fold(sum.constant.into(), |all, &(place, weight)| all + i128::from(weight) * tokens(place))
 }
 
 /// Meets all reachable markings, one by one, breadth first.
@@ -166,8 +172,7 @@ fn reached(reached: Reached) -> Finding {
     Finding { found, states }
 }
 
-/// The most of a sum, by asking for more than the most that was seen until there is no such
-/// marking.
+/// The most of a sum.
 fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
     if let (&[(place, 1)], 0) = (&sum.weights[..], sum.constant) {
         let space = net.space(budget);
@@ -177,38 +182,19 @@ fn most(net: &Known<'_>, sum: &Linear, budget: &Budget<'_>) -> Finding {
         };
         return Finding { found, states: space.states };
     }
-    let (mut best, mut way, mut states) = (value(sum, &net.pt().initial), Vec::new(), 0);
-    loop {
-        let more = i64::try_from(best + 1).ok().and_then(|least| above(sum, least));
-        let goal = more.map(|it| Formula::Atom(Atom::AtMost(it)));
-        let Some(asked) = goal.as_ref().and_then(Goal::new) else {
-            return Finding::nothing(Reason::Undecided, states);
-        };
-        let found = reach(net.pt(), asked, &budget.limits, budget.jobs, budget.progress);
-        states = states.max(found.states());
-        match found {
-            Reached::Trace { transitions, .. } => {
-                let Some(marking) = after(net.pt(), &transitions) else {
-                    return Finding::nothing(Reason::Limit(Limit::Tokens), states);
-                };
-                (best, way) = (value(sum, &marking), transitions);
-            }
-            Reached::Never { .. } => {
-                return Finding {
-                    found: Found::Most(extent(best), Some(way), Evidence::None),
-                    states,
-                };
-            }
-            Reached::Unknown { limit, .. } => {
-                return Finding::nothing(Reason::Limit(limit), states);
-            }
-        }
-    }
-}
-
-/// The marking after these firings.
-fn after(pt: &Pt, way: &[TransitionId]) -> Option<Vec<u32>> {
-    way.iter().try_fold(pt.initial.clone(), |marking, it| pt.fire(&marking, it.0))
+    let (limits, jobs) = (&budget.limits, budget.jobs);
+    let (most, states) = match explicit::most(net.pt(), sum, limits, jobs, budget.progress) {
+        Ok(found) => found,
+        Err(it) => return Finding::nothing(Reason::Limit(it.limit), it.states),
+    };
+    // A way is a search of its own, which needs no longer than the first one.
+    let goal = above(sum, most).map(|it| Formula::Atom(Atom::AtMost(it)));
+    let asked = goal.as_ref().and_then(Goal::new);
+    let way = asked.and_then(|it| match reach(net.pt(), it, limits, jobs, budget.progress) {
+        Reached::Trace { transitions, .. } => Some(transitions),
+        _ => None,
+    });
+    Finding { found: Found::Most(extent(most.into()), way, Evidence::None), states }
 }
 
 /// Meets markings best first, firing only some of the transitions in each.
@@ -247,33 +233,39 @@ impl Engine for Temporal {
             Task::Fair(formula, assumed) => return fair(net, formula, assumed, budget),
             _ => return Finding::nothing(Reason::Unsuited, 0),
         };
-        let graph = || net.graph(budget);
-        match temporal::answer_with(net.pt(), formula, &budget.limits, budget.progress, &graph) {
-            Verdict::Known { holds, run, states } => {
-                Finding { found: Found::Holds(holds, run, Evidence::None), states }
-            }
-            Verdict::Unknown { reason: temporal::Reason::Limit(limit), states } => {
-                Finding::nothing(Reason::Limit(limit), states)
-            }
-            Verdict::Unknown { states, .. } => Finding::nothing(Reason::Unsuited, states),
+        let (graph, made) = (|| net.graph(budget), net.made());
+        let limits = (&budget.limits, budget.jobs);
+        let graphs: (temporal::Graphs<'_>, _) = (&graph, made.as_deref());
+        found(temporal::answer_with(net.pt(), formula, limits, budget.progress, graphs))
+    }
+}
+
+pub(super) fn found(verdict: Verdict) -> Finding {
+    match verdict {
+        Verdict::Known { holds, run, states } => {
+            Finding { found: Found::Holds(holds, run, Evidence::None), states }
         }
+        Verdict::Unknown { reason, states } => Finding::nothing(reason.into(), states),
     }
 }
 
 /// A formula as it is: what is the same on all runs need not be on fair ones, of which there may be
 /// none.
 fn fair(net: &Known<'_>, formula: &Formula, assumed: &Assumptions, budget: &Budget<'_>) -> Finding {
-    let Some((formula, fairness)) = Ctl::new(formula).zip(Fairness::of(assumed)) else {
+    let Some(fairness) = Fairness::of(assumed) else {
         return Finding::nothing(Reason::Unsuited, 0);
     };
+    if Ctl::new(formula).is_none()
+        && let Formula::All(path) | Formula::Exists(path) = formula
+    {
+        let all = matches!(formula, Formula::All(_));
+        let asked = (&**path, assumed);
+        return found(temporal::fair_runs(net.pt(), asked, all, &budget.limits, budget.progress));
+    }
     match net.graph(budget) {
         Ok(graph) => {
-            let answer = ctl(&graph, &formula, &fairness);
-            let run = answer.witness.filter(|it| it.is_complete).map(|it| it.run);
-            Finding {
-                found: Found::Holds(answer.verdict, run, Evidence::None),
-                states: graph.states() as u64,
-            }
+            let bytes = budget.limits.bytes.saturating_sub(graph.bytes());
+            found(temporal::branching(&*graph, formula, &fairness, bytes, budget.jobs))
         }
         Err(it) => Finding::nothing(Reason::Limit(it.limit), it.states),
     }
@@ -299,7 +291,7 @@ impl Engine for Coverability {
                 None => Finding::nothing(Reason::Unsuited, 0),
                 Some(Coverable::Yes(way)) => match way.firings {
                     Some(way) => Finding { found: Found::Way(way), states: 0 },
-                    None => Finding::nothing(Reason::Undecided, 0),
+                    None => Finding { found: Found::Reached, states: 0 },
                 },
                 Some(Coverable::No) => Finding { found: Found::Never(Evidence::None), states: 0 },
                 Some(Coverable::Unknown(it)) => unfinished(it),
@@ -378,13 +370,5 @@ fn limit(limit: coverability::Limit) -> Limit {
         coverability::Limit::Bytes => Limit::Bytes,
         coverability::Limit::Stopped => Limit::Time,
         coverability::Limit::Numbers => Limit::Tokens,
-    }
-}
-
-/// The limits of the explicit engine are those of all engines.
-impl Limits {
-    /// Whether the time is over.
-    pub fn is_over(&self) -> bool {
-        self.deadline.is_some_and(|it| std::time::Instant::now() >= it)
     }
 }

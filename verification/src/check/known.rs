@@ -4,6 +4,8 @@ use super::budget::Budget;
 use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
 use crate::pt::Pt;
 use crate::structural::{self, Structure};
+use crate::temporal::Successors;
+use crate::tpn::{self, ClassGraph, Classes, TimeNet};
 use std::cell::{OnceCell, RefCell, RefMut};
 use std::rc::Rc;
 
@@ -16,9 +18,11 @@ type Made = Result<Rc<Graph>, Unfinished>;
 #[derive(Debug)]
 pub struct Known<'n> {
     pt: &'n Pt,
-    structure: OnceCell<RefCell<Structure<'n>>>,
+    structure: RefCell<Option<Structure<'n>>>,
     graph: RefCell<Option<(Limits, Made)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
+    classes: OnceCell<Rc<Classes>>,
+    atomic: OnceCell<Rc<ClassGraph>>,
 }
 
 impl<'n> Known<'n> {
@@ -26,9 +30,11 @@ impl<'n> Known<'n> {
     pub fn new(pt: &'n Pt) -> Self {
         Self {
             pt,
-            structure: OnceCell::new(),
+            structure: RefCell::new(None),
             graph: RefCell::new(None),
             space: RefCell::new(None),
+            classes: OnceCell::new(),
+            atomic: OnceCell::new(),
         }
     }
 
@@ -37,10 +43,29 @@ impl<'n> Known<'n> {
         self.pt
     }
 
-    /// What its structure says.
-    pub(super) fn structure(&self) -> RefMut<'_, Structure<'n>> {
-        let made = || RefCell::new(Structure::new(self.pt, structural::Limits::default()));
-        self.structure.get_or_init(made).borrow_mut()
+    /// About how many bytes the net and what is known of its structure take: in the forms in which
+    /// it was read, and in which it is checked.
+    pub(super) fn bytes(&self) -> u64 {
+        let kept = self.structure.try_borrow().is_ok_and(|it| it.is_some());
+        self.size() + if kept { self.size() / 2 } else { 0 }
+    }
+
+    /// About how many bytes the net takes; and its structure takes as many while it is made.
+    fn size(&self) -> u64 {
+        let nodes = (self.pt.places.len() + self.pt.transitions.len()) as u64;
+        300 * nodes + 60 * self.pt.arcs as u64
+    }
+
+    /// What its structure says, within this budget; `None` where it does not allow to look.
+    pub(super) fn structure(&self, budget: &Budget<'_>) -> Option<RefMut<'_, Structure<'n>>> {
+        let limits = structural::Limits::within(&budget.limits);
+        let mut kept = self.structure.borrow_mut();
+        let known = kept.take().and_then(|it| it.within(limits));
+        if known.is_none() && (self.size() > budget.limits.bytes || budget.limits.is_over()) {
+            return None;
+        }
+        *kept = Some(known.unwrap_or_else(|| Structure::new(self.pt, limits)));
+        RefMut::filter_map(kept, Option::as_mut).ok()
     }
 
     /// The graph of its markings, or the limit that keeps it from being made.
@@ -66,6 +91,46 @@ impl<'n> Known<'n> {
             *kept = Some((budget.limits, graph.clone()));
         }
         graph
+    }
+
+    /// The graph of its markings if it is there already.
+    pub(super) fn made(&self) -> Option<Rc<Graph>> {
+        match &*self.graph.borrow() {
+            Some((_, Ok(graph))) => Some(Rc::clone(graph)),
+            _ => None,
+        }
+    }
+
+    /// The linear state classes of the net with its intervals, or why they are not all known and
+    /// how many were met.
+    pub(super) fn classes(
+        &self,
+        net: &TimeNet,
+        limits: &tpn::Limits<'_>,
+    ) -> Result<Rc<Classes>, (tpn::Stop, usize)> {
+        if let Some(classes) = self.classes.get().filter(|it| it.classes() <= limits.classes) {
+            return Ok(Rc::clone(classes));
+        }
+        let classes = Rc::new(tpn::classes(net, limits));
+        match classes.stopped() {
+            None => Ok(Rc::clone(self.classes.get_or_init(|| classes))),
+            Some(stop) => Err((stop, classes.classes())),
+        }
+    }
+
+    /// The atomic ones.
+    pub(super) fn atomic(
+        &self,
+        net: &TimeNet,
+        limits: &tpn::Limits<'_>,
+    ) -> Result<Rc<ClassGraph>, (tpn::Stop, usize)> {
+        if let Some(classes) = self.atomic.get().filter(|it| it.states() <= limits.classes) {
+            return Ok(Rc::clone(classes));
+        }
+        // Where the linear ones are no end, these are none.
+        self.classes(net, limits)?;
+        let classes = Rc::new(tpn::atomic(net, limits)?);
+        Ok(Rc::clone(self.atomic.get_or_init(|| classes)))
     }
 
     /// What is counted of its markings.

@@ -19,10 +19,7 @@ impl Asked<'_, '_> {
     pub(super) fn dead(&mut self, holds: impl Fn(&Known<'_>, &[TransitionId]) -> bool) -> Shown {
         let none = holds(self.net, &[]);
         if self.engine == Choice::Auto || self.engine == Choice::Structural {
-            let mut structure = self.net.structure();
-            structure.find_dead_transitions();
-            let some = structure.dead().transitions.clone();
-            drop(structure);
+            let some = self.found_dead();
             // More dead transitions change neither `yes, there is one` nor `yes, it is stable`.
             if holds(self.net, &some) != none {
                 self.used("structural");
@@ -45,6 +42,13 @@ impl Asked<'_, '_> {
         }
     }
 
+    /// Transitions of which the structure shows that they never fire.
+    fn found_dead(&self) -> Vec<TransitionId> {
+        let Some(mut structure) = self.structure() else { return Vec::new() };
+        structure.find_dead_transitions();
+        structure.dead().transitions.clone()
+    }
+
     /// Asks for each transition alone; few markings may suffice for most.
     fn dead_one_by_one(
         &mut self,
@@ -57,7 +61,7 @@ impl Asked<'_, '_> {
         for transition in (0..self.net.pt().transitions.len() as u32).map(TransitionId) {
             match self.reach(&Formula::Atom(Atom::Fireable(vec![transition]))).found {
                 Found::Never(_) => dead.push(transition),
-                Found::Way(_) => {}
+                Found::Way(_) | Found::Reached => {}
                 _ => open.push(transition),
             }
             if self.budget.limits.is_over() {
@@ -76,11 +80,7 @@ impl Asked<'_, '_> {
     pub(super) fn live(&mut self) -> Shown {
         let pt = self.net.pt();
         if self.engine == Choice::Auto && !pt.transitions.is_empty() {
-            let mut structure = self.net.structure();
-            structure.find_dead_transitions();
-            let dead = !structure.dead().transitions.is_empty();
-            drop(structure);
-            if dead {
+            if !self.found_dead().is_empty() {
                 self.used("structural");
                 return (Verdict::Holds(false), None, Evidence::None);
             }
@@ -93,7 +93,9 @@ impl Asked<'_, '_> {
                     Evidence::None,
                 );
             }
-            let siphons = structural::minimal_siphons(pt, 10_000, 20_000_000);
+            let limits = structural::Limits::within(&self.budget.limits);
+            let bytes = self.budget.limits.bytes / 2;
+            let siphons = structural::minimal_siphons_within(pt, 10_000, limits, bytes);
             if let Some(live) = structural::commoner(pt, &siphons).live {
                 self.used("structural");
                 return (Verdict::Holds(live), None, Evidence::None);

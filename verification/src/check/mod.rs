@@ -32,8 +32,10 @@ mod known;
 mod laws;
 mod liveness;
 mod model;
+mod most;
 mod reduced;
 mod report;
+mod stored;
 mod timed;
 mod unused;
 
@@ -47,7 +49,7 @@ pub use report::{Checkable, NoModel, Report, ReportError, report};
 
 use crate::certificate::{self, Certificate, Evidence, Uncertifiable};
 use crate::explicit::{Limits, Progress};
-use crate::property::{Property, Question};
+use crate::property::Property;
 use crate::pt::Pt;
 use crate::temporal::Run;
 use crate::tpn::{Schedule, Time};
@@ -132,10 +134,7 @@ impl Answer {
         if self.evidence == Evidence::None {
             return Err(Uncertified::NoEvidence(self.engine()));
         }
-        let question = match &property.question {
-            Question::Formula(formula) => Question::Formula(formula.simplified()),
-            question => question.clone(),
-        };
+        let question = property.question.simplified();
         let property = Property { name: property.name.clone(), question };
         Certificate::new(pt, &property, known, self.evidence.clone()).map_err(Uncertified::Form)
     }

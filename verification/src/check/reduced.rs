@@ -1,8 +1,9 @@
 //! A question to a smaller net.
 
+use crate::explicit;
 use crate::property::{Atom, Formula, Linear};
 use crate::pt::Pt;
-use crate::reductions::{Goal, Keep, Reduced, Tokens, Trail, reduce};
+use crate::reductions::{Goal, Keep, Limits, Reduced, Tokens, Trail, reduce_within};
 use crate::temporal::{Rest, Run};
 use cotama_core::net::PlaceId;
 
@@ -17,16 +18,20 @@ pub(super) struct Smaller {
 
 impl Smaller {
     /// For a formula that is looked for in a marking; `None` when the net does not become smaller.
-    pub(super) fn for_goal(pt: &Pt, goal: &Formula) -> Option<Self> {
+    pub(super) fn for_goal(pt: &Pt, goal: &Formula, limits: &explicit::Limits) -> Option<Self> {
         match goal {
-            Formula::Atom(Atom::Deadlock) => Self::new(pt, goal, Goal::Deadlock),
+            Formula::Atom(Atom::Deadlock) => Self::new(pt, goal, Goal::Deadlock, limits),
             _ if goal.any(&|it| matches!(it, Formula::Atom(Atom::Deadlock))) => None,
-            _ => Self::new(pt, goal, Goal::Reachability),
+            _ => Self::new(pt, goal, Goal::Reachability, limits),
         }
     }
 
     /// For a formula about runs.
-    pub(super) fn for_formula(pt: &Pt, formula: &Formula) -> Option<Self> {
+    pub(super) fn for_formula(
+        pt: &Pt,
+        formula: &Formula,
+        limits: &explicit::Limits,
+    ) -> Option<Self> {
         let deadlock = formula.any(&|it| matches!(it, Formula::Atom(Atom::Deadlock)));
         let steps = formula.any(&|it| matches!(it, Formula::Next(_)));
         let quantifiers = |it: &Formula| matches!(it, Formula::All(_) | Formula::Exists(_));
@@ -34,23 +39,24 @@ impl Smaller {
             Formula::All(path) | Formula::Exists(path)
                 if !steps && !deadlock && !path.any(&quantifiers) =>
             {
-                Self::new(pt, formula, Goal::StutterInvariantLtl)
+                Self::new(pt, formula, Goal::StutterInvariantLtl, limits)
             }
-            _ => Self::new(pt, formula, Goal::Ctl),
+            _ => Self::new(pt, formula, Goal::Ctl, limits),
         }
     }
 
-    fn new(pt: &Pt, formula: &Formula, goal: Goal) -> Option<Self> {
+    fn new(pt: &Pt, formula: &Formula, goal: Goal, limits: &explicit::Limits) -> Option<Self> {
         let formula = in_tokens(formula, pt)?;
-        let reduced = smaller(pt, &Keep { places: visible(&formula), ..Keep::new(goal) })?;
+        let keep = Keep { places: visible(&formula), ..Keep::new(goal) };
+        let reduced = smaller(pt, &keep, limits)?;
         let goal = rewritten(&formula, &reduced.trail)?;
         Some(Self { reduced, goal, sum: Linear::default() })
     }
 
     /// For a sum of tokens.
-    pub(super) fn for_sum(pt: &Pt, sum: &Linear) -> Option<Self> {
+    pub(super) fn for_sum(pt: &Pt, sum: &Linear, limits: &explicit::Limits) -> Option<Self> {
         let places = sum.weights.iter().map(|it| it.0).collect();
-        let reduced = smaller(pt, &Keep { places, ..Keep::new(Goal::Bounds) })?;
+        let reduced = smaller(pt, &Keep { places, ..Keep::new(Goal::Bounds) }, limits)?;
         let sum = told(sum, &reduced.trail)?;
         Some(Self { reduced, goal: Formula::TRUE, sum })
     }
@@ -68,8 +74,17 @@ impl Smaller {
     }
 }
 
-fn smaller(pt: &Pt, keep: &Keep) -> Option<Reduced> {
-    let reduced = reduce(pt, keep);
+/// Bytes of a place, transition or arc while a net is reduced.
+const BYTES: u64 = 200;
+
+/// A smaller net, if there is memory to make it.
+fn smaller(pt: &Pt, keep: &Keep, limits: &explicit::Limits) -> Option<Reduced> {
+    let size = (pt.places.len() + pt.transitions.len() + pt.arcs) as u64;
+    if size * BYTES > limits.bytes || limits.is_over() {
+        return None;
+    }
+    let limits = Limits { deadline: limits.deadline, ..Limits::default() };
+    let reduced = reduce_within(pt, keep, &limits);
     (!reduced.counts.is_empty()).then_some(reduced)
 }
 

@@ -186,11 +186,13 @@ impl fmt::Display for Report {
                 }
                 Verdict::Response(None) => writeln!(f, "{}: never begins", property.name)?,
                 Verdict::Unknown(reason) => {
-                    writeln!(
-                        f,
-                        "{}: unknown, {reason} after {} markings",
-                        property.name, answer.states
-                    )?;
+                    let is_timed = matches!(self.model, Model::Timed { .. });
+                    let way_out = reason.way_out(&property.question, is_timed);
+                    write!(f, "{}: unknown, {reason}", property.name)?;
+                    if answer.states > 0 {
+                        write!(f, " after {} markings", answer.states)?;
+                    }
+                    writeln!(f, "\n  help: {way_out}")?;
                 }
             }
         }

@@ -5,11 +5,13 @@ use super::engine::{Extent, Reason};
 use super::known::Known;
 use super::{Answer, Choice, Options, Verdict};
 use crate::certificate::Evidence;
-use crate::explicit::Limit;
-use crate::property::{Atom, Condition, Formula, Linear, Question, Reachability};
-use crate::temporal::{Rest, Run};
-use crate::tpn::{self, Classes, Limits, Reach, Response, Schedule, Stop, Time, TimeNet};
-use cotama_core::net::{PlaceId, TransitionId};
+use crate::explicit::{self, Limit};
+use crate::property::{Assumptions, Atom, Condition, Ctl, Formula, Linear, Question, Reachability};
+use crate::temporal::{self, Fairness, Rest, Run, Successors, is_of_runs};
+use crate::tpn::{
+    self, ClassGraph, Classes, Limits, Reach, Response, Schedule, Stop, Time, TimeNet,
+};
+use cotama_core::net::PlaceId;
 
 pub(super) fn answer(
     net: &Known<'_>,
@@ -43,6 +45,11 @@ impl Asked<'_, '_> {
             Question::Response { from, to } => {
                 response(tpn::measured(self.time, Some(*from), *to, &self.limits))
             }
+            Question::Fair(formula, assumed) => self.fair(formula, assumed),
+            Question::Liveness => match self.net.atomic(self.time, &self.limits) {
+                Ok(graph) => known(Verdict::Holds(graph.is_live()), graph.states() as u64),
+                Err(it) => unfinished(it),
+            },
             Question::OneSafe => {
                 let two = |place| {
                     Formula::Atom(Atom::AtMost(Linear { constant: 2, weights: vec![(place, -1)] }))
@@ -58,7 +65,6 @@ impl Asked<'_, '_> {
                 (0..net.pt().places.len() as u32)
                     .any(|it| changers(it).all(|it| !fires[it.0 as usize]))
             }),
-            Question::Fair(..) | Question::Liveness => known(Verdict::Unknown(Reason::Unsuited), 0),
         }
     }
 
@@ -80,11 +86,78 @@ impl Asked<'_, '_> {
             }
             Formula::And(parts) => self.parts(parts, false),
             Formula::Or(parts) => self.parts(parts, true),
-            _ => match answered_in_time(formula) {
-                Some((cause, limit, effect)) => self.responds(cause, limit, effect),
-                None => known(Verdict::Unknown(Reason::Unsuited), 0),
+            Formula::All(path) | Formula::Exists(path) if is_of_runs(path) => {
+                self.runs(path, &Assumptions::default(), matches!(formula, Formula::All(_)))
+            }
+            _ => match InTime::new(formula) {
+                Some(asked) => self.responds(&asked),
+                None => self.branching(formula, &Fairness::default()),
             },
         }
+    }
+
+    fn fair(&self, formula: &Formula, assumed: &Assumptions) -> Answer {
+        if let Formula::All(path) | Formula::Exists(path) = formula
+            && is_of_runs(path)
+        {
+            return self.runs(path, assumed, matches!(formula, Formula::All(_)));
+        }
+        match Fairness::of(assumed) {
+            Some(fairness) => self.branching(formula, &fairness),
+            None => known(Verdict::Unknown(Reason::Unsuited), 0),
+        }
+    }
+
+    /// A formula about single runs, by linear classes: these have the firing sequences of the net.
+    fn runs(&self, path: &Formula, assumed: &Assumptions, all: bool) -> Answer {
+        let classes = match self.net.classes(self.time, &self.limits) {
+            Ok(classes) => ClassGraph::from(&*classes),
+            Err(it) => return unfinished(it),
+        };
+        let limits = self.left(&classes);
+        let (asked, progress) = ((path, assumed), self.options.progress);
+        let jobs = self.options.jobs;
+        self.found(temporal::stored_runs(&classes, asked, all, (&limits, jobs), progress))
+    }
+
+    /// A formula of CTL, by atomic classes: all states of one go on in the same way.
+    fn branching(&self, formula: &Formula, fairness: &Fairness<'_>) -> Answer {
+        if Ctl::new(formula).is_none() {
+            return known(Verdict::Unknown(Reason::Unsuited), 0);
+        }
+        match self.net.atomic(self.time, &self.limits) {
+            Ok(graph) => {
+                let (bytes, jobs) = (self.left(&graph).bytes, self.options.jobs);
+                self.found(temporal::branching(&*graph, formula, fairness, bytes, jobs))
+            }
+            Err(it) => unfinished(it),
+        }
+    }
+
+    /// What may be used beside a graph.
+    fn left(&self, graph: &ClassGraph) -> explicit::Limits {
+        let limits = self.options.limits;
+        explicit::Limits { bytes: limits.bytes.saturating_sub(graph.bytes()), ..limits }
+    }
+
+    /// A verdict with its run, and dates for it; a loop has those of going round once.
+    fn found(&self, verdict: temporal::Verdict) -> Answer {
+        let (verdict, run, states) = match verdict {
+            temporal::Verdict::Known { holds, run, states } => (Verdict::Holds(holds), run, states),
+            temporal::Verdict::Unknown { reason, states } => {
+                (Verdict::Unknown(reason.into()), None, states)
+            }
+        };
+        let dates = |run: &Run| {
+            let mut all = run.stem.clone();
+            if let Rest::Cycle(cycle) = &run.rest {
+                all.extend(cycle);
+            }
+            tpn::schedule(self.time, &all).ok()
+        };
+        // Dates that are too large to write are no reason to hold a verdict back.
+        let schedule = run.as_ref().and_then(dates);
+        Answer { run: run.filter(|_| schedule.is_some()), schedule, ..known(verdict, states) }
     }
 
     fn parts(&self, parts: &[Formula], decisive: bool) -> Answer {
@@ -140,75 +213,39 @@ impl Asked<'_, '_> {
         let sum = |marking: &[u32]| {
             places.iter().map(|it| u64::from(marking[it.0 as usize])).sum::<u64>()
         };
-        let classes = tpn::classes(self.time, &self.limits);
-        let verdict = match classes.stopped() {
-            None => {
-                let most = (0..classes.classes() as u32).map(|it| sum(classes.marking(it))).max();
-                Verdict::Bound(Extent::Finite(most.unwrap_or(0)))
-            }
-            Some(stop) => Verdict::Unknown(reason(stop)),
-        };
-        known(verdict, classes.classes() as u64)
+        self.counted(|classes| {
+            let most = (0..classes.classes() as u32).map(|it| sum(classes.marking(it))).max();
+            Verdict::Bound(Extent::Finite(most.unwrap_or(0)))
+        })
     }
 
     /// A question about the transitions that fire at some time.
     fn fired(&self, holds: impl Fn(&Known<'_>, &[bool]) -> bool) -> Answer {
-        let classes = tpn::classes(self.time, &self.limits);
-        let fires = fired(&classes, self.net.pt().transitions.len());
-        let verdict = match classes.stopped() {
-            None => Verdict::Holds(holds(self.net, &fires)),
-            Some(stop) => Verdict::Unknown(reason(stop)),
-        };
-        known(verdict, classes.classes() as u64)
+        let transitions = self.net.pt().transitions.len();
+        self.counted(|classes| Verdict::Holds(holds(self.net, &fired(classes, transitions))))
     }
 
-    /// `AG (cause -> AF<=limit effect)`. The clock of the answer starts when the cause becomes
-    /// marked, and when the effect ends while the cause is marked.
-    fn responds(&self, cause: PlaceId, limit: u64, effect: PlaceId) -> Answer {
-        let pt = self.net.pt();
-        let starts = |it: u32| {
-            let change = |place: PlaceId| {
-                pt.effects
-                    .of(it)
-                    .iter()
-                    .find(|(at, _)| *at == place.0)
-                    .map_or(0, |(_, change)| *change)
-            };
-            (change(cause) > 0, change(effect) < 0)
-        };
-        let (mut states, mut open) = (0, None);
-        let mut ask = |found: (Response, usize), certain: bool| {
-            let answer = response(found);
-            states = answer.states.max(states);
-            match answer.verdict {
-                Verdict::Response(Some((_, max))) if max > Time::Finite(limit) => {
-                    if certain {
-                        return false;
-                    }
-                    open = Some(Reason::Undecided);
-                }
-                Verdict::Unknown(reason) => open = open.or(Some(reason)),
-                _ => {}
-            }
-            true
-        };
-        let marked = pt.initial[cause.0 as usize] > 0;
-        let mut holds = !marked || ask(tpn::measured(self.time, None, effect, &self.limits), true);
-        for transition in 0..pt.transitions.len() as u32 {
-            let (begins, ends) = starts(transition);
-            if holds && (begins || ends) {
-                holds = ask(
-                    tpn::measured(self.time, Some(TransitionId(transition)), effect, &self.limits),
-                    begins,
-                );
-            }
+    /// What all linear classes tell.
+    fn counted(&self, verdict: impl FnOnce(&Classes) -> Verdict) -> Answer {
+        match self.net.classes(self.time, &self.limits) {
+            Ok(classes) => known(verdict(&classes), classes.classes() as u64),
+            Err(it) => unfinished(it),
         }
-        let verdict = match (holds, open) {
-            (false, _) => Verdict::Holds(false),
-            (true, Some(reason)) => Verdict::Unknown(reason),
-            (true, None) => Verdict::Holds(true),
+    }
+
+    fn responds(&self, asked: &InTime) -> Answer {
+        let pt = self.net.pt();
+        let conditions = Condition::new(&asked.cause, pt).zip(Condition::new(&asked.effect, pt));
+        let Some((cause, effect)) = conditions else {
+            return known(Verdict::Unknown(Reason::Unsuited), 0);
         };
-        known(verdict, states)
+        self.counted(|classes| {
+            let [cause, effect] = [cause, effect].map(|it| move |at: &[u32]| it.holds(at));
+            match tpn::longest(classes, cause, effect, asked.at_start, &self.limits) {
+                Ok(most) => Verdict::Holds(most <= Time::Finite(asked.limit)),
+                Err(stop) => Verdict::Unknown(reason(stop)),
+            }
+        })
     }
 }
 
@@ -223,36 +260,33 @@ pub(super) fn fired(classes: &Classes, transitions: usize) -> Vec<bool> {
     fires
 }
 
-/// The places and the limit of `AG (cause -> AF<=limit effect)`, in milliseconds.
-fn answered_in_time(formula: &Formula) -> Option<(PlaceId, u64, PlaceId)> {
-    let Formula::All(path) = formula else { return None };
-    let Formula::Globally(inner) = &**path else { return None };
-    let Formula::Or(parts) = &**inner else { return None };
-    let [a, b] = &parts[..] else { return None };
-    let cause = |it: &Formula| match it {
-        Formula::Not(inner) => marked(inner),
-        Formula::Atom(Atom::AtMost(linear)) => {
-            marked(&Formula::Atom(Atom::AtMost(linear.negated()?)))
-        }
-        _ => None,
-    };
-    let effect = |it: &Formula| {
-        let Formula::All(path) = it else { return None };
-        let Formula::Within(limit, goal) = &**path else { return None };
-        Some((*limit, marked(goal)?))
-    };
-    let (cause, (limit, effect)) = cause(a).zip(effect(b)).or_else(|| cause(b).zip(effect(a)))?;
-    Some((cause, limit, effect))
+/// `AG (cause -> AF<=limit effect)`, or `AF<=limit effect` at the start.
+struct InTime {
+    cause: Formula,
+    /// In milliseconds.
+    limit: u64,
+    effect: Formula,
+    at_start: bool,
 }
 
-/// The place of which a formula says that it is marked.
-fn marked(formula: &Formula) -> Option<PlaceId> {
-    match formula {
-        Formula::Atom(Atom::AtMost(linear)) => match linear.weights[..] {
-            [(place, -1)] if linear.constant == 1 => Some(place),
-            _ => None,
-        },
-        _ => None,
+impl InTime {
+    fn new(formula: &Formula) -> Option<Self> {
+        let of = |all: &Formula, cause, at_start| {
+            let Formula::All(path) = all else { return None };
+            let Formula::Within(limit, effect) = &**path else { return None };
+            let effect = (**effect).clone();
+            effect.is_state().then_some(Self { cause, limit: *limit, effect, at_start })
+        };
+        let Formula::All(path) = formula else { return None };
+        let Formula::Globally(inner) = &**path else {
+            return of(formula, Formula::TRUE, true);
+        };
+        let Formula::Or(parts) = &**inner else { return of(inner, Formula::TRUE, false) };
+        let (state, open): (Vec<_>, Vec<_>) = parts.iter().partition(|it| it.is_state());
+        let [open] = open[..] else { return None };
+        let safe = Formula::Or(state.into_iter().cloned().collect());
+        let cause = Formula::Not(safe.into());
+        of(open, cause, false)
     }
 }
 
@@ -279,6 +313,11 @@ fn response((response, classes): (Response, usize)) -> Answer {
         Response::Unknown { stop, .. } => Verdict::Unknown(reason(stop)),
     };
     known(verdict, classes as u64)
+}
+
+/// Classes that are not all known.
+fn unfinished((stop, classes): (Stop, usize)) -> Answer {
+    known(Verdict::Unknown(reason(stop)), classes as u64)
 }
 
 fn reason(stop: Stop) -> Reason {

@@ -32,9 +32,11 @@ impl<'m> Checker<'m> {
             Model::Timed { net, .. } => self.in_time(net, options),
         };
         all.unwrap_or_else(|| {
-            let mut structure = self.known.structure();
-            structure.find_dead_transitions();
-            Unused::with_dead(self.known.pt(), &structure.dead().transitions)
+            let found = self.known.structure(&budget).map(|mut structure| {
+                structure.find_dead_transitions();
+                structure.dead().transitions.clone()
+            });
+            Unused::with_dead(self.known.pt(), &found.unwrap_or_default())
         })
     }
 

@@ -6,7 +6,7 @@ use super::story::Teller;
 use super::words::{self, Says, counted, list, name, short_list};
 use crate::property::{Assumptions, Ctl, Formula};
 use cotama_core::net::TransitionId;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashSet};
 
 /// The most lines of one kind.
 const MOST: usize = 6;
@@ -138,13 +138,9 @@ impl Teller<'_> {
     /// What repeats for ever, and what could fire instead.
     fn repeating(&self, forever: &Formula, cycle: &[TransitionId]) -> (String, Vec<String>) {
         let start = self.run().stem.len();
-        let mut names: Vec<String> = Vec::new();
-        for it in cycle {
-            let name = name(&self.pt().transitions, it.0);
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
+        let mut seen = HashSet::new();
+        let first = cycle.iter().filter(|it| seen.insert(it.0));
+        let names: Vec<String> = first.map(|it| name(&self.pt().transitions, it.0)).collect();
         let steps = match cycle {
             [_] => format!("step {} repeats", start + 1),
             [_, _] => format!("steps {} and {} repeat", start + 1, start + 2),

@@ -46,7 +46,7 @@ pub use run::{NotARun, Run};
 pub use shrink::shrink;
 pub use step::{AtomTrack, Change, Meaning, Step, Tokens, Track, Turn};
 pub use unused::{Never, Unused};
-pub use vacuity::{Vacuity, vacuous};
+pub use vacuity::{Vacuity, Variants, vacuous};
 
 use crate::property::{self, Atom, Condition, Formula, Linear, Property, Question};
 use crate::pt::Pt;
@@ -59,6 +59,11 @@ use std::collections::BTreeSet;
 
 /// The most places whose tokens are followed.
 const WATCHED: usize = 24;
+
+/// The most firings of a run that is explained, and places and transitions that are looked at in
+/// all its markings.
+const FIRINGS: usize = 100_000;
+const LOOKS: usize = 1 << 28;
 
 /// The most atoms that are followed.
 const ATOMS: usize = 200;
@@ -164,7 +169,8 @@ impl Diagnosis {
     /// Explains a verdict by a run.
     ///
     /// # Errors
-    /// When the run is none of the net, or the net or the dates do not belong to it.
+    /// When the run is none of the net, or the net or the dates do not belong to it; or when it is
+    /// too long to be explained.
     pub fn new(case: &Case<'_>) -> Result<Self, NotARun> {
         let Case { pt, property, holds, run, net, schedule } = *case;
         let names = |net: &Net<'_>| {
@@ -177,6 +183,10 @@ impl Diagnosis {
         };
         if net.is_some_and(|net| !names(net)) {
             return Err(NotARun::Net);
+        }
+        let looks = run.len().saturating_mul(pt.places.len() + pt.transitions.len());
+        if run.len() > FIRINGS || looks > LOOKS {
+            return Err(NotARun::TooLong { firings: run.len() });
         }
         if schedule.is_some_and(|it| !it.steps.iter().map(|step| step.transition).eq(run.firings()))
         {

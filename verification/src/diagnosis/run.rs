@@ -42,6 +42,11 @@ pub enum NotARun {
         /// What can.
         transition: String,
     },
+    /// It is one, and has too many firings for a net of this size to be explained.
+    TooLong {
+        /// How many.
+        firings: usize,
+    },
     /// There are not as many dates as firings, or they are those of other transitions.
     Dates,
     /// The net has other places or transitions than the one that is read by engines.
@@ -65,6 +70,9 @@ impl fmt::Display for NotARun {
             }
             Self::GoesOn { transition } => {
                 write!(f, "the run does not end in a deadlock: `{transition}` can fire there")
+            }
+            Self::TooLong { firings } => {
+                write!(f, "its {firings} firings are too many to be explained")
             }
             Self::Dates => f.write_str(
                 "the dates are not those of the firings: give one for each, in their order",

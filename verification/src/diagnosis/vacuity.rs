@@ -4,6 +4,7 @@ use super::claim::claim;
 use super::words::{Says, always, says, ticked};
 use crate::property::{Atom, Formula};
 use crate::pt::Pt;
+use std::cell::Cell;
 
 /// A part of a property, and a stronger property in which it stands no more: if that holds as well,
 /// the part does not matter, and the property holds vacuously (Kupferman and Vardi, "Vacuity
@@ -16,9 +17,22 @@ pub struct Vacuity {
     pub formula: Formula,
 }
 
+/// Operators and atoms of all stronger properties together.
+const NODES: usize = 1 << 18;
+
+/// The stronger properties that are to be asked.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Variants {
+    /// Those that say that something never comes are first; else larger parts come before what they
+    /// are made of.
+    pub asked: Vec<Vacuity>,
+    /// Whether these are for all parts; of a formula of more than some hundred parts only those of
+    /// the outer ones are made.
+    pub is_complete: bool,
+}
+
 /// The questions that tell whether a formula, which is known to hold, holds vacuously. Each is to
-/// be checked; of one that holds, [`Vacuity::words`] says what that means. Those that say that
-/// something never comes are first; else larger parts come before what they are made of.
+/// be checked; of one that holds, [`Vacuity::words`] says what that means.
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace};
@@ -29,16 +43,22 @@ pub struct Vacuity {
 /// let pt = Pt::from(&net.view().net());
 /// let property = property::parse("AG (fault -> AF stopped)", &pt).unwrap();
 /// let Question::Formula(formula) = &property.question else { panic!("not a formula") };
-/// let asked = vacuous(formula);
+/// let asked = vacuous(formula).asked;
 /// assert_eq!(asked[0].formula.display(&pt).to_string(), "AG fault <= 0");
 /// let words = "`AG (fault -> AF stopped)` holds vacuously: `fault` is never marked, \
 ///              so `AF stopped` is never put to the test.";
 /// assert_eq!(asked[0].words(&property.name, &pt), words);
 /// ```
-pub fn vacuous(formula: &Formula) -> Vec<Vacuity> {
+pub fn vacuous(formula: &Formula) -> Variants {
     let whole = formula.simplified();
+    let most = (NODES / size(formula).max(1)).max(1);
     let mut found: Vec<Vacuity> = Vec::new();
-    for (part, replaced) in replacements(formula, true) {
+    let mut is_complete = false;
+    for number in 0..most {
+        let Some((part, replaced)) = replaced(formula, true, &mut { number }) else {
+            is_complete = true;
+            break;
+        };
         let formula = replaced.simplified();
         let says_nothing =
             formula == whole || formula == Formula::TRUE || formula == Formula::FALSE;
@@ -48,56 +68,67 @@ pub fn vacuous(formula: &Formula) -> Vec<Vacuity> {
     }
     // What never comes is the better reason.
     found.sort_by_key(|it| it.never().is_none());
-    found
+    Variants { asked: found, is_complete }
 }
 
-/// For each part, from the outside to the inside: the part, and the formula with false (true, below
-/// a negation) for it.
-fn replacements(formula: &Formula, positive: bool) -> Vec<(Formula, Formula)> {
-    let constant = if positive { Formula::FALSE } else { Formula::TRUE };
-    let inside = |inner: &Formula,
-                  positive: bool,
-                  wrap: &dyn Fn(Box<Formula>) -> Formula|
-     -> Vec<_> {
-        let all =
-            std::iter::once((inner.clone(), if positive { Formula::FALSE } else { Formula::TRUE }));
-        let all = all.chain(replacements(inner, positive));
-        all.map(|(part, it)| (part, wrap(Box::new(it)))).collect()
-    };
+/// A part by its number, from the outside to the inside, and the formula with false (true, below a
+/// negation) for it. `left` is the number, less the parts that were passed.
+fn replaced(formula: &Formula, positive: bool, left: &mut usize) -> Option<(Formula, Formula)> {
+    let constant = || if positive { Formula::FALSE } else { Formula::TRUE };
     match formula {
-        Formula::Atom(_) => Vec::new(),
-        Formula::Not(a) => inside(a, !positive, &Formula::Not),
+        Formula::Atom(_) => None,
+        Formula::Not(a) => inside(a, !positive, left, Formula::Not),
         // The two inequalities of an equation are one thing.
-        Formula::And(all) if is_equation(all) => Vec::new(),
+        Formula::And(all) if is_equation(all) => None,
         Formula::And(all) | Formula::Or(all) => {
-            let is_and = matches!(formula, Formula::And(_));
-            let with = |at: usize, it: Formula| {
+            let with = |at: usize, (part, it)| {
                 let mut all = all.clone();
                 all[at] = it;
-                if is_and { Formula::And(all) } else { Formula::Or(all) }
+                let is_and = matches!(formula, Formula::And(_));
+                (part, if is_and { Formula::And(all) } else { Formula::Or(all) })
             };
-            let whole =
-                all.iter().enumerate().map(|(at, part)| (part.clone(), with(at, constant.clone())));
-            let mut found: Vec<_> = whole.collect();
-            for (at, part) in all.iter().enumerate() {
-                found.extend(
-                    replacements(part, positive).into_iter().map(|(part, it)| (part, with(at, it))),
-                );
+            if let Some(part) = all.get(*left) {
+                return Some(with(*left, (part.clone(), constant())));
             }
-            found
+            *left -= all.len();
+            let mut parts = all.iter().enumerate();
+            parts.find_map(|(at, part)| Some(with(at, replaced(part, positive, left)?)))
         }
-        Formula::Exists(a) => inside(a, positive, &Formula::Exists),
-        Formula::All(a) => inside(a, positive, &Formula::All),
-        Formula::Next(a) => inside(a, positive, &Formula::Next),
-        Formula::Finally(a) => inside(a, positive, &Formula::Finally),
-        Formula::Globally(a) => inside(a, positive, &Formula::Globally),
-        Formula::Within(limit, a) => inside(a, positive, &|a| Formula::Within(*limit, a)),
-        Formula::Until(a, b) => {
-            let mut found = inside(a, positive, &|a| Formula::Until(a, b.clone()));
-            found.extend(inside(b, positive, &|b| Formula::Until(a.clone(), b)));
-            found
-        }
+        Formula::Exists(a) => inside(a, positive, left, Formula::Exists),
+        Formula::All(a) => inside(a, positive, left, Formula::All),
+        Formula::Next(a) => inside(a, positive, left, Formula::Next),
+        Formula::Finally(a) => inside(a, positive, left, Formula::Finally),
+        Formula::Globally(a) => inside(a, positive, left, Formula::Globally),
+        Formula::Within(limit, a) => inside(a, positive, left, |a| Formula::Within(*limit, a)),
+        Formula::Until(a, b) => inside(a, positive, left, |a| Formula::Until(a, b.clone()))
+            .or_else(|| inside(b, positive, left, |b| Formula::Until(a.clone(), b))),
     }
+}
+
+/// The same of a formula with one operand: that, and what is in it.
+fn inside(
+    inner: &Formula,
+    positive: bool,
+    left: &mut usize,
+    wrap: impl Fn(Box<Formula>) -> Formula,
+) -> Option<(Formula, Formula)> {
+    let found = match left.checked_sub(1) {
+        None => Some((inner.clone(), if positive { Formula::FALSE } else { Formula::TRUE })),
+        Some(less) => {
+            *left = less;
+            replaced(inner, positive, left)
+        }
+    };
+    found.map(|(part, it)| (part, wrap(Box::new(it))))
+}
+
+fn size(formula: &Formula) -> usize {
+    let count = Cell::new(0);
+    formula.any(&|_| {
+        count.set(count.get() + 1);
+        false
+    });
+    count.get()
 }
 
 fn is_equation(all: &[Formula]) -> bool {

@@ -3,18 +3,21 @@
 //! Neighbouring fields of a word are a chunk of at most eight bits. For each value of a chunk a row
 //! says which transitions it allows, as bits; the transitions that all chunks allow are enabled.
 //! What else is linear in the marking, its number of tokens and the fields of implied places, is
-//! added up in the same way. In nets with very many transitions rows list instead the transitions
-//! that may be enabled, each in a single chunk, and the rest of what they need is looked up.
+//! added up in the same way. In nets with many transitions rows list instead the transitions that
+//! may be enabled, each in a single chunk, and the rest of what they need is looked up.
 
 use super::apart::Apart;
 use super::layout::{Field, Layout};
 use super::view::View;
-use crate::pt::Pt;
+use crate::pt::{Lists, Pt};
 
 /// Bits of a chunk.
 const CHUNK: u32 = 8;
 /// Words of the bits of all rows: beyond it rows list transitions.
 const MOST: usize = 1 << 19;
+/// Words of the bits of a row: beyond it rows list transitions. Tried on nets of 1,000 to 4,000
+/// transitions: to list them is twice as fast at 16 words and eight times at 60.
+const WORDS: usize = 8;
 
 /// Which values chunks, and which most tokens wide fields had.
 #[derive(Clone, Debug)]
@@ -43,16 +46,19 @@ struct Wide {
     /// fewer than that.
     steps: Vec<(u64, Vec<u64>)>,
     /// Transitions that this field lists.
-    listed: Vec<u32>,
+    listed: Vec<(u32, ())>,
     /// What a token adds to the sum and to each computed word.
     adds: Vec<u64>,
 }
 
 /// Transitions by row, and what each needs outside of the chunk that lists it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 struct Listed {
-    rows: Vec<Vec<u32>>,
-    rest: Vec<Vec<(Field, u64)>>,
+    /// Chunks that list any.
+    chunks: Vec<u32>,
+    rows: Lists<()>,
+    /// Tokens, and where.
+    rest: Lists<Field>,
 }
 
 /// The tables.
@@ -94,7 +100,7 @@ impl Enabling {
         if layout.computed == 0 {
             in_stored = (chunks.len(), wide.len());
         }
-        let is_listed = row * words > MOST;
+        let is_listed = row * words > MOST || words > WORDS;
         let mut start = View {
             enabled: Apart::new(0, words),
             computed: Apart::new(0, layout.computed),
@@ -185,22 +191,27 @@ impl Enabling {
         }
     }
 
-    /// Lists each transition in the chunk or wide field of the place that fewest others need.
+    /// Lists each transition in the chunk or wide field of the place that is marked least often on
+    /// a walk, and looks up the rest in that order: what cannot fire is mostly seen at once.
     fn list(&mut self, pt: &Pt, layout: &Layout, rows: usize) {
-        let mut listed = Listed { rows: vec![Vec::new(); rows], rest: Vec::new() };
+        let marked = marked_often(pt);
+        let rarely = |place: u32| (marked[place as usize], pt.consumers.of(place).len(), place);
+        let (mut rows, mut rests) = (vec![Vec::new(); rows], Vec::new());
         let mut chunk_of = vec![None; pt.places.len()];
         for (at, chunk) in self.chunks.iter().enumerate() {
             chunk.places.iter().for_each(|&it| chunk_of[it as usize] = Some(at));
         }
         for transition in 0..pt.transitions.len() as u32 {
             let needs = pt.needs.of(transition);
-            let key = needs.iter().min_by_key(|it| pt.consumers.of(it.0).len()).map(|it| it.0);
+            let key = needs.iter().map(|it| it.0).min_by_key(|it| rarely(*it));
             let chunk = key.and_then(|key| chunk_of[key as usize]);
-            let (here, rest): (Vec<_>, Vec<_>) =
+            let (here, mut rest): (Vec<_>, Vec<_>) =
                 needs.iter().partition(|it| chunk.is_some() && chunk_of[it.0 as usize] == chunk);
             let field =
                 |&(place, tokens): &(u32, u32)| (layout.fields[place as usize], u64::from(tokens));
-            listed.rest.push(rest.iter().map(field).collect());
+            rest.sort_by_key(|it: &(u32, u32)| rarely(it.0));
+            let need = |&(place, tokens): &(u32, u32)| (tokens, layout.fields[place as usize]);
+            rests.push(rest.iter().map(need).collect::<Vec<_>>());
             if let Some(chunk) = chunk.map(|at| &self.chunks[at]) {
                 for value in 0..=chunk.mask {
                     if here
@@ -208,14 +219,25 @@ impl Enabling {
                         .map(field)
                         .all(|(it, need)| it.tokens(value << chunk.shift) >= need)
                     {
-                        listed.rows[chunk.row + value as usize].push(transition);
+                        rows[chunk.row + value as usize].push((transition, ()));
                     }
                 }
             } else if let Some(wide) = self.wide.iter_mut().find(|it| Some(it.place) == key) {
-                wide.listed.push(transition);
+                wide.listed.push((transition, ()));
             }
         }
-        self.listed = Some(listed);
+        let lists = |at: &u32| {
+            let chunk = &self.chunks[*at as usize];
+            rows[chunk.row..=chunk.row + chunk.mask as usize].iter().any(|it| !it.is_empty())
+        };
+        let chunks = (0..self.chunks.len() as u32).filter(lists).collect();
+        self.listed = Some(Listed { chunks, rows: Lists::new(rows), rest: Lists::new(rests) });
+    }
+
+    /// About how much memory it takes.
+    pub(super) fn bytes(&self) -> u64 {
+        let listed = self.listed.as_ref().map_or(0, |it| it.rows.len() * size_of::<Vec<u32>>());
+        (size_of_val(&self.rows[..]) + listed) as u64
     }
 
     /// Room for a view.
@@ -254,28 +276,22 @@ impl Enabling {
         view.enabled.copy_from_slice(&self.start.enabled);
         view.computed.copy_from_slice(&self.start.computed);
         view.sum = self.start.sum;
-        let mut computed = std::mem::take(&mut view.computed);
         for chunk in &self.chunks[..chunks] {
             let row = self.allow(chunk, marking[chunk.word], view, seen);
             view.sum = view.sum.wrapping_add(row[0]);
-            for (word, add) in computed.iter_mut().zip(&row[1..]) {
-                *word = word.wrapping_add(*add);
-            }
+            add(&mut view.computed, &row[1..], 1);
         }
         for (at, it) in self.wide[..wide].iter().enumerate() {
             let tokens = it.allow(marking[it.field.word], at, view, seen);
             view.sum = view.sum.wrapping_add(it.adds[0].wrapping_mul(tokens));
-            for (word, add) in computed.iter_mut().zip(&it.adds[1..]) {
-                *word = word.wrapping_add(add.wrapping_mul(tokens));
-            }
+            add(&mut view.computed, &it.adds[1..], tokens);
         }
         for chunk in &self.chunks[chunks..] {
-            self.allow(chunk, computed[chunk.word - self.stored], view, seen);
+            self.allow(chunk, view.computed[chunk.word - self.stored], view, seen);
         }
         for (at, it) in self.wide.iter().enumerate().skip(wide) {
-            it.allow(computed[it.field.word - self.stored], at, view, seen);
+            it.allow(view.computed[it.field.word - self.stored], at, view, seen);
         }
-        view.computed = computed;
         if let Some(listed) = &self.listed {
             self.enable(listed, marking, view);
         }
@@ -287,10 +303,9 @@ impl Enabling {
         let row = chunk.row + ((word >> chunk.shift) & chunk.mask) as usize;
         seen.rows[row] = true;
         let stride = self.bits + 1 + self.start.computed.len();
-        let (allowed, adds) = self.rows[row * stride..][..stride].split_at(self.bits);
-        for (enabled, allowed) in view.enabled.iter_mut().zip(allowed) {
-            *enabled &= allowed;
-        }
+        let row = &self.rows[row * stride..][..stride];
+        let (allowed, adds) = row.split_at(self.bits);
+        and(&mut view.enabled[..allowed.len()], allowed);
         adds
     }
 
@@ -299,19 +314,33 @@ impl Enabling {
         let View { enabled, computed, .. } = view;
         let word =
             |at: usize| if at < self.stored { marking[at] } else { computed[at - self.stored] };
-        let rows = self
-            .chunks
-            .iter()
-            .map(|it| &listed.rows[it.row + ((word(it.word) >> it.shift) & it.mask) as usize]);
-        for &transition in rows.chain(self.wide.iter().map(|it| &it.listed)).flatten() {
-            if listed.rest[transition as usize]
-                .iter()
-                .all(|(it, need)| it.tokens(word(it.word)) >= *need)
-            {
-                enabled[transition as usize / 64] |= 1 << (transition % 64);
+        let mut enable = |transitions: &[(u32, ())]| {
+            for &(transition, ()) in transitions {
+                let mut rest = listed.rest.of(transition).iter();
+                if rest.all(|(need, it)| it.tokens(word(it.word)) >= u64::from(*need)) {
+                    enabled[transition as usize / 64] |= 1 << (transition % 64);
+                }
             }
+        };
+        for &chunk in &listed.chunks {
+            let it = &self.chunks[chunk as usize];
+            let row = it.row + ((word(it.word) >> it.shift) & it.mask) as usize;
+            enable(listed.rows.of(row as u32));
         }
+        self.wide.iter().for_each(|it| enable(&it.listed));
     }
+}
+
+#[inline]
+fn and(enabled: &mut [u64], allowed: &[u64]) {
+    enabled.iter_mut().zip(allowed).for_each(|(it, allowed)| *it &= allowed);
+}
+
+/// Adds so many times what a row adds.
+#[inline]
+fn add(computed: &mut [u64], row: &[u64], times: u64) {
+    let adds = computed.iter_mut().zip(row);
+    adds.for_each(|(it, add)| *it = it.wrapping_add(add.wrapping_mul(times)));
 }
 
 impl Wide {
@@ -349,6 +378,24 @@ impl Seen {
         }
         most
     }
+}
+
+/// Firings of a walk.
+const WALK: usize = 512;
+
+/// For each place how often it is marked on a walk, which is always the same.
+fn marked_often(pt: &Pt) -> Vec<u32> {
+    let (mut marked, mut marking, mut turn) = (vec![0; pt.places.len()], pt.initial.clone(), 0_u32);
+    let transitions = pt.transitions.len() as u32;
+    for _ in 0..WALK {
+        marked.iter_mut().zip(&marking).for_each(|(it, tokens)| *it += u32::from(*tokens > 0));
+        turn = turn.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let from = (u64::from(turn) * u64::from(transitions) >> 32) as u32;
+        let next = (from..transitions).chain(0..from).find(|it| pt.enabled(&marking, *it));
+        let after = next.and_then(|it| pt.fire(&marking, it));
+        marking = after.unwrap_or_else(|| pt.initial.clone());
+    }
+    marked
 }
 
 /// Puts the fields of a word, which lie one after the other, into chunks.

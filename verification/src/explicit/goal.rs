@@ -4,45 +4,115 @@ use super::enabling::Seen;
 use super::markings::Look;
 use super::space::Space;
 use super::view::View;
-use crate::property::{Atom, Formula};
+use crate::property::{Atom, Condition, Formula, Linear, Marking};
+use cotama_core::net::PlaceId;
+use std::sync::atomic::{AtomicI64, Ordering::Relaxed};
 
 /// A formula that speaks of one marking only.
 #[derive(Clone, Copy, Debug)]
-pub struct Goal<'f>(&'f Formula);
+pub struct Goal<'f>(Asked<'f>);
+
+/// What is asked of a marking.
+#[derive(Clone, Copy, Debug)]
+enum Asked<'f> {
+    Formula(&'f Formula),
+    /// Nothing: the most that a sum ever is is kept.
+    Most(&'f Linear, &'f AtomicI64),
+}
 
 impl<'f> Goal<'f> {
     /// `None` when the formula has temporal operators.
     pub fn new(formula: &'f Formula) -> Option<Self> {
-        formula.is_state().then_some(Self(formula))
+        formula.is_state().then_some(Self(Asked::Formula(formula)))
+    }
+
+    /// What holds in no marking, and keeps the most that a sum is in those that it is asked of.
+    pub(super) const fn most(sum: &'f Linear, most: &'f AtomicI64) -> Self {
+        Self(Asked::Most(sum, most))
+    }
+
+    /// The formula; `None` of what asks for the most of a sum.
+    pub(crate) fn formula(self) -> Option<&'f Formula> {
+        match self.0 {
+            Asked::Formula(formula) => Some(formula),
+            Asked::Most(..) => None,
+        }
     }
 
     /// What tells whether it holds in markings of a space.
-    pub(super) fn packed(self, space: &Space) -> Packed<'f> {
-        let asks = |it: &Formula| matches!(it, Formula::Atom(Atom::Fireable(_) | Atom::Deadlock));
-        Packed { formula: self.0, looks: self.0.any(&asks) || space.layout.computed > 0 }
+    pub(super) fn packed(self) -> Packed<'f> {
+        match self.0 {
+            Asked::Formula(formula) => match Condition::of_tokens(formula) {
+                Some(condition) => Packed::Tokens(condition),
+                None => Packed::Looks(self),
+            },
+            Asked::Most(sum, most) => Packed::Most(sum, most),
+        }
     }
 }
 
 /// A goal for the markings of a space.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Packed<'f> {
-    formula: &'f Formula,
-    /// Whether it depends on more than stored words.
-    looks: bool,
+#[derive(Clone, Debug)]
+pub(super) enum Packed<'f> {
+    /// About tokens alone, of which it needs few.
+    Tokens(Condition<'f>),
+    /// About what is enabled, which is looked up for all transitions at once.
+    Looks(Goal<'f>),
+    /// The most that a sum ever is.
+    Most(&'f Linear, &'f AtomicI64),
 }
 
 impl Packed<'_> {
     pub(super) fn holds(
-        self,
+        &self,
         space: &Space,
         packed: &[u64],
         view: &mut View,
         seen: &mut Seen,
     ) -> bool {
-        if self.looks {
-            space.enabling.look(packed, view, seen);
+        match self {
+            Self::Tokens(condition) => condition.holds(&Few { space, packed }),
+            Self::Looks(goal) => {
+                space.enabling.look(packed, view, seen);
+                goal.holds(&Look::packed(space, packed, view))
+            }
+            Self::Most(sum, most) => keep(most, sum, &Few { space, packed }),
         }
-        holds(self.formula, &Look { space, packed, view })
+    }
+}
+
+/// A marking of which only some places are asked: those that are implied are worked out one by one.
+struct Few<'m> {
+    space: &'m Space,
+    packed: &'m [u64],
+}
+
+impl Marking for Few<'_> {
+    #[inline]
+    fn tokens(&self, place: PlaceId) -> u64 {
+        let layout = &self.space.layout;
+        let Some(field) = layout.fields.get(place.0 as usize) else { return 0 };
+        match self.packed.get(field.word) {
+            Some(word) => field.tokens(*word),
+            None => layout.computed_tokens(place.0, self.packed),
+        }
+    }
+}
+
+/// Keeps the most that a sum is.
+fn keep(most: &AtomicI64, sum: &Linear, marking: &impl Marking) -> bool {
+    let value = sum.value(marking).clamp(i64::MIN.into(), i64::MAX.into());
+    most.fetch_max(value as i64, Relaxed);
+    false
+}
+
+impl Goal<'_> {
+    /// Whether it holds in a marking.
+    pub(super) fn holds(self, look: &Look<'_>) -> bool {
+        match self.0 {
+            Asked::Formula(formula) => holds(formula, look),
+            Asked::Most(sum, most) => keep(most, sum, look),
+        }
     }
 }
 

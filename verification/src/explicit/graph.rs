@@ -1,12 +1,16 @@
 //! The reachable markings with the arcs between them.
 
+use super::bits::BitSet;
 use super::goal::Goal;
+use super::kept::{Kept, Packed};
 use super::layout::Width;
+use super::markings::Look;
 use super::space::{Search, Space, TooNarrow, search};
 use super::table::hash;
-use super::{Limit, Limits, Progress, Unfinished};
+use super::{Limit, Limits, Progress, Unfinished, wide};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
+use std::sync::Mutex;
 use std::time::Instant;
 
 /// Successors whose places in the index are looked up at once: their loads overlap.
@@ -16,10 +20,7 @@ const BATCH: usize = 256;
 /// that fires transitions in their order; and for each marking those that follow it.
 #[derive(Debug)]
 pub struct Graph {
-    space: Space,
-    /// Words of a marking.
-    words: usize,
-    markings: Vec<u64>,
+    markings: Kept,
     /// For each marking where its successors begin.
     starts: Vec<usize>,
     successors: Vec<u32>,
@@ -55,8 +56,20 @@ impl Graph {
     /// ```
     pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Unfinished> {
         let none = |limit| Unfinished { limit, states: 0 };
-        let widths = Width::of(pt).ok_or(none(Limit::Tokens))?;
-        search(pt, widths, &mut Construction { pt, limits, progress }).map_err(none)?
+        let widths = Width::of(pt, limits).map_err(none)?;
+        match search(pt, widths, &mut Construction { pt, limits, progress }) {
+            Err(Limit::Words) => {
+                let (markings, cursor, arcs) = wide::graph(pt, limits, progress)?;
+                Ok(Self {
+                    markings: Kept::Sparse(Box::new(markings), Box::new(Mutex::new(cursor))),
+                    starts: arcs.starts,
+                    successors: arcs.successors,
+                    transitions: pt.transitions.len() as u32,
+                    fired: arcs.fired,
+                })
+            }
+            found => found.map_err(none)?,
+        }
     }
 
     /// How many markings there are.
@@ -71,9 +84,8 @@ impl Graph {
 
     /// About how much memory it takes.
     pub fn bytes(&self) -> u64 {
-        (size_of_val(&self.markings[..])
-            + size_of_val(&self.starts[..])
-            + size_of_val(&self.successors[..])) as u64
+        self.markings.bytes()
+            + (size_of_val(&self.starts[..]) + size_of_val(&self.successors[..])) as u64
     }
 
     /// The markings that follow a marking, one for each transition that is enabled in it, in their
@@ -92,9 +104,10 @@ impl Graph {
     /// # Panics
     /// When there is no such marking.
     pub fn transitions(&self, state: u32) -> Vec<TransitionId> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        self.space.enabling.look(self.packed(state), &mut view, &mut seen);
-        view.transitions().map(TransitionId).collect()
+        let mut all = Vec::new();
+        let each = |look: &Look<'_>| all.extend(look.transitions().map(TransitionId));
+        self.markings.each(std::iter::once(state), each);
+        all
     }
 
     /// The tokens of each place.
@@ -102,11 +115,7 @@ impl Graph {
     /// # Panics
     /// When there is no such marking.
     pub fn marking(&self, state: u32) -> Vec<u32> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let (marking, stored) = (self.packed(state), self.words);
-        self.space.enabling.look(marking, &mut view, &mut seen);
-        let word = |at: usize| if at < stored { marking[at] } else { view.computed[at - stored] };
-        self.space.layout.fields.iter().map(|it| it.tokens(word(it.word)) as u32).collect()
+        self.markings.marking(state)
     }
 
     /// The tokens of a place in each marking.
@@ -114,23 +123,17 @@ impl Graph {
     /// # Panics
     /// When there is no such place.
     pub fn tokens(&self, place: PlaceId) -> impl Iterator<Item = u32> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let field = &self.space.layout.fields[place.0 as usize];
-        self.markings.chunks_exact(self.words).map(move |marking| {
-            let word = marking.get(field.word).copied().unwrap_or_else(|| {
-                self.space.enabling.look(marking, &mut view, &mut seen);
-                view.computed[field.word - self.words]
-            });
-            field.tokens(word) as u32
-        })
+        self.markings.tokens(place, self.states() as u32)
     }
 
-    /// For each marking whether the goal holds in it.
-    pub fn satisfying(&self, goal: Goal<'_>) -> Vec<bool> {
-        let goal = goal.packed(&self.space);
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let holds = |it: &[u64]| goal.holds(&self.space, it, &mut view, &mut seen);
-        self.markings.chunks_exact(self.words).map(holds).collect()
+    /// The markings in which the goal holds, looked at by so many threads.
+    pub fn satisfying(&self, goal: Goal<'_>, jobs: usize) -> BitSet {
+        self.markings.satisfying(goal, self.states(), jobs)
+    }
+
+    /// The first marking in which the goal holds, which is one with a shortest way to it.
+    pub fn first(&self, goal: Goal<'_>) -> Option<u32> {
+        self.markings.first(goal, self.states())
     }
 
     /// A shortest way from the initial marking to another one.
@@ -173,17 +176,11 @@ impl Graph {
 
     /// Transitions that some of these markings enable: a bit for each, 64 to a word.
     pub(super) fn enabled(&self, states: impl Iterator<Item = u32>) -> Vec<u64> {
-        let (mut view, mut seen) = (self.space.enabling.view(), self.space.enabling.unseen());
-        let mut all = vec![0; view.enabled.len()];
-        for state in states {
-            self.space.enabling.look(self.packed(state), &mut view, &mut seen);
-            all.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
-        }
+        let mut all = vec![0; self.fired.len()];
+        self.markings.each(states, |look| {
+            all.iter_mut().zip(&*look.view.enabled).for_each(|(all, it)| *all |= it);
+        });
         all
-    }
-
-    fn packed(&self, state: u32) -> &[u64] {
-        &self.markings[state as usize * self.words..][..self.words]
     }
 }
 
@@ -208,8 +205,8 @@ impl Search for Construction<'_> {
         let transitions = self.pt.transitions.len() as u32;
         Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
             starts.push(successors.len());
-            let markings = markings.into_flattened();
-            Graph { space, words: S, markings, starts, successors, transitions, fired }
+            let markings = Packed { space, words: S, markings: markings.into_flattened() };
+            Graph { markings: Kept::Packed(markings), starts, successors, transitions, fired }
         }))
     }
 }

@@ -1,5 +1,6 @@
 //! Tokens that grow without end.
 
+use super::Limits;
 use crate::pt::Pt;
 use cotama_core::net::TransitionId;
 use std::collections::HashSet;
@@ -21,7 +22,10 @@ pub struct Growth {
 }
 
 /// Searches a little for growth, depth first; `None` proves nothing.
-pub(super) fn growth(pt: &Pt) -> Option<Growth> {
+pub(super) fn growth(pt: &Pt, limits: &Limits) -> Option<Growth> {
+    // Each is on the way and among those that were met.
+    let bytes = 2 * (size_of_val(&pt.initial[..]) as u64 + 64);
+    let most = MARKINGS.min(usize::try_from(limits.bytes / 2 / bytes).unwrap_or(MARKINGS));
     let transitions = pt.transitions.len() as u32;
     let mut met = HashSet::from([pt.initial.clone()]);
     let mut way = vec![(pt.initial.clone(), 0)];
@@ -44,7 +48,7 @@ pub(super) fn growth(pt: &Pt) -> Option<Growth> {
             let repeated = first.split_off(at);
             return Some(Growth { first, repeated });
         }
-        if met.len() >= MARKINGS {
+        if met.len() >= most || limits.is_over() {
             return None;
         }
         if way.len() < DEPTH && met.insert(after.clone()) {

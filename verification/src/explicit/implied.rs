@@ -21,20 +21,27 @@ pub(super) struct Implied {
 pub(super) fn implied(pt: &Pt, candidates: &[u32]) -> Vec<Implied> {
     let mut free = invariants(pt);
     let mut used: Vec<(u32, Row)> = Vec::new();
+    let mut work = 0;
     for &place in candidates {
+        if free.is_empty() || work > WORK {
+            break;
+        }
         let Some(at) = free.iter().position(|it| weight(it, place).abs() == 1) else { continue };
         let pivot = free.swap_remove(at);
-        let without = |row: &Row| match weight(row, place) {
-            0 => Some(row.clone()),
-            by => combined(row, 1, &pivot, by.checked_mul(-weight(&pivot, place))?),
+        let by = |row: &Row| weight(row, place);
+        let without = |(at, row): (usize, &Row)| {
+            let by = by(row).checked_mul(-weight(&pivot, place))?;
+            Some((at, combined(row, 1, &pivot, by)?))
         };
-        let others: Option<(Vec<_>, Vec<_>)> = free
-            .iter()
-            .map(without)
-            .collect::<Option<_>>()
-            .zip(used.iter().map(|(place, row)| Some((*place, without(row)?))).collect());
-        if let Some((rest, reduced)) = others {
-            (free, used) = (rest, reduced);
+        let with = |at: &(usize, &Row)| by(at.1) != 0;
+        let rest: Option<Vec<_>> = free.iter().enumerate().filter(with).map(without).collect();
+        let rows = used.iter().map(|it| &it.1).enumerate();
+        let solved: Option<Vec<_>> = rows.filter(with).map(without).collect();
+        work += free.len() + used.len();
+        if let Some((rest, solved)) = rest.zip(solved) {
+            work += rest.iter().chain(&solved).map(|it| it.1.len()).sum::<usize>();
+            rest.into_iter().for_each(|(at, row)| free[at] = row);
+            solved.into_iter().for_each(|(at, row)| used[at].1 = row);
             used.push((place, pivot));
         } else {
             free.push(pivot);
@@ -63,6 +70,9 @@ fn invariants(pt: &Pt) -> Vec<Row> {
     let mut work = 0;
     for transition in 0..pt.transitions.len() as u32 {
         work += rows.len();
+        if work > WORK {
+            break;
+        }
         let mut with: Vec<usize> =
             (0..rows.len()).filter(|&at| weight(&rows[at].0, transition) != 0).collect();
         let size = |(changes, weights): &(Row, Row)| changes.len() + weights.len();
@@ -85,7 +95,7 @@ fn invariants(pt: &Pt) -> Vec<Row> {
             rows.swap_remove(at);
         }
     }
-    rows.into_iter().map(|(_, weights)| weights).collect()
+    rows.into_iter().filter(|it| it.0.is_empty()).map(|(_, weights)| weights).collect()
 }
 
 fn eliminated(row: &(Row, Row), pivot: &(Row, Row), transition: u32) -> Option<(Row, Row)> {

@@ -6,7 +6,8 @@
 //! whatever it takes and gives. Places that others imply are left out where that saves a word.
 
 use super::implied::{Implied, implied};
-use crate::bounds::bounds;
+use super::{Limit, Limits};
+use crate::bounds::bounds_within;
 use crate::pt::Pt;
 
 /// Always set in the first word: no marking is all zeros.
@@ -14,6 +15,9 @@ pub(super) const PRESENT: u64 = 1 << 63;
 
 /// How many words a marking may have: those for which the search is compiled.
 pub(super) const SIZES: [usize; 12] = [1, 2, 3, 4, 5, 6, 8, 12, 16, 32, 64, 128];
+
+/// The most words of a marking in which implied places are left out.
+const NARROW: usize = 64;
 
 /// How wide the field of a place is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,9 +29,11 @@ pub(super) struct Width {
 }
 
 impl Width {
-    /// For each place what is proved, or a first guess; `None` when a firing can add more tokens
-    /// than there may be.
-    pub(super) fn of(pt: &Pt) -> Option<Vec<Self>> {
+    /// For each place what is proved, or a first guess.
+    ///
+    /// # Errors
+    /// A firing can add more tokens than there may be, or time is up.
+    pub(super) fn of(pt: &Pt, limits: &Limits) -> Result<Vec<Self>, Limit> {
         let width = |tokens: u32| (u32::BITS - tokens.leading_zeros()).max(1);
         let first = |(place, &bound): (usize, &Option<u32>)| {
             if let Some(bound) = bound {
@@ -41,7 +47,8 @@ impl Width {
                 proved: false,
             })
         };
-        bounds(pt).iter().enumerate().map(first).collect()
+        let bounds = bounds_within(pt, limits)?.iter().enumerate();
+        bounds.map(first).collect::<Option<_>>().ok_or(Limit::Tokens)
     }
 
     fn field(self) -> u32 {
@@ -75,7 +82,7 @@ pub(super) struct Layout {
     pub(super) stored: usize,
     /// How many words are computed from them: those of implied places.
     pub(super) computed: usize,
-    /// Places in computed words.
+    /// Places in computed words, in their order.
     pub(super) implied: Vec<Implied>,
     /// For each stored word the bits that tell that a guess was too small.
     pub(super) guards: Vec<u64>,
@@ -87,7 +94,8 @@ impl Layout {
     /// Packs places of these widths; `None` when a marking needs more words than the largest of
     /// [`SIZES`].
     pub(super) fn new(pt: &Pt, widths: &[Width]) -> Option<Self> {
-        let implied = left_out(pt, widths);
+        let mut implied = left_out(pt, widths);
+        implied.sort_by_key(|it| it.place);
         let mut is_stored = vec![true; widths.len()];
         for it in &implied {
             is_stored[it.place as usize] = false;
@@ -116,6 +124,19 @@ impl Layout {
         Some(Self { fields, stored, computed, implied, guards, initial })
     }
 
+    /// The tokens of a place in a computed word.
+    pub(super) fn computed_tokens(&self, place: u32, packed: &[u64]) -> u64 {
+        let Ok(at) = self.implied.binary_search_by_key(&place, |it| it.place) else { return 0 };
+        let Implied { constant, terms, .. } = &self.implied[at];
+        let sum = terms.iter().fold(*constant, |sum, &(place, weight)| {
+            let field = self.fields[place as usize];
+            let tokens = packed.get(field.word).map_or(0, |word| field.tokens(*word));
+            sum.wrapping_add(weight.wrapping_mul(tokens.cast_signed()))
+        });
+        // A sum of terms that are no tokens wraps around, and comes back.
+        sum.cast_unsigned()
+    }
+
     /// What firing a transition adds to the stored words.
     pub(super) fn delta(&self, pt: &Pt, transition: u32) -> Vec<u64> {
         let mut words = vec![0_u64; self.stored];
@@ -135,19 +156,23 @@ struct Words {
     /// How many bits of the first word may be used.
     first: u32,
     used: Vec<u32>,
+    /// For each width a word before which there is no room for it.
+    from: [usize; 64],
 }
 
 impl Words {
     fn new(first: u32) -> Self {
-        Self { first, used: vec![0] }
+        Self { first, used: vec![0], from: [0; 64] }
     }
 
     fn add(&mut self, width: u32) -> Field {
-        let first = self.first;
+        let (first, from) = (self.first, &mut self.from[width as usize % 64]);
         let room = |&(word, used): &(usize, &u32)| {
             used + width <= if word == 0 { first } else { u64::BITS }
         };
-        let word = self.used.iter().enumerate().find(room).map_or(self.used.len(), |it| it.0);
+        let words = self.used.iter().enumerate();
+        let word = words.skip(*from).find(room).map_or(self.used.len(), |it| it.0);
+        *from = word;
         if word == self.used.len() {
             self.used.push(0);
         }
@@ -171,7 +196,8 @@ fn left_out(pt: &Pt, widths: &[Width]) -> Vec<Implied> {
         words.used.len()
     };
     let all = words(&[]);
-    if all == 1 {
+    // Where a word less makes little difference the search for it is dear.
+    if all == 1 || all > NARROW {
         return Vec::new();
     }
     let mut candidates: Vec<u32> =

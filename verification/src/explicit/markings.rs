@@ -3,22 +3,92 @@
 use super::enabling::Seen;
 use super::layout::{PRESENT, Width};
 use super::space::{Space, TooNarrow};
+use super::sparse::{Cursor, Sparse};
 use super::view::View;
 use super::{Limit, Limits};
 use crate::property::Marking;
 use crate::pt::Pt;
 use cotama_core::net::PlaceId;
-use std::time::Instant;
 
 /// No number.
 const EMPTY: u32 = u32::MAX;
 
-/// Markings with numbers in the order in which they are met; the initial one has number 0. They are
-/// packed; when a place outgrows its field all are packed anew, and keep their numbers.
+/// Markings with numbers in the order in which they are met; the initial one has number 0.
 pub(crate) struct Markings<'n> {
-    pt: &'n Pt,
     limits: Limits,
     pub(crate) memory: Memory,
+    store: Store<'n>,
+}
+
+/// How markings are kept.
+enum Store<'n> {
+    Packed(Box<Packed<'n>>),
+    Sparse(Box<(Sparse, Cursor)>),
+}
+
+impl<'n> Markings<'n> {
+    /// The initial marking of a net.
+    ///
+    /// # Errors
+    /// The limit that it passes.
+    pub(crate) fn new(pt: &'n Pt, limits: &Limits) -> Result<Self, Limit> {
+        let mut memory = Memory::new(limits.bytes);
+        let store = match Packed::new(pt, limits, &mut memory) {
+            Ok(it) => Store::Packed(Box::new(it)),
+            Err(Limit::Words) => Store::Sparse(Box::new(Sparse::new(pt, &mut memory)?)),
+            Err(limit) => return Err(limit),
+        };
+        Ok(Self { limits: *limits, memory, store })
+    }
+
+    /// How many markings were met.
+    pub(crate) fn len(&self) -> usize {
+        match &self.store {
+            Store::Packed(it) => it.len(),
+            Store::Sparse(it) => it.0.len(),
+        }
+    }
+
+    /// Looks at a marking: its tokens, and what it enables.
+    pub(crate) fn look(&mut self, marking: u32) -> Look<'_> {
+        match &mut self.store {
+            Store::Packed(it) => it.look(marking),
+            Store::Sparse(it) => it.0.look(&mut it.1, marking),
+        }
+    }
+
+    /// The marking after firing a transition that is enabled; a new one gets the next number.
+    ///
+    /// # Errors
+    /// The limit that it passes.
+    pub(crate) fn fire(&mut self, marking: u32, transition: u32) -> Result<u32, Limit> {
+        let Self { limits, memory, store } = self;
+        match store {
+            Store::Packed(it) => it.fire(marking, transition, limits, memory),
+            Store::Sparse(it) => it.0.fire(marking, transition, limits, memory),
+        }
+    }
+
+    /// The marking after firing a transition that is enabled, if it was met before.
+    pub(crate) fn known(&mut self, marking: u32, transition: u32) -> Option<u32> {
+        match &mut self.store {
+            Store::Packed(it) => it.known(marking, transition),
+            Store::Sparse(it) => it.0.known(marking, transition),
+        }
+    }
+
+    /// Whether time is up.
+    ///
+    /// # Errors
+    /// [`Limit::Time`] when it is.
+    pub(crate) fn check_time(&self) -> Result<(), Limit> {
+        if self.limits.is_over() { Err(Limit::Time) } else { Ok(()) }
+    }
+}
+
+/// Packed markings; when a place outgrows its field all are packed anew, and keep their numbers.
+struct Packed<'n> {
+    pt: &'n Pt,
     widths: Vec<Width>,
     space: Space,
     /// Words of a marking.
@@ -32,19 +102,14 @@ pub(crate) struct Markings<'n> {
     after: Vec<u64>,
 }
 
-impl<'n> Markings<'n> {
-    /// The initial marking of a net.
-    ///
-    /// # Errors
-    /// The limit that it passes.
-    pub(crate) fn new(pt: &'n Pt, limits: &Limits) -> Result<Self, Limit> {
-        let widths = Width::of(pt).ok_or(Limit::Tokens)?;
+impl<'n> Packed<'n> {
+    fn new(pt: &'n Pt, limits: &Limits, memory: &mut Memory) -> Result<Self, Limit> {
+        let widths = Width::of(pt, limits)?;
         let space = Space::new(pt, &widths).ok_or(Limit::Words)?;
+        memory.take(space.bytes())?;
         let (view, seen) = (space.enabling.view(), space.enabling.unseen());
         let mut markings = Self {
             pt,
-            limits: *limits,
-            memory: Memory { used: 0, most: limits.bytes },
             words: space.layout.stored,
             deltas: deltas(pt, &space),
             after: space.layout.initial.clone(),
@@ -55,55 +120,44 @@ impl<'n> Markings<'n> {
             view,
             seen,
         };
-        markings.number()?;
+        markings.number(limits, memory)?;
         Ok(markings)
     }
 
     /// How many markings were met.
-    pub(crate) fn len(&self) -> usize {
+    fn len(&self) -> usize {
         self.stored.len() / self.words
     }
 
     /// Looks at a marking: its tokens, and what it enables.
-    pub(crate) fn look(&mut self, marking: u32) -> Look<'_> {
+    fn look(&mut self, marking: u32) -> Look<'_> {
         let packed = &self.stored[marking as usize * self.words..][..self.words];
         self.space.enabling.look(packed, &mut self.view, &mut self.seen);
-        Look { space: &self.space, packed, view: &self.view }
+        Look::packed(&self.space, packed, &self.view)
     }
 
-    /// The marking after firing a transition that is enabled; a new one gets the next number.
-    ///
-    /// # Errors
-    /// The limit that it passes.
-    pub(crate) fn fire(&mut self, marking: u32, transition: u32) -> Result<u32, Limit> {
+    fn fire(
+        &mut self,
+        marking: u32,
+        transition: u32,
+        limits: &Limits,
+        memory: &mut Memory,
+    ) -> Result<u32, Limit> {
         self.add(marking, transition);
         loop {
             match self.space.check(&self.after) {
-                Ok(None) => return self.number(),
+                Ok(None) => return self.number(limits, memory),
                 Ok(Some(limit)) => return Err(limit),
-                Err(TooNarrow(places)) => self.widen(&places)?,
+                Err(TooNarrow(places)) => self.widen(&places, memory)?,
             }
             self.add(marking, transition);
         }
     }
 
-    /// The marking after firing a transition that is enabled, if it was met before.
-    pub(crate) fn known(&mut self, marking: u32, transition: u32) -> Option<u32> {
+    fn known(&mut self, marking: u32, transition: u32) -> Option<u32> {
         self.add(marking, transition);
         let (stored, words, after) = (&self.stored, self.words, &self.after);
         self.index.find(hash(after), |it| stored[it as usize * words..][..words] == after[..]).ok()
-    }
-
-    /// Whether time is up.
-    ///
-    /// # Errors
-    /// [`Limit::Time`] when it is.
-    pub(crate) fn check_time(&self) -> Result<(), Limit> {
-        if self.limits.deadline.is_some_and(|it| Instant::now() >= it) {
-            Err(Limit::Time)
-        } else {
-            Ok(())
-        }
     }
 
     fn add(&mut self, marking: u32, transition: u32) {
@@ -114,25 +168,25 @@ impl<'n> Markings<'n> {
     }
 
     /// The number of the marking in `after`.
-    fn number(&mut self) -> Result<u32, Limit> {
+    fn number(&mut self, limits: &Limits, memory: &mut Memory) -> Result<u32, Limit> {
         let (words, count) = (self.words, self.len());
         let (stored, after) = (&self.stored, &self.after);
         let found =
             self.index.find(hash(after), |it| stored[it as usize * words..][..words] == after[..]);
         let Err(slot) = found else { return found.map_err(|_| Limit::Bytes) };
-        if count as u64 >= self.limits.states.min(EMPTY.into()) {
+        if count as u64 >= limits.states.min(EMPTY.into()) {
             return Err(Limit::States);
         }
-        self.memory.room(&mut self.stored, words)?;
+        memory.room(&mut self.stored, words)?;
         self.stored.extend_from_slice(&self.after);
         let stored = &self.stored;
         let hash_of = |it: u32| hash(&stored[it as usize * words..][..words]);
-        self.index.insert(slot, count as u32, &mut self.memory, hash_of)?;
+        self.index.insert(slot, count as u32, memory, hash_of)?;
         Ok(count as u32)
     }
 
     /// Packs all markings anew, with these places twice as wide.
-    fn widen(&mut self, places: &[usize]) -> Result<(), Limit> {
+    fn widen(&mut self, places: &[usize], memory: &mut Memory) -> Result<(), Limit> {
         for &place in places {
             let bits = &mut self.widths[place].bits;
             *bits = (2 * *bits).min(u32::BITS);
@@ -140,7 +194,7 @@ impl<'n> Markings<'n> {
         let space = Space::new(self.pt, &self.widths).ok_or(Limit::Words)?;
         let (count, words) = (self.len(), space.layout.stored);
         let mut stored = Vec::new();
-        self.memory.room(&mut stored, count * words)?;
+        memory.room(&mut stored, count * words)?;
         stored.resize(count * words, 0_u64);
         for (at, packed) in stored.chunks_exact_mut(words).enumerate() {
             let look = self.look(at as u32);
@@ -151,7 +205,7 @@ impl<'n> Markings<'n> {
                 packed[field.word] |= look.tokens(PlaceId(place as u32)) << field.shift;
             }
         }
-        self.memory.give_back(&self.stored);
+        memory.give_back(&self.stored);
         (self.view, self.seen) = (space.enabling.view(), space.enabling.unseen());
         (self.deltas, self.words, self.stored, self.space) =
             (deltas(self.pt, &space), words, stored, space);
@@ -168,9 +222,25 @@ fn deltas(pt: &Pt, space: &Space) -> Vec<u64> {
 /// A marking as it is looked at.
 #[derive(Clone, Copy)]
 pub(crate) struct Look<'m> {
-    pub(super) space: &'m Space,
-    pub(super) packed: &'m [u64],
+    tokens: Held<'m>,
     pub(super) view: &'m View,
+}
+
+/// Where its tokens are.
+#[derive(Clone, Copy)]
+enum Held<'m> {
+    Packed(&'m Space, &'m [u64]),
+    Plain(&'m [u32]),
+}
+
+impl<'m> Look<'m> {
+    pub(super) fn packed(space: &'m Space, packed: &'m [u64], view: &'m View) -> Self {
+        Self { tokens: Held::Packed(space, packed), view }
+    }
+
+    pub(super) fn plain(tokens: &'m [u32], view: &'m View) -> Self {
+        Self { tokens: Held::Plain(tokens), view }
+    }
 }
 
 impl Look<'_> {
@@ -191,15 +261,19 @@ impl Look<'_> {
 impl Marking for Look<'_> {
     #[inline]
     fn tokens(&self, place: PlaceId) -> u64 {
-        let stored = self.packed.len();
-        self.space.layout.fields.get(place.0 as usize).map_or(0, |field| {
-            let at = field.word;
-            field.tokens(if at < stored {
-                self.packed[at]
-            } else {
-                self.view.computed[at - stored]
-            })
-        })
+        let at = place.0 as usize;
+        match self.tokens {
+            Held::Plain(tokens) => tokens.get(at).copied().unwrap_or(0).into(),
+            Held::Packed(space, packed) => space.layout.fields.get(at).map_or(0, |field| {
+                let at = field.word;
+                field.tokens(
+                    packed
+                        .get(at)
+                        .copied()
+                        .unwrap_or_else(|| self.view.computed[at - packed.len()]),
+                )
+            }),
+        }
     }
 }
 
@@ -211,6 +285,25 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
+    /// Nothing is taken of so many bytes.
+    pub(crate) const fn new(most: u64) -> Self {
+        Self { used: 0, most }
+    }
+
+    /// Takes so many bytes.
+    ///
+    /// # Errors
+    /// [`Limit::Bytes`] when that is too much.
+    pub(crate) fn take(&mut self, bytes: u64) -> Result<(), Limit> {
+        self.used += bytes;
+        if self.used > self.most { Err(Limit::Bytes) } else { Ok(()) }
+    }
+
+    /// Gives back so many bytes.
+    pub(crate) fn release(&mut self, bytes: u64) {
+        self.used -= self.used.min(bytes);
+    }
+
     /// Makes room for so many more items in a list.
     ///
     /// # Errors
@@ -241,6 +334,11 @@ impl Memory {
         self.room(list, len.saturating_sub(list.len()))?;
         list.resize(len, with);
         Ok(())
+    }
+
+    /// How many are taken.
+    pub(super) const fn used(&self) -> u64 {
+        self.used
     }
 
     fn give_back<T>(&mut self, list: &Vec<T>) {

@@ -28,6 +28,7 @@
 //! ```
 
 mod apart;
+mod bits;
 mod block;
 mod boxes;
 mod crew;
@@ -38,22 +39,27 @@ mod goal;
 mod graph;
 mod growth;
 mod implied;
+mod kept;
 mod layout;
 mod liveness;
 mod markings;
 mod plan;
 mod reach;
 mod space;
+mod sparse;
 mod statespace;
 mod table;
 mod view;
+mod wide;
 mod worker;
 
+pub use bits::BitSet;
 pub use goal::Goal;
 pub use graph::Graph;
 pub use growth::Growth;
 pub use liveness::{Components, Liveness};
-pub(crate) use markings::{Index, Look, Markings, hash};
+pub(crate) use markings::{Index, Look, Markings, Memory, hash};
+pub(crate) use reach::most;
 pub use reach::{Reached, reach};
 pub use statespace::{StateSpace, statespace};
 
@@ -68,6 +74,13 @@ pub struct Limits {
     pub bytes: u64,
     /// When to stop.
     pub deadline: Option<Instant>,
+}
+
+impl Limits {
+    /// Whether the time is over.
+    pub fn is_over(&self) -> bool {
+        self.deadline.is_some_and(|it| Instant::now() >= it)
+    }
 }
 
 impl Default for Limits {
@@ -88,7 +101,8 @@ pub enum Limit {
     Time,
     /// A place with more than 4,294,967,295 tokens.
     Tokens,
-    /// A marking that does not fit in 128 words.
+    /// A marking that no longer fits in 128 words, as places hold more than it seemed. Nets of
+    /// which no marking fits are searched too.
     Words,
     /// The net is unbounded: it has no end.
     Unbounded,

@@ -12,5 +12,5 @@ pub(super) struct Plan<'p> {
     pub(super) jobs: usize,
     pub(super) progress: &'p dyn Fn(Progress),
     /// Stop after the first level that has one of these.
-    pub(super) goal: Option<Packed<'p>>,
+    pub(super) goal: Option<&'p Packed<'p>>,
 }

@@ -3,13 +3,16 @@
 use super::block::Block;
 use super::explore::{End, explore};
 use super::goal::Goal;
+use super::growth::growth;
 use super::layout::Width;
 use super::plan::Plan;
 use super::space::{Search, Space, TooNarrow, search};
 use super::table::Table;
-use super::{Limit, Limits, Progress};
+use super::{Limit, Limits, Progress, Unfinished, wide};
+use crate::property::Linear;
 use crate::pt::Pt;
 use cotama_core::net::TransitionId;
+use std::sync::atomic::AtomicI64;
 
 /// What a search for a marking found.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,10 +79,36 @@ pub fn reach(
     jobs: usize,
     progress: &dyn Fn(Progress),
 ) -> Reached {
-    let widths = Width::of(pt).ok_or(Limit::Tokens);
-    widths
+    Width::of(pt, limits)
         .and_then(|it| search(pt, it, &mut Reach { pt, goal, limits, jobs, progress }))
+        .or_else(|limit| match limit {
+            Limit::Words => wide::reach(pt, goal, limits, progress),
+            limit => Err(limit),
+        })
         .unwrap_or_else(|limit| Reached::Unknown { limit, states: 0 })
+}
+
+/// The most that a sum of tokens ever is, and how many markings are reachable.
+///
+/// # Errors
+/// The limit that was reached; [`Limit::Unbounded`] when tokens were seen to grow without end.
+pub(crate) fn most(
+    pt: &Pt,
+    sum: &Linear,
+    limits: &Limits,
+    jobs: usize,
+    progress: &dyn Fn(Progress),
+) -> Result<(i64, u64), Unfinished> {
+    let none = |limit| Unfinished { limit, states: 0 };
+    let widths = Width::of(pt, limits).map_err(none)?;
+    if !widths.iter().all(|it| it.proved) && growth(pt, limits).is_some() {
+        return Err(none(Limit::Unbounded));
+    }
+    let seen = AtomicI64::new(i64::MIN);
+    match reach(pt, Goal::most(sum, &seen), limits, jobs, progress) {
+        Reached::Unknown { limit, states } => Err(Unfinished { limit, states }),
+        it => Ok((seen.into_inner(), it.states())),
+    }
 }
 
 struct Reach<'r> {
@@ -94,9 +123,10 @@ impl Search for Reach<'_> {
     type Found = Reached;
 
     fn search<const S: usize>(&mut self, space: Space) -> Result<Reached, TooNarrow> {
-        let goal = self.goal.packed(&space);
+        let goal = self.goal.packed();
         let Self { pt, limits, jobs, progress, .. } = *self;
-        let explored = explore::<S>(&space, Plan { pt, limits, jobs, progress, goal: Some(goal) })?;
+        let explored =
+            explore::<S>(&space, Plan { pt, limits, jobs, progress, goal: Some(&goal) })?;
         let states = explored.states;
         Ok(match explored.end {
             End::Exhausted => Reached::Never { states },

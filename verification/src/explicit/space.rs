@@ -5,6 +5,9 @@ use super::enabling::Enabling;
 use super::layout::{Layout, SIZES, Width};
 use crate::pt::Pt;
 
+/// The most words of what transitions add.
+const DELTAS: usize = 1 << 23;
+
 /// The layout and tables of a net.
 #[derive(Debug)]
 pub(super) struct Space {
@@ -21,9 +24,18 @@ pub(super) struct TooNarrow(pub(super) Vec<usize>);
 impl Space {
     pub(super) fn new(pt: &Pt, widths: &[Width]) -> Option<Self> {
         let layout = Layout::new(pt, widths)?;
+        if layout.stored * pt.transitions.len() > DELTAS {
+            return None;
+        }
         let enabling = Enabling::new(pt, &layout);
         let deltas = (0..pt.transitions.len() as u32).map(|it| layout.delta(pt, it)).collect();
         Some(Self { layout, enabling, deltas })
+    }
+
+    /// About how much memory it takes.
+    pub(super) fn bytes(&self) -> u64 {
+        let deltas = self.deltas.len() * (self.layout.stored * size_of::<u64>() + 24);
+        self.enabling.bytes() + deltas as u64
     }
 
     /// For each transition what it adds to a marking of `S` words.

@@ -5,7 +5,7 @@ use super::growth::{Growth, growth};
 use super::layout::Width;
 use super::plan::Plan;
 use super::space::{Search, Space, TooNarrow, search};
-use super::{Limit, Limits, Progress};
+use super::{Limit, Limits, Progress, wide};
 use crate::pt::Pt;
 use cotama_core::net::TransitionId;
 
@@ -95,14 +95,21 @@ pub fn statespace(
     jobs: usize,
     progress: &dyn Fn(Progress),
 ) -> StateSpace {
-    let Some(widths) = Width::of(pt) else { return StateSpace::none(pt, Limit::Tokens) };
+    let widths = match Width::of(pt, limits) {
+        Ok(widths) => widths,
+        Err(limit) => return StateSpace::none(pt, limit),
+    };
     let is_bounded = widths.iter().all(|it| it.proved);
-    let growth = if is_bounded { None } else { growth(pt) };
+    let growth = if is_bounded { None } else { growth(pt, limits) };
     let few = Limits { states: limits.states.min(OF_AN_UNBOUNDED_NET), ..*limits };
     let limits = if growth.is_some() { &few } else { limits };
     let plan = Plan { pt, limits, jobs, progress, goal: None };
-    let mut found =
-        search(pt, widths, &mut Count { plan }).unwrap_or_else(|limit| StateSpace::none(pt, limit));
+    let mut found = search(pt, widths, &mut Count { plan })
+        .or_else(|limit| match limit {
+            Limit::Words => wide::statespace(pt, limits, progress),
+            limit => Err(limit),
+        })
+        .unwrap_or_else(|limit| StateSpace::none(pt, limit));
     found.bounded = match growth {
         Some(_) => Some(false),
         None => (is_bounded || found.limit.is_none()).then_some(true),

@@ -34,7 +34,7 @@ pub(super) struct Shared<'s, const S: usize> {
     deltas: Vec<[u64; S]>,
     diamonds: Diamonds,
     limits: &'s Limits,
-    goal: Option<Packed<'s>>,
+    goal: Option<&'s Packed<'s>>,
     tables: Vec<Mutex<Table<S>>>,
     /// Those of each thread; it holds the lock while it fills them.
     boxes: Vec<RwLock<Boxes<S>>>,
@@ -230,7 +230,8 @@ impl<const S: usize> Worker<S> {
                 break;
             };
             if shared.limits.deadline.is_some_and(|it| Instant::now() >= it) {
-                shared.stop(Limit::Time);
+                // Also when the level is only counted to its end.
+                shared.stop.store(Limit::Time.code(), Relaxed);
             }
             // Other limits let the level be counted to its end, so that the counts are those of
             // complete levels.

@@ -46,7 +46,7 @@ impl Rounds {
 
     /// A way to a marking with the fewest rounds, and of these with the fewest firings.
     pub fn way(&self, graph: &Graph, goal: Goal<'_>) -> Option<Vec<TransitionId>> {
-        let goal = graph.satisfying(goal);
+        let goal = graph.satisfying(goal, 1);
         let mut before: Vec<Option<(u32, TransitionId)>> = vec![None; graph.states()];
         let (mut far, mut done) = (vec![u32::MAX; graph.states()], vec![false; graph.states()]);
         let mut next = VecDeque::from([0_u32]);

@@ -1,7 +1,7 @@
 //! Formulas about one marking, to be asked of many markings.
 
 use super::{Atom, Formula, Linear};
-use crate::pt::Pt;
+use crate::pt::{Lists, Pt};
 use cotama_core::net::PlaceId;
 
 /// Something that says how many tokens each place holds.
@@ -45,9 +45,8 @@ impl Marking for [u64] {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Condition<'n> {
-    net: &'n Pt,
     /// Each leads only to tests before it.
-    tests: Vec<(Test, [u32; 2])>,
+    tests: Vec<(Test<'n>, [u32; 2])>,
     first: u32,
 }
 
@@ -55,19 +54,32 @@ pub struct Condition<'n> {
 const ENDS: [u32; 2] = [u32::MAX - 1, u32::MAX];
 
 #[derive(Clone, Debug)]
-enum Test {
+enum Test<'n> {
     AtLeast(PlaceId, u64),
     AtMostZero(Linear),
-    Fireable(u32),
-    Deadlock,
+    /// What a transition needs.
+    Fireable(&'n [(u32, u32)]),
+    /// What each transition needs.
+    Deadlock(&'n Lists<u32>),
 }
 
 impl<'n> Condition<'n> {
     /// `None` when the formula has temporal operators or quantifiers. Its transitions are those of
     /// the net.
     pub fn new(formula: &Formula, net: &'n Pt) -> Option<Self> {
-        let mut condition = Self { net, tests: Vec::new(), first: 0 };
-        condition.first = formula.is_state().then(|| condition.add(formula, ENDS))?;
+        Self::of(formula, Some(net))
+    }
+
+    /// The same of a formula about tokens alone, for any net that has its places; `None` also when
+    /// it speaks of transitions or deadlocks.
+    pub fn of_tokens(formula: &Formula) -> Option<Self> {
+        let other = |it: &Formula| matches!(it, Formula::Atom(Atom::Fireable(_) | Atom::Deadlock));
+        if formula.any(&other) { None } else { Self::of(formula, None) }
+    }
+
+    fn of(formula: &Formula, net: Option<&'n Pt>) -> Option<Self> {
+        let mut condition = Self { tests: Vec::new(), first: 0 };
+        condition.first = formula.is_state().then(|| condition.add(formula, ENDS, net))?;
         Some(condition)
     }
 
@@ -79,9 +91,9 @@ impl<'n> Condition<'n> {
             let holds = match test {
                 Test::AtLeast(place, tokens) => marking.tokens(*place) >= *tokens,
                 Test::AtMostZero(linear) => linear.holds(marking),
-                Test::Fireable(transition) => self.enabled(marking, *transition),
-                Test::Deadlock => {
-                    (0..self.net.transitions.len() as u32).all(|it| !self.enabled(marking, it))
+                Test::Fireable(needs) => enabled(marking, needs),
+                Test::Deadlock(all) => {
+                    (0..all.len() as u32).all(|it| !enabled(marking, all.of(it)))
                 }
             };
             at = next[usize::from(holds)];
@@ -89,32 +101,34 @@ impl<'n> Condition<'n> {
         at == ENDS[1]
     }
 
-    fn enabled<M: Marking + ?Sized>(&self, marking: &M, transition: u32) -> bool {
-        let needs = self.net.needs.of(transition);
-        needs.iter().all(|&(place, tokens)| marking.tokens(PlaceId(place)) >= u64::from(tokens))
-    }
-
     /// Adds the tests of a formula that lead to one of two tests that are there; where the first of
     /// them is.
-    fn add(&mut self, formula: &Formula, [no, yes]: [u32; 2]) -> u32 {
+    fn add(&mut self, formula: &Formula, [no, yes]: [u32; 2], net: Option<&'n Pt>) -> u32 {
         match formula {
-            Formula::Not(inner) => self.add(inner, [yes, no]),
+            Formula::Not(inner) => self.add(inner, [yes, no], net),
             Formula::And(all) => {
-                all.iter().rev().fold(yes, |next, part| self.add(part, [no, next]))
+                all.iter().rev().fold(yes, |next, part| self.add(part, [no, next], net))
             }
-            Formula::Or(all) => all.iter().rev().fold(no, |next, part| self.add(part, [next, yes])),
+            Formula::Or(all) => {
+                all.iter().rev().fold(no, |next, part| self.add(part, [next, yes], net))
+            }
             Formula::Atom(Atom::AtMost(linear)) => self.compare(linear, [no, yes]),
-            Formula::Atom(Atom::Fireable(transitions)) => transitions
-                .iter()
-                .rev()
-                .fold(no, |next, it| self.push(Test::Fireable(it.0), [next, yes])),
-            Formula::Atom(Atom::Deadlock) => self.push(Test::Deadlock, [no, yes]),
+            Formula::Atom(Atom::Fireable(transitions)) => {
+                transitions.iter().rev().fold(no, |next, it| {
+                    let needs = net.map_or(&[][..], |net| net.needs.of(it.0));
+                    self.push(Test::Fireable(needs), [next, yes])
+                })
+            }
+            Formula::Atom(Atom::Deadlock) => match net {
+                Some(net) => self.push(Test::Deadlock(&net.needs), [no, yes]),
+                None => no,
+            },
             // `new` lets no other formula pass.
             _ => no,
         }
     }
 
-    fn push(&mut self, test: Test, next: [u32; 2]) -> u32 {
+    fn push(&mut self, test: Test<'n>, next: [u32; 2]) -> u32 {
         self.tests.push((test, next));
         self.tests.len() as u32 - 1
     }
@@ -140,7 +154,19 @@ impl<'n> Condition<'n> {
     }
 }
 
+fn enabled<M: Marking + ?Sized>(marking: &M, needs: &[(u32, u32)]) -> bool {
+    needs.iter().all(|&(place, tokens)| marking.tokens(PlaceId(place)) >= u64::from(tokens))
+}
+
 impl Linear {
+    /// What it adds up to in a marking.
+    pub(crate) fn value<M: Marking + ?Sized>(&self, marking: &M) -> i128 {
+        let part = |&(place, weight): &(PlaceId, i64)| {
+            i128::from(weight) * i128::from(marking.tokens(place))
+        };
+        self.weights.iter().map(part).fold(self.constant.into(), i128::saturating_add)
+    }
+
     /// Whether the inequality holds in a marking.
     #[inline]
     pub fn holds<M: Marking + ?Sized>(&self, marking: &M) -> bool {

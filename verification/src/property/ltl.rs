@@ -1,6 +1,7 @@
 //! The normal form of LTL.
 
-use super::Formula;
+use super::{Assumptions, Atom, Formula};
+use cotama_core::net::TransitionId;
 use std::collections::HashMap;
 
 /// A formula about one run as nodes that share what is equal, with negations in what is said of one
@@ -17,6 +18,8 @@ pub struct Ltl {
 pub enum LtlNode {
     /// A formula about the first marking.
     State(Formula),
+    /// This transition fires first.
+    Fires(TransitionId),
     /// All of them.
     And(Vec<u32>),
     /// One of them.
@@ -43,8 +46,48 @@ impl Ltl {
     }
 
     fn of(path: &Formula, positive: bool) -> Option<Self> {
+        Self::fair(path, &Assumptions::default(), positive)
+    }
+
+    /// What is true of the runs that are as assumed and of which the formula is true, or else
+    /// false. A transition is treated weakly fair on a run that it is disabled on, or fires on,
+    /// again and again; strongly fair on one that it is disabled on from some time on, or fires on
+    /// again and again.
+    ///
+    /// ```
+    /// use cotama_models::nets::door;
+    /// use cotama_verification::property::{self, Formula, Ltl, LtlNode, Question};
+    /// use cotama_verification::pt::Pt;
+    /// let door = Pt::from(&door::NET);
+    /// let asked = property::parse("A (F G Open) assuming weak(opened)", &door).unwrap();
+    /// let Question::Fair(Formula::All(path), assumed) = asked.question else { panic!() };
+    /// let counterexample = Ltl::fair(&path, &assumed, false).unwrap();
+    /// assert!(counterexample.nodes().iter().any(|it| matches!(it, LtlNode::Fires(_))));
+    /// ```
+    pub fn fair(path: &Formula, assumed: &Assumptions, positive: bool) -> Option<Self> {
         let mut builder = Builder::default();
-        let root = builder.add(&path.simplified(), positive)?;
+        let mut all = vec![builder.add(&path.simplified(), positive)?];
+        for it in &assumed.weak {
+            let rests = builder.disabled(*it);
+            let fires = builder.push(LtlNode::Fires(*it));
+            let either = builder.push(LtlNode::Or(vec![rests, fires]));
+            all.push(builder.often(either));
+        }
+        for it in &assumed.strong {
+            let rests = builder.disabled(*it);
+            let never = builder.push(LtlNode::State(Formula::FALSE));
+            let rests = builder.push(LtlNode::Release(never, rests));
+            let always = builder.push(LtlNode::State(Formula::TRUE));
+            let rests = builder.push(LtlNode::Until(always, rests));
+            let fires = builder.push(LtlNode::Fires(*it));
+            let fires = builder.often(fires);
+            all.push(builder.push(LtlNode::Or(vec![rests, fires])));
+        }
+        for it in &assumed.often {
+            let holds = builder.add(&it.simplified(), true)?;
+            all.push(builder.often(holds));
+        }
+        let root = if all.len() == 1 { all[0] } else { builder.push(LtlNode::And(all)) };
         Some(Self { nodes: builder.nodes, root })
     }
 
@@ -74,6 +117,20 @@ impl Builder {
         self.positions.insert(node.clone(), at);
         self.nodes.push(node);
         at
+    }
+
+    /// That a transition is disabled.
+    fn disabled(&mut self, transition: TransitionId) -> u32 {
+        let enabled = Formula::Atom(Atom::Fireable(vec![transition]));
+        self.push(LtlNode::State(enabled.negated()))
+    }
+
+    /// Again and again.
+    fn often(&mut self, part: u32) -> u32 {
+        let always = self.push(LtlNode::State(Formula::TRUE));
+        let at_last = self.push(LtlNode::Until(always, part));
+        let never = self.push(LtlNode::State(Formula::FALSE));
+        self.push(LtlNode::Release(never, at_last))
     }
 
     /// A simple formula or its negation.

@@ -29,7 +29,7 @@
 //! | question | asks |
 //! | --- | --- |
 //! | a formula | [`Question::Formula`] |
-//! | CTL, then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
+//! | CTL or LTL, then `assuming weak(t1, t2), strong(t3), often(p)` | [`Question::Fair`] |
 //! | `bounds(p1 + p2)` | [`Question::Bound`] |
 //! | `bound(t -> p)` | [`Question::Response`] |
 //! | `live` | [`Question::Liveness`] |
@@ -136,7 +136,8 @@ pub struct Property {
 pub enum Question {
     /// Whether a temporal formula holds at the start.
     Formula(Formula),
-    /// Whether a formula of CTL holds at the start when its quantifiers speak of fair runs only.
+    /// Whether a formula of CTL, or of LTL behind one quantifier, holds at the start when
+    /// quantifiers speak of fair runs only.
     Fair(Formula, Assumptions),
     /// The most tokens that these places ever hold together.
     Bound(Vec<PlaceId>),
@@ -170,6 +171,15 @@ impl Question {
     pub fn deadlock_free() -> Self {
         let alive = Formula::Not(Formula::Atom(Atom::Deadlock).into());
         Self::Formula(Formula::All(Formula::Globally(alive.into()).into()))
+    }
+
+    /// The same question with its formula simplified, as certificates hold it.
+    #[must_use]
+    pub fn simplified(&self) -> Self {
+        match self {
+            Self::Formula(formula) => Self::Formula(formula.simplified()),
+            other => other.clone(),
+        }
     }
 
     /// The formula that it asks for.

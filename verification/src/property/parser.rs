@@ -4,7 +4,7 @@ use super::error::Fault;
 use super::lexer::{Lexeme, Token, is_reserved, lexemes};
 use super::linear::Sum;
 use super::names::{First, Ids, Names};
-use super::{Assumptions, Atom, Ctl, Formula, Linear, Property, PropertyError, Question};
+use super::{Assumptions, Atom, Ctl, Formula, Linear, Ltl, Property, PropertyError, Question};
 use crate::pt::Pt;
 use crate::source::quoted;
 use std::ops::Range;
@@ -42,15 +42,21 @@ pub fn parse_with(text: &str, net: &Pt, ids: Ids<'_>) -> Result<Property, Proper
     Ok(Property { name: name.to_owned(), question })
 }
 
-/// The formula, if it is of CTL.
-fn of_ctl(formula: Formula, span: Range<usize>) -> Result<Formula, Fault> {
-    match Ctl::new(&formula) {
-        Some(_) => Ok(formula),
-        None => Err(Fault::new(span, "assumptions are made for formulas of CTL only").help(
-            "put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, and \
-                leave out limits of time",
-        )),
+/// The formula, if there is an engine for it on fair runs: if it is of CTL, or one quantifier in
+/// front of a formula of LTL.
+fn on_fair_runs(formula: Formula, span: Range<usize>) -> Result<Formula, Fault> {
+    let is_linear = |it: &Formula| match it {
+        Formula::All(path) | Formula::Exists(path) => Ltl::new(path).is_some(),
+        _ => false,
+    };
+    if Ctl::new(&formula).is_some() || is_linear(&formula) {
+        return Ok(formula);
     }
+    let message = "assumptions are made for formulas of CTL, and of LTL behind one quantifier";
+    Err(Fault::new(span, message).help(
+        "put `A` or `E` in front of each of `X`, `F`, `G` and `U`, as in `AG AF p`, or one of \
+         them in front of all, as in `A (G F p)`; and leave out limits of time",
+    ))
 }
 
 pub(super) struct Parser<'t> {
@@ -202,7 +208,7 @@ impl<'t> Parser<'t> {
             let formula = self.expression(Join::Equivalence)?.formula()?;
             let span = start..self.end();
             if self.take(&["assuming"]) {
-                Question::Fair(of_ctl(formula, span)?, self.assumptions()?)
+                Question::Fair(on_fair_runs(formula, span)?, self.assumptions()?)
             } else {
                 Question::Formula(formula)
             }

@@ -1,12 +1,13 @@
 //! A net while it is reduced.
 
-use super::Goal;
 use super::record::Record;
 use super::supply::Supply;
 use super::trail::{Tokens, Trail};
+use super::{Goal, Limits};
 use crate::pt::{Bounds, Lists, Pt};
 use cotama_core::net::PlaceId;
 use std::collections::BTreeSet;
+use std::time::Instant;
 
 /// Numbers by place or by transition, sorted.
 pub(super) type Row = Vec<(u32, i64)>;
@@ -78,6 +79,9 @@ fn merged<A, B>(a: &[(u32, A)], b: &[(u32, B)]) -> Vec<u32> {
     all
 }
 
+/// Arcs between two looks at the clock.
+const TICK: u64 = 1 << 16;
+
 /// Ids of places are those of the original net, of transitions they grow as some are replaced.
 #[derive(Clone, Debug)]
 pub(super) struct Draft {
@@ -92,12 +96,15 @@ pub(super) struct Draft {
     pub(super) most_arcs: usize,
     pub(super) goal: Goal,
     /// How much more may be looked at.
-    pub(super) work: u64,
+    work: u64,
+    /// How much was left when the clock was looked at, and when to stop.
+    looked: u64,
+    deadline: Option<Instant>,
     pub(super) record: Record,
 }
 
 impl Draft {
-    pub(super) fn new(pt: &Pt, visible: Vec<bool>, goal: Goal, work: u64) -> Self {
+    pub(super) fn new(pt: &Pt, visible: Vec<bool>, goal: Goal, limits: &Limits) -> Self {
         let moves: Vec<_> = (0..pt.transitions.len() as u32)
             .map(|it| {
                 let (needs, effects) = (pt.needs.of(it).to_vec(), pt.effects.of(it).to_vec());
@@ -117,7 +124,9 @@ impl Draft {
             arcs,
             most_arcs: 2 * arcs + 100,
             goal,
-            work,
+            work: limits.work,
+            looked: limits.work,
+            deadline: limits.deadline,
             record: Record::new(moves.len()),
             moves,
         }
@@ -152,6 +161,12 @@ impl Draft {
     /// Counts work; `false` when there was enough of it.
     pub(super) fn spend(&mut self, work: usize) -> bool {
         self.work = self.work.saturating_sub(work as u64);
+        if self.looked - self.work > TICK {
+            self.looked = self.work;
+            if self.deadline.is_some_and(|it| Instant::now() >= it) {
+                (self.work, self.looked) = (0, 0);
+            }
+        }
         self.work > 0
     }
 

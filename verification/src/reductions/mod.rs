@@ -55,6 +55,7 @@ use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 use draft::Draft;
 use std::collections::BTreeMap;
+use std::time::Instant;
 
 /// What is asked of the net, and so must stay the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -111,11 +112,13 @@ pub struct Limits {
     /// How many arcs may be looked at, roughly. When they have been, the net is left as far as it
     /// is reduced.
     pub work: u64,
+    /// When to leave it so.
+    pub deadline: Option<Instant>,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { rules: Rule::ALL.to_vec(), work: 100_000_000 }
+        Self { rules: Rule::ALL.to_vec(), work: 100_000_000, deadline: None }
     }
 }
 
@@ -149,7 +152,7 @@ pub fn reduce(pt: &Pt, keep: &Keep) -> Reduced {
 
 /// Reduces a net within limits.
 pub fn reduce_within(pt: &Pt, keep: &Keep, limits: &Limits) -> Reduced {
-    let mut draft = Draft::new(pt, keep.visible(pt), keep.goal, limits.work);
+    let mut draft = Draft::new(pt, keep.visible(pt), keep.goal, limits);
     let mut names = pt.transitions.clone();
     let mut counts: BTreeMap<Rule, usize> = BTreeMap::new();
     let usable: Vec<Rule> = Rule::ALL

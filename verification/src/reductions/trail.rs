@@ -180,17 +180,31 @@ impl Trail {
     }
 }
 
+/// Fires a run; `None` when it is none from there. Then some of it may have been fired.
 fn replayed(pt: &Pt, mut marking: Vec<u32>, run: &[u32]) -> Option<Vec<u32>> {
-    for &transition in run {
-        if transition as usize >= pt.transitions.len() || !pt.enabled(&marking, transition) {
-            return None;
-        }
-        for &(place, by) in pt.effects.of(transition) {
-            let tokens = &mut marking[place as usize];
-            *tokens = u32::try_from(i64::from(*tokens) + by).ok()?;
-        }
+    run.iter().all(|&it| fire(pt, &mut marking, it)).then_some(marking)
+}
+
+/// Fires a transition, if it can.
+fn fire(pt: &Pt, marking: &mut [u32], transition: u32) -> bool {
+    let after =
+        |&(place, by): &(u32, i64)| u32::try_from(i64::from(marking[place as usize]) + by).is_ok();
+    let can = (transition as usize) < pt.transitions.len()
+        && pt.enabled(marking, transition)
+        && pt.effects.of(transition).iter().all(after);
+    for &(place, by) in pt.effects.of(transition).iter().filter(|_| can) {
+        let tokens = &mut marking[place as usize];
+        *tokens = tokens.wrapping_add(by as u32);
     }
-    Some(marking)
+    can
+}
+
+/// Takes the firing of a transition back.
+fn unfire(pt: &Pt, marking: &mut [u32], transition: u32) {
+    for &(place, by) in pt.effects.of(transition) {
+        let tokens = &mut marking[place as usize];
+        *tokens = tokens.wrapping_sub(by as u32);
+    }
 }
 
 /// Fires steps as long as one can.
@@ -198,7 +212,7 @@ fn rest(
     original: &Pt,
     layer: &Layer,
     steps: &[u32],
-    marking: &mut Vec<u32>,
+    marking: &mut [u32],
     run: &mut Vec<u32>,
 ) -> Result<(), LiftError> {
     let mut again = true;
@@ -206,12 +220,16 @@ fn rest(
         for &step in steps {
             let mut fired = Vec::new();
             layer.expand(step, 1, &mut fired)?;
-            while let Some(after) = replayed(original, marking.clone(), &fired) {
+            loop {
+                let count = fired.iter().take_while(|&&it| fire(original, marking, it)).count();
+                if count < fired.len() || fired.is_empty() {
+                    fired[..count].iter().rev().for_each(|&it| unfire(original, marking, it));
+                    break;
+                }
                 if run.len() + fired.len() > MAX_LENGTH {
                     return Err(LiftError::TooLong);
                 }
                 run.extend(&fired);
-                *marking = after;
                 again = true;
             }
         }

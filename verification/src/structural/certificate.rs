@@ -11,6 +11,7 @@ use crate::property::Linear;
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// `sum of weight * tokens <= constant` in every reachable marking: it holds at the start, and no
 /// transition that can fire increases the sum.
@@ -38,8 +39,9 @@ pub struct Sum {
     pub premises: Vec<(usize, i128)>,
     /// Which traps take part, as `1 - tokens in the trap <= 0`, and how often.
     pub traps: Vec<(Trap, i128)>,
-    /// What no transition changes for the worse; it takes part once.
-    pub invariant: LinearInvariant,
+    /// What no transition changes for the worse; it takes part once. Bounds of many places share
+    /// it.
+    pub invariant: Arc<LinearInvariant>,
 }
 
 /// Why no reachable marking satisfies all of a list of assumptions.

@@ -1,6 +1,8 @@
 //! Invariants of places and transitions: solutions of homogeneous equations, in integers.
 
+use super::Stop;
 use super::row::{Row, at, cancelling, combined};
+use super::work::Work;
 use crate::pt::{Lists, Pt};
 use std::collections::BTreeMap;
 
@@ -38,7 +40,7 @@ pub struct Semiflows {
 /// assert_eq!(structural::transition_invariants(&net), Some(vec![]));
 /// ```
 pub fn place_invariants(pt: &Pt) -> Option<Vec<Flow>> {
-    basis(&pt.changers, pt.transitions.len() as u32)
+    basis(&pt.changers, pt.transitions.len() as u32, &mut Work::unlimited()).ok()
 }
 
 /// A basis of all transition invariants: each is a rational combination of these. `None` when a
@@ -53,7 +55,7 @@ pub fn place_invariants(pt: &Pt) -> Option<Vec<Flow>> {
 /// assert_eq!(transition_invariants(&net), Some(vec![vec![(0, 1), (1, 1)]]));
 /// ```
 pub fn transition_invariants(pt: &Pt) -> Option<Vec<Flow>> {
-    basis(&pt.effects, pt.places.len() as u32)
+    basis(&pt.effects, pt.places.len() as u32, &mut Work::unlimited()).ok()
 }
 
 /// The minimal semiflows of places, by the method of Farkas with at most `limit` rows at a time.
@@ -95,14 +97,15 @@ fn flow(row: &Row, width: u32) -> Flow {
 }
 
 /// A basis of what multiplied with the rows of a matrix of this width gives zero.
-pub(super) fn basis(matrix: &Lists<i64>, width: u32) -> Option<Vec<Flow>> {
+pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<Vec<Flow>, Stop> {
     let mut rows: Vec<Row> = augmented(matrix, width).collect();
     rows.sort_by_key(Vec::len);
     let mut leading: BTreeMap<u32, Row> = BTreeMap::new();
     let mut flows = Vec::new();
     for mut row in rows {
         loop {
-            let (column, number) = *row.first()?;
+            // Each row ends with its own column.
+            let Some(&(column, number)) = row.first() else { break };
             if column >= width {
                 flows.push(flow(&row, width));
                 break;
@@ -111,20 +114,21 @@ pub(super) fn basis(matrix: &Lists<i64>, width: u32) -> Option<Vec<Flow>> {
                 leading.insert(column, row);
                 break;
             };
-            let (a, b) = cancelling(number, at(pivot, column))?;
-            row = combined(&row, a, pivot, b)?;
+            work.spend(row.len() + pivot.len())?;
+            let (a, b) = cancelling(number, at(pivot, column)).ok_or(Stop::Overflow)?;
+            row = combined(&row, a, pivot, b).ok_or(Stop::Overflow)?;
         }
     }
     // Most flows of a net have no negative weights: show them that way round.
     for flow in &mut flows {
         if flow.iter().filter(|it| it.1 < 0).count() * 2 > flow.len() {
             for it in flow.iter_mut() {
-                it.1 = it.1.checked_neg()?;
+                it.1 = it.1.checked_neg().ok_or(Stop::Overflow)?;
             }
         }
     }
     flows.sort_unstable();
-    Some(flows)
+    Ok(flows)
 }
 
 fn semiflows(matrix: &Lists<i64>, width: u32, limit: usize) -> Semiflows {

@@ -19,30 +19,46 @@ mod search;
 mod siphon;
 mod structure;
 mod tableau;
+mod work;
 
 pub use class::{Class, class};
 pub use commoner::{Commoner, commoner};
 pub use flow::{
     Flow, Semiflows, place_invariants, place_semiflows, transition_invariants, transition_semiflows,
 };
+pub(crate) use siphon::minimal_siphons_within;
 pub use siphon::{Siphon, Siphons, greatest_siphon, greatest_trap, minimal_siphons, never_marked};
 pub use structure::Structure;
 
+use crate::explicit;
 use cotama_core::net::TransitionId;
+use std::time::Instant;
 
-/// What one question may cost. The same limits give the same answer on every machine.
+/// What one question may cost. The same limits without a deadline give the same answer on every
+/// machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Limits {
     /// Numbers and arcs that are looked at.
     pub work: u64,
     /// Cases that are told apart.
     pub nodes: u32,
+    /// When to stop.
+    pub deadline: Option<Instant>,
 }
 
 impl Default for Limits {
     /// Some tenths of a second.
     fn default() -> Self {
-        Self { work: 20_000_000, nodes: 1_000 }
+        Self { work: 20_000_000, nodes: 1_000, deadline: None }
+    }
+}
+
+impl Limits {
+    /// What a question may cost beside other engines. Each number of a row takes 16 bytes, and of
+    /// what is looked at at most a quarter is kept.
+    pub(crate) fn within(limits: &explicit::Limits) -> Self {
+        let usual = Self::default();
+        Self { work: usual.work.min(limits.bytes / 64), deadline: limits.deadline, ..usual }
     }
 }
 
@@ -55,6 +71,8 @@ pub enum Stop {
     Nodes,
     /// A number passed 63 bits.
     Overflow,
+    /// [`Limits::deadline`]
+    Time,
 }
 
 /// Why there is no answer.

@@ -6,6 +6,7 @@ use super::certificate::{LinearInvariant, Sum, Trap};
 use super::flow::basis;
 use super::row::Row;
 use super::tableau::{Raised, Tableau};
+use super::work::Work;
 use crate::property::Linear;
 use crate::pt::{Lists, Pt};
 use cotama_core::net::{PlaceId, TransitionId};
@@ -40,7 +41,11 @@ pub(super) struct Program {
 impl Program {
     /// The state equation alone, of the transitions that can fire; its point is the initial
     /// marking.
-    pub(super) fn new(pt: &Pt, can_fire: impl Fn(TransitionId) -> bool) -> Result<Self, Stop> {
+    pub(super) fn new(
+        pt: &Pt,
+        can_fire: impl Fn(TransitionId) -> bool,
+        work: &mut Work,
+    ) -> Result<Self, Stop> {
         let mut tableau = Tableau::default();
         let mut columns = Vec::new();
         let mut seen = BTreeMap::new();
@@ -63,7 +68,8 @@ impl Program {
             let terms: Row = changes
                 .filter_map(|&(transition, by)| Some((variables[transition as usize]?, -by)))
                 .collect();
-            tableau.add(&terms, tokens.into())?;
+            work.pass(terms.len() + 1)?;
+            tableau.add(&terms, tokens.into(), work)?;
             columns.push(Column::Tokens(PlaceId(place as u32)));
         }
         Ok(Self { tableau, columns, places, count: pt.places.len() as u32 })
@@ -74,7 +80,7 @@ impl Program {
     pub(super) fn invariants(
         pt: &Pt,
         can_fire: impl Fn(TransitionId) -> bool,
-        work: &mut u64,
+        work: Work,
     ) -> Result<Self, Stop> {
         let places = 0..pt.places.len() as u32;
         let changers = Lists::new(places.clone().map(|place| {
@@ -86,16 +92,18 @@ impl Program {
             program.tableau.variable();
             program.columns.push(Column::Tokens(PlaceId(place)));
         }
-        for flow in basis(&changers, pt.transitions.len() as u32).ok_or(Stop::Overflow)? {
+        let mut equating = work;
+        for flow in basis(&changers, pt.transitions.len() as u32, &mut work.clone())? {
             let tokens = |&(place, weight): &(u32, i64)| {
                 weight.checked_mul(pt.initial[place as usize].into())
             };
             let total = flow.iter().try_fold(0_i64, |sum, it| sum.checked_add(tokens(it)?));
             // With the marked places as basic variables the point is close to the initial marking.
             let preferred = |place: u32| pt.initial[place as usize] > 0;
-            program.tableau.equate(&flow, total.ok_or(Stop::Overflow)?, preferred)?;
+            let total = total.ok_or(Stop::Overflow)?;
+            program.tableau.equate(&flow, total, preferred, &mut equating)?;
         }
-        program.satisfy(&[], work)?;
+        program.satisfy(&[], &mut work.clone())?;
         Ok(program)
     }
 
@@ -113,18 +121,24 @@ impl Program {
     }
 
     /// One more assumption, by its position.
-    pub(super) fn assume(&mut self, at: usize, premise: &Linear) -> Result<(), Stop> {
+    pub(super) fn assume(
+        &mut self,
+        at: usize,
+        premise: &Linear,
+        work: &mut Work,
+    ) -> Result<(), Stop> {
         let terms = self.terms(&premise.weights, 1)?;
-        self.tableau.add(&terms, premise.constant.checked_neg().ok_or(Stop::Overflow)?)?;
+        let right = premise.constant.checked_neg().ok_or(Stop::Overflow)?;
+        self.tableau.add(&terms, right, work)?;
         self.columns.push(Column::Premise(at));
         Ok(())
     }
 
     /// That a trap is marked.
-    pub(super) fn mark(&mut self, trap: Trap) -> Result<(), Stop> {
+    pub(super) fn mark(&mut self, trap: Trap, work: &mut Work) -> Result<(), Stop> {
         let weights: Vec<_> = trap.places.iter().map(|&it| (it, 1)).collect();
         let terms = self.terms(&weights, -1)?;
-        self.tableau.add(&terms, -1)?;
+        self.tableau.add(&terms, -1, work)?;
         self.columns.push(Column::Trap(Arc::new(trap)));
         Ok(())
     }
@@ -133,9 +147,9 @@ impl Program {
     pub(super) fn satisfy(
         &mut self,
         premises: &[Linear],
-        work: &mut u64,
+        work: &mut Work,
     ) -> Result<Option<Sum>, Stop> {
-        while let Some(row) = self.tableau.violated() {
+        while let Some(row) = self.tableau.violated(work)? {
             if self.tableau.raise(row, true, work)? != Raised::Feasible {
                 return self.sum(row, premises).map(Some);
             }
@@ -149,10 +163,10 @@ impl Program {
     pub(super) fn maximise(
         &mut self,
         weights: &[(PlaceId, i64)],
-        work: &mut u64,
+        work: &mut Work,
     ) -> Result<Option<(i64, Sum)>, Stop> {
         let terms = self.terms(weights, -1)?;
-        let row = self.tableau.add(&terms, 0)?;
+        let row = self.tableau.add(&terms, 0, work)?;
         self.columns.push(Column::Premise(0));
         let raised = self.tableau.raise(row, false, work);
         let found = match raised {
@@ -211,8 +225,15 @@ impl Program {
             }
         }
         weights.retain(|_, weight| *weight != 0);
-        sum.invariant = LinearInvariant { weights: weights.into_iter().collect(), constant };
+        let weights = weights.into_iter().collect();
+        sum.invariant = Arc::new(LinearInvariant { weights, constant });
         Some(sum)
+    }
+
+    /// A copy to go on with.
+    pub(super) fn copied(&self, work: &mut Work) -> Result<Self, Stop> {
+        work.pass(self.tableau.len() + self.columns.len())?;
+        Ok(self.clone())
     }
 
     /// Tokens of a place in the point, as numerator and positive denominator.

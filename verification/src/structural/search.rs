@@ -4,6 +4,7 @@
 use super::certificate::{Refutation, at_least, at_most, fewer, holds_at_start};
 use super::program::Program;
 use super::siphon::Graph;
+use super::work::Work;
 use super::{Limits, Stop, Unknown};
 use crate::property::Linear;
 use crate::pt::Pt;
@@ -22,7 +23,7 @@ pub(super) struct Search<'s> {
     pub(super) undecided: Vec<TransitionId>,
     /// Whether the marking is dead.
     pub(super) dead: bool,
-    pub(super) work: u64,
+    pub(super) work: Work,
     pub(super) nodes: u32,
     /// How many more cases may be nested.
     depth: u32,
@@ -49,7 +50,7 @@ impl<'s> Search<'s> {
             premises: goal.to_vec(),
             undecided: Vec::new(),
             dead: false,
-            work: limits.work,
+            work: (*limits).into(),
             nodes: limits.nodes,
             depth: DEPTH,
         }
@@ -63,9 +64,9 @@ impl<'s> Search<'s> {
 
     /// Refutes all that is assumed. The program knows only the state equation and traps.
     pub(super) fn run(&mut self, base: &Program) -> Result<Refutation, End> {
-        let mut program = base.clone();
+        let mut program = base.copied(&mut self.work)?;
         for (at, premise) in self.premises.iter().enumerate() {
-            program.assume(at, premise)?;
+            program.assume(at, premise, &mut self.work)?;
         }
         self.solve(program)
     }
@@ -83,8 +84,8 @@ impl<'s> Search<'s> {
             }
             let empty =
                 (0..self.pt().places.len() as u32).map(|it| program.tokens(it).0 == 0).collect();
-            match self.graph.marked_trap(empty, &mut self.work) {
-                Some(trap) => program.mark(trap)?,
+            match self.graph.marked_trap(empty, &mut self.work)? {
+                Some(trap) => program.mark(trap, &mut self.work)?,
                 None => break,
             }
         }
@@ -98,7 +99,7 @@ impl<'s> Search<'s> {
         if let Some(at) = enabled {
             let transition = self.undecided.swap_remove(at);
             let needs = self.pt().needs.of(transition.0).iter();
-            let cases = needs.map(|&(place, need)| self.case(program.clone(), fewer(place, need)));
+            let cases = needs.map(|&(place, need)| self.case(&program, fewer(place, need)));
             let cases = cases.collect::<Result<_, _>>()?;
             self.undecided.push(transition);
             return Ok(Refutation::Disabled { transition, cases });
@@ -110,13 +111,14 @@ impl<'s> Search<'s> {
         let Some((place, at)) = fraction else { return Err(self.candidate(&program)) };
         let at = u32::try_from(at).map_err(|_| Stop::Overflow)?;
         let place = PlaceId(place);
-        let below = Box::new(self.case(program.clone(), at_most(place, at))?);
-        let above = Box::new(self.case(program, at_least(place, i64::from(at) + 1))?);
+        let below = Box::new(self.case(&program, at_most(place, at))?);
+        let above = Box::new(self.case(&program, at_least(place, i64::from(at) + 1))?);
         Ok(Refutation::Tokens { place, at, below, above })
     }
 
-    fn case(&mut self, mut program: Program, premise: Linear) -> Result<Refutation, End> {
-        program.assume(self.premises.len(), &premise)?;
+    fn case(&mut self, base: &Program, premise: Linear) -> Result<Refutation, End> {
+        let mut program = base.copied(&mut self.work)?;
+        program.assume(self.premises.len(), &premise, &mut self.work)?;
         self.premises.push(premise);
         let refutation = self.solve(program);
         self.depth += 1;
@@ -147,7 +149,7 @@ impl<'s> Search<'s> {
         let mut marking = pt.initial.clone();
         let mut trace = Vec::new();
         let total = firings.iter().try_fold(0_u64, |sum, it| sum.checked_add(it.1))?;
-        if total.checked_mul(pt.places.len() as u64 + 1)? > self.work {
+        if total.checked_mul(pt.places.len() as u64 + 1)? > self.work.left {
             return None;
         }
         // Transitions with the same effect may need different tokens.

@@ -1,6 +1,8 @@
 //! Siphons, which stay empty once they are, and traps, which stay marked once they are.
 
 use super::certificate::{DeadTransitions, Trap};
+use super::work::Work;
+use super::{Limits, Stop};
 use crate::pt::{Lists, Pt};
 use cotama_core::net::{PlaceId, TransitionId};
 
@@ -104,18 +106,31 @@ impl<'a> Graph<'a> {
 
     /// A trap among these places that is marked at the start, and no marked trap within it has
     /// fewer places.
-    pub(super) fn marked_trap(&self, mut places: Places, work: &mut u64) -> Option<Trap> {
+    ///
+    /// # Errors
+    /// Time is up; when work is, the trap may be larger than need be.
+    pub(super) fn marked_trap(
+        &self,
+        mut places: Places,
+        work: &mut Work,
+    ) -> Result<Option<Trap>, Stop> {
+        work.pass(self.pt.arcs + places.len())?;
         self.greatest_trap(&mut places);
         if !self.marked(&places) {
-            return None;
+            return Ok(None);
         }
+        let mut end = Ok(());
         let order: Vec<usize> = (0..places.len()).filter(|&it| places[it]).collect();
         shrink(&mut places, &order, |fewer| {
-            *work = work.checked_sub(self.pt.arcs as u64)?;
+            end = work.spend(self.pt.arcs);
+            end.as_ref().ok()?;
             self.greatest_trap(fewer);
             Some(self.marked(fewer))
         });
-        Some(Trap { places: ids(&places) })
+        match end {
+            Err(Stop::Time) => Err(Stop::Time),
+            _ => Ok(Some(Trap { places: ids(&places) })),
+        }
     }
 }
 
@@ -249,27 +264,43 @@ impl Siphons {
 /// assert_eq!(found.controlled(), Some(true));
 /// ```
 pub fn minimal_siphons(pt: &Pt, limit: usize, work: u64) -> Siphons {
+    minimal_siphons_within(pt, limit, Limits { work, ..Limits::default() }, u64::MAX)
+}
+
+/// The same within a time, and so many bytes for sets of places that wait.
+pub(crate) fn minimal_siphons_within(
+    pt: &Pt,
+    limit: usize,
+    limits: Limits,
+    mut bytes: u64,
+) -> Siphons {
     let graph = Graph::new(pt, &DeadTransitions::default());
-    let cost = (pt.arcs + pt.places.len()) as u64;
+    let cost = pt.arcs + pt.places.len();
     let mut found = Siphons { siphons: Vec::new(), complete: false };
-    let mut work = work;
+    let mut work = Work::from(limits);
     // Siphons within the first places that contain the second ones. Whichever has not all places of
     // a siphon that was found lacks a first one and contains those before it.
     let mut open: Vec<(Places, Vec<usize>)> = vec![(vec![true; pt.places.len()], Vec::new())];
+    let size = |required: &[usize]| (pt.places.len() + size_of_val(required) + 48) as u64;
+    bytes = bytes.saturating_sub(size(&[]));
     while let Some((mut places, mut required)) = open.pop() {
         graph.greatest_siphon(&mut places);
-        let Some(left) = work.checked_sub(cost) else { return found };
-        work = left;
+        bytes = bytes.saturating_add(size(&required));
+        if work.spend(cost).is_err() {
+            return found;
+        }
         if !places.contains(&true) || required.iter().any(|&it| !places[it]) {
             continue;
         }
         let whole = places.clone();
         // Those that are required go last: a siphon without one of them has been found elsewhere.
+        let mut is_required = vec![false; places.len()];
+        required.iter().for_each(|&it| is_required[it] = true);
         let others: Vec<_> =
-            (0..places.len()).filter(|it| places[*it] && !required.contains(it)).collect();
+            (0..places.len()).filter(|&it| places[it] && !is_required[it]).collect();
         for order in [&others, &required] {
             let shrunk = shrink(&mut places, order, |fewer| {
-                work = work.checked_sub(cost)?;
+                work.spend(cost).ok()?;
                 graph.greatest_siphon(fewer);
                 Some(fewer.contains(&true))
             });
@@ -281,13 +312,15 @@ pub fn minimal_siphons(pt: &Pt, limit: usize, work: u64) -> Siphons {
             if found.siphons.len() == limit {
                 return found;
             }
-            let trap = graph.marked_trap(places.clone(), &mut work);
+            let Ok(trap) = graph.marked_trap(places.clone(), &mut work) else { return found };
             found.siphons.push(Siphon { places: ids(&places), trap });
         }
         // Those with the fewest requirements go first.
         let at = open.len();
         for place in (0..places.len()).filter(|&it| places[it]) {
-            if !required.contains(&place) {
+            if !is_required[place] {
+                let Some(left) = bytes.checked_sub(size(&required)) else { return found };
+                bytes = left;
                 let mut without = whole.clone();
                 without[place] = false;
                 open.push((without, required.clone()));

@@ -6,10 +6,12 @@ use super::certificate::{
 use super::program::Program;
 use super::search::{End, Search};
 use super::siphon::Graph;
+use super::work::Work;
 use super::{Answer, Limits, Stop, Unknown};
 use crate::property::Linear;
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
+use std::sync::Arc;
 
 /// A net, and what is known of its structure so far.
 ///
@@ -60,6 +62,8 @@ pub struct Structure<'a> {
     programs: [Result<Program, Stop>; 2],
     graph: Graph<'a>,
     bounds: Option<Vec<Option<Bound>>>,
+    /// Which limit ended something that is kept.
+    cut: Option<Stop>,
 }
 
 impl<'a> Structure<'a> {
@@ -69,12 +73,34 @@ impl<'a> Structure<'a> {
         let dead = DeadTransitions { transitions: starved(pt, &[]), refutations: Vec::new() };
         let graph = Graph::new(pt, &dead);
         let programs = Self::programs(pt, &dead, limits);
-        Self { pt, limits, dead, programs, graph, bounds: None }
+        let mut structure = Self { pt, limits, dead, programs, graph, bounds: None, cut: None };
+        structure.note_cut();
+        structure
+    }
+
+    /// The same within other limits; `None` when they allow more than what it owes its gaps to.
+    pub(crate) fn within(self, limits: Limits) -> Option<Self> {
+        let later = match (self.limits.deadline, limits.deadline) {
+            (Some(before), Some(now)) => now > before,
+            (Some(_), None) => true,
+            (None, _) => false,
+        };
+        let is_owed = match self.cut {
+            Some(Stop::Time) => later,
+            Some(Stop::Work) => limits.work > self.limits.work,
+            _ => false,
+        };
+        (!is_owed).then_some(Self { limits, ..self })
+    }
+
+    fn note_cut(&mut self) {
+        let stops = self.programs.iter().filter_map(|it| it.as_ref().err().copied());
+        self.cut = stops.filter(|it| matches!(it, Stop::Work | Stop::Time)).last().or(self.cut);
     }
 
     fn programs(pt: &Pt, dead: &DeadTransitions, limits: Limits) -> [Result<Program, Stop>; 2] {
-        let small = Program::invariants(pt, |it| dead.can_fire(it), &mut limits.work.clone());
-        [small, Program::new(pt, |it| dead.can_fire(it))]
+        let small = Program::invariants(pt, |it| dead.can_fire(it), limits.into());
+        [small, Program::new(pt, |it| dead.can_fire(it), &mut limits.into())]
     }
 
     /// The transitions that are known never to fire, with the proof.
@@ -94,13 +120,15 @@ impl<'a> Structure<'a> {
     fn run(&self, search: &mut Search<'_>) -> Result<Refutation, End> {
         let [small, large] = &self.programs;
         if let Ok(small) = small {
-            let share = Limits { work: search.work / 4, nodes: search.nodes.min(16) };
-            let mut first = search.within(share);
-            if let Ok(refutation) = first.run(small) {
-                search.work -= share.work - first.work;
-                return Ok(refutation);
+            let share = search.work.left / 4;
+            let mut first =
+                search.within(Limits { work: share, nodes: search.nodes.min(16), ..self.limits });
+            let found = first.run(small);
+            search.work.left -= share - first.work.left;
+            match found {
+                Err(End::Unknown(Unknown::Limit(Stop::Time))) | Ok(_) => return found,
+                Err(_) => {}
             }
-            search.work -= share.work - first.work;
         }
         search.run(large.as_ref().map_err(|&it| End::from(it))?)
     }
@@ -116,12 +144,12 @@ impl<'a> Structure<'a> {
     /// The least number found that a weighted sum of tokens never exceeds; `None` when none was
     /// found.
     pub fn upper_bound(&mut self, weights: &[(PlaceId, i64)]) -> Option<Bound> {
-        let mut left = Limits { work: self.limits.work / 2, ..self.limits };
-        let large = self.relaxed_bound(1, weights, &mut left.work);
-        left.work += self.limits.work / 4;
-        let mut bound =
-            large.or_else(|_| self.relaxed_bound(0, weights, &mut left.work)).ok()??;
-        left.work += self.limits.work / 4;
+        let share = self.limits.work / 4;
+        let mut work = Work::from(self.limits).with(2 * share);
+        let large = self.relaxed_bound(1, weights, &mut work);
+        work.left += share;
+        let mut bound = large.or_else(|_| self.relaxed_bound(0, weights, &mut work)).ok()??;
+        let mut left = Limits { work: work.left + share, ..self.limits };
         // The bound may be due to fractions of tokens: is it reached in whole ones?
         while let Some(at_most) = bound.at_most.checked_sub(1) {
             let goal: Vec<_> = above(weights, at_most).into_iter().collect();
@@ -131,7 +159,7 @@ impl<'a> Structure<'a> {
             let mut search = Search::new(&self.graph, &goal, &left);
             let Ok(refutation) = self.run(&mut search) else { break };
             bound = Bound { at_most, refutation, ..bound };
-            left = Limits { work: search.work, nodes: search.nodes };
+            left = Limits { work: search.work.left, nodes: search.nodes, ..left };
         }
         Some(bound)
     }
@@ -141,19 +169,19 @@ impl<'a> Structure<'a> {
         &mut self,
         program_at: usize,
         weights: &[(PlaceId, i64)],
-        work: &mut u64,
+        work: &mut Work,
     ) -> Result<Option<Bound>, Stop> {
-        let mut program = self.programs[program_at].clone()?;
+        let mut program = self.programs[program_at].as_ref().map_err(|&it| it)?.copied(work)?;
         loop {
             let Some((at_most, sum)) = program.maximise(weights, work)? else { return Ok(None) };
             let empty =
                 (0..self.pt.places.len() as u32).map(|it| program.tokens(it).0 == 0).collect();
-            let Some(trap) = self.graph.marked_trap(empty, work) else {
+            let Some(trap) = self.graph.marked_trap(empty, work)? else {
                 self.programs[program_at] = Ok(program);
                 let refutation = Refutation::Sum(sum);
                 return Ok(Some(Bound { weights: weights.to_vec(), at_most, refutation }));
             };
-            program.mark(trap)?;
+            program.mark(trap, work)?;
             program.satisfy(&[], work)?;
         }
     }
@@ -168,10 +196,11 @@ impl<'a> Structure<'a> {
 
     fn find_bounds(&mut self) -> Vec<Option<Bound>> {
         let mut bounds: Vec<Option<Bound>> = vec![None; self.pt.places.len()];
-        let work = self.limits.work;
-        self.improve(0, &mut bounds, work / 4, |_| true);
+        let all = Work::from(self.limits);
+        let (few, work) = (all.with(all.left / 4), all);
+        self.improve(0, &mut bounds, few, |_| true);
         self.improve(1, &mut bounds, work, Option::is_none);
-        self.improve(1, &mut bounds, work / 4, |_| true);
+        self.improve(1, &mut bounds, few, |_| true);
         bounds
     }
 
@@ -180,7 +209,7 @@ impl<'a> Structure<'a> {
         &mut self,
         program: usize,
         bounds: &mut [Option<Bound>],
-        mut work: u64,
+        mut work: Work,
         wanted: impl Fn(&Option<Bound>) -> bool,
     ) {
         // The most tokens in a point of the program: it proves no smaller bound.
@@ -195,8 +224,16 @@ impl<'a> Structure<'a> {
             {
                 Ok(found) => found,
                 Err(Stop::Overflow) => None,
-                Err(_) => return,
+                Err(stop) => {
+                    if stop == Stop::Time {
+                        self.cut = Some(stop);
+                    }
+                    return;
+                }
             };
+            if work.pass(bounds.len()).is_err() {
+                return;
+            }
             for (seen, place) in seen.iter_mut().zip(0..) {
                 if let Ok((numerator, denominator)) =
                     self.programs[program].as_ref().map(|it| it.tokens(place))
@@ -205,11 +242,10 @@ impl<'a> Structure<'a> {
                 }
             }
             let Some(bound) = found else { continue };
-            for bound in shared(&bound).into_iter().chain([bound]) {
-                let known = &mut bounds[bound.weights[0].0.0 as usize];
-                if known.as_ref().is_none_or(|it| it.at_most > bound.at_most) {
-                    *known = Some(bound);
-                }
+            improved(bounds, &bound);
+            let known = &mut bounds[place];
+            if known.as_ref().is_none_or(|it| it.at_most > bound.at_most) {
+                *known = Some(bound);
             }
         }
     }
@@ -234,9 +270,10 @@ impl<'a> Structure<'a> {
             match self.run(&mut search) {
                 Ok(refutation) => proof.push(Bound { weights, at_most: 1, refutation }),
                 Err(End::Reached(trace)) => return Answer::Reachable(trace),
+                Err(End::Unknown(it @ Unknown::Limit(Stop::Time))) => return Answer::Unknown(it),
                 Err(End::Unknown(it)) => unknown = unknown.or(Some(it)),
             }
-            left = Limits { work: search.work, nodes: search.nodes };
+            left = Limits { work: search.work.left, nodes: search.nodes, ..left };
         }
         unknown.map_or(Answer::Impossible(proof), Answer::Unknown)
     }
@@ -339,10 +376,10 @@ impl<'a> Structure<'a> {
             let mut search = Search::new(&self.graph, &goal, &left);
             match self.run(&mut search) {
                 Ok(refutation) => found.push((transition, refutation)),
-                Err(End::Unknown(Unknown::Limit(Stop::Work | Stop::Nodes))) => break,
+                Err(End::Unknown(Unknown::Limit(Stop::Work | Stop::Nodes | Stop::Time))) => break,
                 Err(_) => {}
             }
-            left = Limits { work: search.work, nodes: search.nodes };
+            left = Limits { work: search.work.left, nodes: search.nodes, ..left };
         }
         if found.is_empty() {
             return;
@@ -353,24 +390,29 @@ impl<'a> Structure<'a> {
         self.dead.refutations.extend(found);
         self.dead.refutations.sort_by_key(|it| it.0);
         self.programs = Self::programs(self.pt, &self.dead, self.limits);
+        self.note_cut();
         self.graph = Graph::new(self.pt, &self.dead);
         self.bounds = None;
     }
 }
 
-/// Bounds of single places that the invariant behind a bound gives; none when the proof is not that
-/// simple.
-fn shared(bound: &Bound) -> Vec<Bound> {
-    let Refutation::Sum(sum) = &bound.refutation else { return Vec::new() };
+/// Improves the bounds of places by the invariant behind a bound, if its proof is that simple.
+fn improved(bounds: &mut [Option<Bound>], by: &Bound) {
+    let Refutation::Sum(sum) = &by.refutation else { return };
     if !sum.traps.is_empty() || sum.invariant.weights.iter().any(|it| it.1 < 0) {
-        return Vec::new();
+        return;
     }
-    let share = |&(place, weight): &(PlaceId, i128)| {
-        let at_most = i64::try_from(sum.invariant.constant / weight).ok()?;
-        let sum = certificate::Sum { premises: vec![(0, weight)], ..sum.clone() };
-        Some(Bound { weights: vec![(place, 1)], at_most, refutation: Refutation::Sum(sum) })
-    };
-    sum.invariant.weights.iter().filter_map(share).collect()
+    for &(place, weight) in &sum.invariant.weights {
+        let Ok(at_most) = i64::try_from(sum.invariant.constant / weight) else { continue };
+        let known = &mut bounds[place.0 as usize];
+        if known.as_ref().is_some_and(|it| it.at_most <= at_most) {
+            continue;
+        }
+        let invariant = Arc::clone(&sum.invariant);
+        let sum = certificate::Sum { premises: vec![(0, weight)], traps: Vec::new(), invariant };
+        let weights = vec![(place, 1)];
+        *known = Some(Bound { weights, at_most, refutation: Refutation::Sum(sum) });
+    }
 }
 
 /// The transitions that need more of a place than it has at the start, while no others but such

@@ -2,6 +2,7 @@
 
 use super::Stop;
 use super::row::{Row, at, cancelling, combined};
+use super::work::Work;
 use std::sync::Arc;
 
 /// The column of the right-hand side: the last one of a row.
@@ -45,14 +46,19 @@ impl Tableau {
     }
 
     /// A new row with a new variable: `variable + sum of terms = right`. Its position.
-    pub(super) fn add(&mut self, terms: &[(u32, i64)], right: i64) -> Result<usize, Stop> {
+    pub(super) fn add(
+        &mut self,
+        terms: &[(u32, i64)],
+        right: i64,
+        work: &mut Work,
+    ) -> Result<usize, Stop> {
         let variable = self.variable();
         let mut row: Row = terms.to_vec();
         row.push((variable, 1));
         if right != 0 {
             row.push((RIGHT, right));
         }
-        row = self.without_basic(row)?;
+        row = self.without_basic(row, work)?;
         self.home[variable as usize] = Some(self.rows.len() as u32);
         self.basic.push(variable);
         self.masks.push(mask(&row));
@@ -67,12 +73,13 @@ impl Tableau {
         terms: &[(u32, i64)],
         right: i64,
         preferred: impl Fn(u32) -> bool,
+        work: &mut Work,
     ) -> Result<(), Stop> {
         let mut row: Row = terms.to_vec();
         if right != 0 {
             row.push((RIGHT, right));
         }
-        let row = self.without_basic(row)?;
+        let row = self.without_basic(row, work)?;
         let variables = || row.iter().map(|it| it.0).filter(|&it| it != RIGHT);
         let Some(column) = variables().find(|&it| preferred(it)).or_else(|| variables().next())
         else {
@@ -81,19 +88,25 @@ impl Tableau {
         self.masks.push(mask(&row));
         self.rows.push(Arc::new(row));
         self.basic.push(column);
-        self.pivot(self.rows.len() - 1, column, &mut u64::MAX.clone())
+        self.pivot(self.rows.len() - 1, column, work)
     }
 
-    fn without_basic(&self, mut row: Row) -> Result<Row, Stop> {
+    fn without_basic(&self, mut row: Row, work: &mut Work) -> Result<Row, Stop> {
         for (column, _) in row.clone() {
             if let Some(&Some(home)) = self.home.get(column as usize) {
                 let home = &self.rows[home as usize];
+                work.spend(row.len() + home.len())?;
                 let (a, b) =
                     cancelling(at(&row, column), at(home, column)).ok_or(Stop::Overflow)?;
                 row = combined(&row, a, home, b).ok_or(Stop::Overflow)?;
             }
         }
         Ok(row)
+    }
+
+    /// How many rows there are.
+    pub(super) fn len(&self) -> usize {
+        self.rows.len()
     }
 
     /// Takes the row away that was added last, whose variable is still basic.
@@ -114,8 +127,9 @@ impl Tableau {
     }
 
     /// The first violated row.
-    pub(super) fn violated(&self) -> Option<usize> {
-        (0..self.rows.len()).find(|&it| self.row(it).1 < 0)
+    pub(super) fn violated(&self, work: &mut Work) -> Result<Option<usize>, Stop> {
+        work.pass(self.rows.len())?;
+        Ok((0..self.rows.len()).find(|&it| self.row(it).1 < 0))
     }
 
     /// The value of a variable, as numerator and positive denominator.
@@ -136,7 +150,7 @@ impl Tableau {
         &mut self,
         row: usize,
         feasible: bool,
-        work: &mut u64,
+        work: &mut Work,
     ) -> Result<Raised, Stop> {
         let mut wasted = 0;
         loop {
@@ -184,7 +198,7 @@ impl Tableau {
         rank(one) < rank(other)
     }
 
-    fn pivot(&mut self, row: usize, column: u32, work: &mut u64) -> Result<(), Stop> {
+    fn pivot(&mut self, row: usize, column: u32, work: &mut Work) -> Result<(), Stop> {
         if at(&self.rows[row], column) < 0 {
             let negated = self.rows[row]
                 .iter()
@@ -193,14 +207,14 @@ impl Tableau {
         }
         let pivot = Arc::clone(&self.rows[row]);
         let number = at(&pivot, column);
-        let mut spent = self.rows.len() as u64 / 4;
+        work.spend(self.rows.len() / 4)?;
         let others = self.rows.iter_mut().zip(&mut self.masks).enumerate();
         for (_, (other, mask_of_other)) in
             others.filter(|it| it.0 != row && may_have(*it.1.1, column))
         {
             let theirs = at(other, column);
             if theirs != 0 {
-                spent += (other.len() + pivot.len()) as u64;
+                work.spend(other.len() + pivot.len())?;
                 let (a, b) = cancelling(theirs, number).ok_or(Stop::Overflow)?;
                 *other = Arc::new(combined(other, a, &pivot, b).ok_or(Stop::Overflow)?);
                 *mask_of_other = mask(other);
@@ -209,7 +223,6 @@ impl Tableau {
         self.home[self.basic[row] as usize] = None;
         self.home[column as usize] = Some(row as u32);
         self.basic[row] = column;
-        *work = work.checked_sub(spent).ok_or(Stop::Work)?;
         Ok(())
     }
 }

@@ -30,8 +30,8 @@ impl Goal {
         Some(match formula {
             Formula::Atom(Atom::AtMost(linear)) => {
                 let sign = if positive { -1 } else { 1 };
-                let moves =
-                    transitions().filter(|it| linear.change(pt, *it).signum() == sign).collect();
+                let changers = linear.changers(pt).into_iter();
+                let moves = changers.filter(|it| linear.change(pt, *it).signum() == sign).collect();
                 if positive {
                     Self::AtMost(linear.clone(), moves)
                 } else {
@@ -63,8 +63,8 @@ impl Goal {
     pub(super) fn distance(&self, pt: &Pt, look: Look<'_>) -> u64 {
         let positive = |it: i128| u64::try_from(it.max(0)).unwrap_or(u64::MAX);
         match self {
-            Self::AtMost(linear, _) => positive(sum(linear, look)),
-            Self::AtLeast(linear, _) => positive(1_i128.saturating_sub(sum(linear, look))),
+            Self::AtMost(linear, _) => positive(linear.value(&look)),
+            Self::AtLeast(linear, _) => positive(1_i128.saturating_sub(linear.value(&look))),
             Self::Enabled(some) => {
                 let missing = |it: &u32| {
                     let needs = pt.needs.of(*it).iter();
@@ -112,9 +112,3 @@ impl Goal {
 
 /// How many sets are compared.
 const CHOICES: usize = 8;
-
-fn sum(linear: &Linear, look: Look<'_>) -> i128 {
-    let tokens =
-        |&(place, weight): &(PlaceId, i64)| i128::from(weight) * i128::from(look.tokens(place));
-    linear.weights.iter().map(tokens).fold(linear.constant.into(), i128::saturating_add)
-}

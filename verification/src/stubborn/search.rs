@@ -134,7 +134,9 @@ impl<'s> Search<'s> {
             if is_visited[marking as usize] {
                 continue;
             }
-            if visited.is_multiple_of(TICK) {
+            // What is done for a marking grows with the net.
+            let tick = TICK.min((1 << 16) / (1 + self.pt.transitions.len())).max(1);
+            if visited.is_multiple_of(tick) {
                 self.markings.check_time()?;
                 let (states, depth) =
                     (self.markings.len() as u64, self.from[marking as usize].2.into());
@@ -156,6 +158,8 @@ impl<'s> Search<'s> {
                 }
                 let depth = self.from[marking as usize].2.saturating_add(1);
                 self.markings.memory.room(&mut self.from, 1)?;
+                // It waits, once more after it was passed over, in a list that doubles.
+                self.markings.memory.take(4 * size_of::<(Reverse<u64>, u32)>() as u64)?;
                 self.from.push((marking, transition, depth));
                 let distance = self.goal.distance(self.pt, self.markings.look(next));
                 if distance == 0 {

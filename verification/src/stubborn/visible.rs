@@ -13,8 +13,8 @@ pub(crate) fn visible(pt: &Pt, formula: &Formula) -> Vec<bool> {
 fn see(pt: &Pt, formula: &Formula, visible: &mut [bool]) {
     match formula {
         Formula::Atom(Atom::AtMost(linear)) => {
-            for (transition, visible) in visible.iter_mut().enumerate() {
-                *visible |= linear.change(pt, transition as u32) != 0;
+            for transition in linear.changers(pt) {
+                visible[transition as usize] |= linear.change(pt, transition) != 0;
             }
         }
         Formula::Atom(Atom::Fireable(transitions)) => {
@@ -30,6 +30,15 @@ fn see(pt: &Pt, formula: &Formula, visible: &mut [bool]) {
 }
 
 impl Linear {
+    /// The transitions that change one of its places, in their order.
+    pub(super) fn changers(&self, pt: &Pt) -> Vec<u32> {
+        let changers = self.weights.iter().flat_map(|it| pt.changers.of(it.0.0));
+        let mut all: Vec<u32> = changers.map(|it| it.0).collect();
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
     /// By how much firing a transition changes the sum.
     pub(super) fn change(&self, pt: &Pt, transition: u32) -> i128 {
         let effect = |place: u32| {

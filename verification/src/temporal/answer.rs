@@ -2,11 +2,13 @@
 
 use super::ctl::ctl;
 use super::fairness::Fairness;
-use super::ltl::{all_runs, some_runs};
+use super::ltl::{all_runs, some_runs, stored_runs};
 use super::run::{Rest, Run};
+use super::successors::Successors;
 use super::verdict::{Reason, Verdict};
+use super::witness::Witness;
 use crate::explicit::{Graph, Limits, Progress, Reached, Unfinished};
-use crate::property::{Condition, Ctl, Formula, Reachability};
+use crate::property::{Assumptions, Condition, Ctl, Formula, Reachability};
 use crate::pt::Pt;
 use crate::stubborn::reach_reduced;
 use std::cell::OnceCell;
@@ -40,28 +42,31 @@ use std::rc::Rc;
 pub fn answer(pt: &Pt, formula: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
     let made = OnceCell::new();
     let graph = || made.get_or_init(|| Graph::new(pt, limits, progress).map(Rc::new)).clone();
-    answer_with(pt, formula, limits, progress, &graph)
+    answer_with(pt, formula, (limits, 1), progress, (&graph, None))
 }
 
 /// Gives the graph of the net, which is made when it is asked for first.
 pub(crate) type Graphs<'a> = &'a dyn Fn() -> Result<Rc<Graph>, Unfinished>;
 
-/// The same as [`answer`] with a graph that others use too.
+/// The same as [`answer`] with a graph that others use too, and all of it by that graph if it is
+/// there already.
 pub(crate) fn answer_with(
     pt: &Pt,
     formula: &Formula,
-    limits: &Limits,
+    (limits, jobs): (&Limits, usize),
     progress: &dyn Fn(Progress),
-    graph: Graphs<'_>,
+    (graph, made): (Graphs<'_>, Option<&Graph>),
 ) -> Verdict {
-    Asked { pt, limits, progress, graph }.verdict(&formula.simplified())
+    Asked { pt, limits, jobs, progress, graph, made }.verdict(&formula.simplified())
 }
 
 struct Asked<'a> {
     pt: &'a Pt,
     limits: &'a Limits,
+    jobs: usize,
     progress: &'a dyn Fn(Progress),
     graph: Graphs<'a>,
+    made: Option<&'a Graph>,
 }
 
 impl Asked<'_> {
@@ -69,6 +74,11 @@ impl Asked<'_> {
         if let Some(condition) = Condition::new(formula, self.pt) {
             let holds = condition.holds(self.pt.initial.as_slice());
             return Verdict::Known { holds, run: None, states: 1 };
+        }
+        if let Some(graph) = self.made
+            && Ctl::new(formula).is_some()
+        {
+            return self.on(graph, formula);
         }
         if let Some(asked) = Reachability::new(formula)
             && let Some(reached) = reach_reduced(self.pt, &asked.goal, self.limits, self.progress)
@@ -95,13 +105,23 @@ impl Asked<'_> {
             },
             Formula::And(parts) => self.parts(parts, false),
             Formula::Or(parts) => self.parts(parts, true),
-            Formula::All(path) if is_of_runs(path) => {
-                all_runs(self.pt, path, self.limits, self.progress)
-            }
-            Formula::Exists(path) if is_of_runs(path) => {
-                some_runs(self.pt, path, self.limits, self.progress)
+            Formula::All(path) | Formula::Exists(path) if is_of_runs(path) => {
+                self.runs(path, matches!(formula, Formula::All(_)))
             }
             _ => self.branching(formula),
+        }
+    }
+
+    fn runs(&self, path: &Formula, all: bool) -> Verdict {
+        match self.made {
+            Some(graph) => {
+                let bytes = self.limits.bytes.saturating_sub(graph.bytes());
+                let limits = Limits { bytes, ..*self.limits };
+                let asked = (path, &Assumptions::default());
+                stored_runs(graph, asked, all, (&limits, self.jobs), self.progress)
+            }
+            None if all => all_runs(self.pt, path, self.limits, self.progress),
+            None => some_runs(self.pt, path, self.limits, self.progress),
         }
     }
 
@@ -133,19 +153,41 @@ impl Asked<'_> {
     }
 
     fn branching(&mut self, formula: &Formula) -> Verdict {
-        let can_be_lost = can_be_lost(formula);
-        let Some(formula) = Ctl::new(formula) else {
+        if Ctl::new(formula).is_none() {
             return Verdict::Unknown { reason: Reason::Kind, states: 0 };
-        };
+        }
         match (self.graph)() {
-            Ok(graph) => {
-                let answer = ctl(&graph, &formula, &Fairness::default());
-                let run =
-                    answer.witness.filter(|it| it.is_complete || can_be_lost).map(|it| it.run);
-                Verdict::Known { holds: answer.verdict, run, states: graph.states() as u64 }
-            }
+            Ok(graph) => self.on(&graph, formula),
             Err(it) => Verdict::Unknown { reason: it.limit.into(), states: it.states },
         }
+    }
+
+    fn on(&self, graph: &Graph, formula: &Formula) -> Verdict {
+        let bytes = self.limits.bytes.saturating_sub(graph.bytes());
+        branching(graph, formula, &Fairness::default(), bytes, self.jobs)
+    }
+}
+
+/// The verdict on a formula of CTL, with so many bytes beside the graph.
+pub(crate) fn branching(
+    graph: &impl Successors,
+    formula: &Formula,
+    fairness: &Fairness<'_>,
+    bytes: u64,
+    jobs: usize,
+) -> Verdict {
+    let states = graph.states() as u64;
+    let Some(form) = Ctl::new(formula) else {
+        return Verdict::Unknown { reason: Reason::Kind, states: 0 };
+    };
+    match ctl(graph, &form, fairness, bytes, jobs) {
+        Ok(answer) => {
+            let shows =
+                |it: &Witness| it.is_complete || (fairness.is_none() && can_be_lost(formula));
+            let run = answer.witness.filter(shows).map(|it| it.run);
+            Verdict::Known { holds: answer.verdict, run, states }
+        }
+        Err(limit) => Verdict::Unknown { reason: limit.into(), states },
     }
 }
 
@@ -160,7 +202,7 @@ fn can_be_lost(formula: &Formula) -> bool {
 
 /// Whether a formula after a quantifier speaks of the whole run, and has no quantifiers: `EX` and
 /// `AX` speak of successors.
-fn is_of_runs(path: &Formula) -> bool {
+pub(crate) fn is_of_runs(path: &Formula) -> bool {
     !matches!(path, Formula::Next(inner) if !inner.needs_run())
         && !path.any(&|it| matches!(it, Formula::Exists(_) | Formula::All(_) | Formula::Within(..)))
 }

@@ -33,7 +33,8 @@ pub(super) struct Automaton<'f> {
     numbers: HashMap<Vec<u32>, u32>,
     /// For each part its bit among the promises.
     bits: HashMap<u32, u32>,
-    /// For each part about one marking its position in valuations.
+    /// For each part about one marking its position in valuations, and behind them for each part
+    /// about a firing.
     atoms: HashMap<u32, usize>,
     moves: HashMap<(u32, u32), Vec<Move>>,
 }
@@ -63,6 +64,12 @@ impl<'f> Automaton<'f> {
                 _ => {}
             }
         }
+        for (at, node) in formula.nodes().iter().enumerate() {
+            if let LtlNode::Fires(_) = node {
+                let position = atoms.len();
+                atoms.insert(at as u32, position);
+            }
+        }
         if bits.len() > 128 {
             return Err(TooLarge);
         }
@@ -84,8 +91,8 @@ impl<'f> Automaton<'f> {
         self.states[state as usize].is_empty()
     }
 
-    /// The moves of a state on a valuation: a bit for each part about one marking, in their order.
-    /// `valuation` is its number.
+    /// The moves of a state on a valuation: a bit for each part about one marking, in their order,
+    /// and then one for each part about a firing. `valuation` is its number.
     pub(super) fn moves(
         &mut self,
         state: u32,
@@ -120,7 +127,7 @@ impl<'f> Automaton<'f> {
             let of = |it: &u32| known[*it as usize];
             let is = |it: &u32, value| of(it) == Some(value);
             known.push(match node {
-                LtlNode::State(_) => {
+                LtlNode::State(_) | LtlNode::Fires(_) => {
                     self.atoms.get(&(at as u32)).map(|it| holds[it / 64] >> (it % 64) & 1 == 1)
                 }
                 LtlNode::And(all) if all.iter().any(|it| is(it, false)) => Some(false),
@@ -180,8 +187,8 @@ impl<'f> Automaton<'f> {
             }
             let is = |it: u32, value| known[it as usize] == Some(value);
             match self.node(part) {
-                // Every marking decides it.
-                LtlNode::State(_) => {}
+                // Every marking, and every firing, decides it.
+                LtlNode::State(_) | LtlNode::Fires(_) => {}
                 LtlNode::And(all) => branch.now.extend(all),
                 LtlNode::Or(all) => {
                     let mut open = all.iter().filter(|it| !is(**it, false));

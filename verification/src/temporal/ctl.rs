@@ -2,8 +2,9 @@
 
 use super::fairness::Fairness;
 use super::labelling::Labelling;
+use super::successors::Successors;
 use super::witness::{Witness, explained};
-use crate::explicit::Graph;
+use crate::explicit::{BitSet, Limit, Memory};
 use crate::property::Ctl;
 
 /// What was found of a formula of CTL.
@@ -13,7 +14,7 @@ pub struct CtlAnswer {
     pub verdict: bool,
     /// For each of [`Ctl::nodes`] whether it holds in each marking of the graph. `None` of parts
     /// that the verdict does not depend on.
-    pub labels: Vec<Option<Vec<bool>>>,
+    pub labels: Vec<Option<BitSet>>,
     /// For each `Until` that was looked at and each marking how many firings its second operand is
     /// away, through markings in which the first holds; `u32::MAX` where the `Until` does not hold.
     pub ranks: Vec<Option<Vec<u32>>>,
@@ -43,16 +44,25 @@ pub struct CtlAnswer {
 /// };
 /// let formula = Ctl::new(&formula).unwrap();
 ///
-/// let answer = ctl(&graph, &formula, &Fairness::default());
+/// let answer = ctl(&graph, &formula, &Fairness::default(), 1 << 20, 1).unwrap();
 /// assert!(!answer.verdict);
 /// assert_eq!(answer.witness.unwrap().run.rest, Rest::Cycle(vec![TransitionId(0)]));
 ///
 /// let fairness = Fairness { weak: vec![TransitionId(1)], ..Fairness::default() };
-/// assert!(ctl(&graph, &formula, &fairness).verdict);
+/// assert!(ctl(&graph, &formula, &fairness, 1 << 20, 1).unwrap().verdict);
 /// ```
-pub fn ctl(graph: &Graph, formula: &Ctl, fairness: &Fairness<'_>) -> CtlAnswer {
-    let mut labelling = Labelling::new(graph, formula, fairness);
-    let verdict = labelling.holds(formula.root());
+///
+/// # Errors
+/// [`Limit::Bytes`] when that takes more than so many bytes beside the graph.
+pub fn ctl<S: Successors>(
+    graph: &S,
+    formula: &Ctl,
+    fairness: &Fairness<'_>,
+    bytes: u64,
+    jobs: usize,
+) -> Result<CtlAnswer, Limit> {
+    let mut labelling = Labelling::new(graph, formula, fairness, (Memory::new(bytes), jobs))?;
+    let verdict = labelling.holds(formula.root())?;
     let witness = explained(&labelling, verdict);
-    CtlAnswer { verdict, labels: labelling.labels, ranks: labelling.ranks, witness }
+    Ok(CtlAnswer { verdict, labels: labelling.labels, ranks: labelling.ranks, witness })
 }

@@ -6,9 +6,9 @@
 
 use super::product::{NONE, Product, Stop};
 use super::run::{Rest, Run};
-use crate::explicit::{Limits, Progress};
+use super::source::Source;
+use crate::explicit::Progress;
 use crate::property::Ltl;
-use crate::pt::Pt;
 use cotama_core::net::TransitionId;
 use std::collections::VecDeque;
 
@@ -23,14 +23,13 @@ pub(super) struct Searched {
     pub(super) states: u64,
 }
 
-/// Searches for a run from the initial marking of which a formula is true.
-pub(super) fn some_run(
-    pt: &Pt,
+/// Searches for a run from the first state of which a formula is true.
+pub(super) fn some_run<S: Source>(
+    source: Result<S, Stop>,
     formula: &Ltl,
-    limits: &Limits,
     progress: &dyn Fn(Progress),
 ) -> Searched {
-    let product = match Product::new(pt, formula, limits) {
+    let product = match source.and_then(|it| Product::new(it, formula)) {
         Ok(product) => product,
         Err(stop) => return Searched { run: Err(stop), states: 0 },
     };
@@ -46,7 +45,7 @@ pub(super) fn some_run(
     };
     let found = search.run(progress);
     let run = found.map(|end| end.map(|end| search.evidence(&end)));
-    Searched { run, states: search.product.markings.len() as u64 }
+    Searched { run, states: search.product.source.len() as u64 }
 }
 
 /// A pair that is being visited.
@@ -88,9 +87,9 @@ enum End {
     Component(u32),
 }
 
-struct Search<'a> {
+struct Search<'a, S> {
     all: u128,
-    product: Product<'a>,
+    product: Product<'a, S>,
     visits: Vec<Visit>,
     /// Transitions and the markings after them, of all visits.
     ways: Vec<(u32, u32)>,
@@ -101,7 +100,7 @@ struct Search<'a> {
     met: u32,
 }
 
-impl Search<'_> {
+impl<S: Source> Search<'_, S> {
     fn run(&mut self, progress: &dyn Fn(Progress)) -> Result<Option<End>, Stop> {
         if self.product.automaton.accepts_all(0) {
             return Ok(Some(End::Any(0)));
@@ -113,6 +112,9 @@ impl Search<'_> {
                 self.leave();
                 continue;
             }
+            if at == 0 && self.product.sees_firings() {
+                visit.moves = self.product.moves(visit.pair, self.ways[way].0)?;
+            }
             let Some(step) = visit.moves.get(at).copied() else {
                 visit.next = (way + 1, 0);
                 continue;
@@ -121,7 +123,7 @@ impl Search<'_> {
             let kept = self.all & !step.promises;
             let to = self.product.pair(self.ways[way].1, step.to)?;
             let met = self.product.len();
-            self.product.markings.memory.extend(&mut self.marks, met, Mark::default())?;
+            self.product.source.memory().extend(&mut self.marks, met, Mark::default())?;
             let mark = self.marks[to as usize];
             if mark.is_left {
                 continue;
@@ -131,8 +133,8 @@ impl Search<'_> {
                     return Ok(Some(End::Any(to)));
                 }
                 if self.met.is_multiple_of(TICK) {
-                    self.product.markings.check_time()?;
-                    let states = self.product.markings.len() as u64;
+                    self.product.source.check_time()?;
+                    let states = self.product.source.len() as u64;
                     let (depth, waiting) = (self.visits.len() as u64, self.live.len() as u64);
                     progress(Progress { states, depth, waiting });
                 }
@@ -152,7 +154,7 @@ impl Search<'_> {
 
     fn enter(&mut self, pair: u32, into: u128) -> Result<(), Stop> {
         let met = self.product.len();
-        let memory = &mut self.product.markings.memory;
+        let memory = self.product.source.memory();
         memory.room(&mut self.visits, 1)?;
         memory.room(&mut self.roots, 1)?;
         memory.room(&mut self.live, 1)?;
@@ -161,14 +163,14 @@ impl Search<'_> {
         self.marks[pair as usize] = Mark { met: self.met, on_way: true, is_left: false };
         self.live.push(pair);
         self.roots.push(Root { met: self.met, into, kept: 0 });
-        let moves = self.product.moves(pair)?;
+        let moves = self.product.moves(pair, NONE)?;
         let marking = self.product.of(pair).0;
         let start = self.ways.len();
         let mut is_reduced = false;
-        if !moves.is_empty() {
-            let few = self.product.few(marking);
+        if !moves.is_empty() || self.product.sees_firings() {
+            let few = self.product.source.few(marking);
             is_reduced = few.is_some();
-            let transitions = few.unwrap_or_else(|| self.product.transitions(marking));
+            let transitions = few.unwrap_or_else(|| self.product.source.transitions(marking));
             self.fire(marking, &transitions)?;
         }
         self.visits.push(Visit { pair, start, next: (start, 0), moves, is_reduced });
@@ -176,9 +178,9 @@ impl Search<'_> {
     }
 
     fn fire(&mut self, marking: u32, transitions: &[u32]) -> Result<(), Stop> {
-        self.product.markings.memory.room(&mut self.ways, transitions.len())?;
+        self.product.source.memory().room(&mut self.ways, transitions.len())?;
         for &transition in transitions {
-            let after = self.product.fire(marking, transition)?;
+            let after = self.product.source.fire(marking, transition)?;
             self.ways.push((transition, after));
         }
         Ok(())
@@ -190,7 +192,7 @@ impl Search<'_> {
         let Some(visit) = self.visits.last_mut().filter(|it| it.is_reduced) else { return Ok(()) };
         visit.is_reduced = false;
         let (start, marking) = (visit.start, self.product.of(visit.pair).0);
-        let mut rest = self.product.transitions(marking);
+        let mut rest = self.product.source.transitions(marking);
         rest.retain(|it| self.ways[start..].iter().all(|way| way.0 != *it));
         self.fire(marking, &rest)
     }

@@ -1,8 +1,9 @@
 //! Which runs count.
 
 use super::run::Rest;
-use crate::explicit::{Goal, Graph};
-use crate::property::Assumptions;
+use super::successors::Successors;
+use crate::explicit::{BitSet, Goal, Limit, Memory};
+use crate::property::{Assumptions, Atom, Formula};
 use cotama_core::net::TransitionId;
 use std::collections::VecDeque;
 
@@ -36,12 +37,27 @@ impl<'f> Fairness<'f> {
 const NONE: u32 = u32::MAX;
 
 /// Fairness on the states of a graph.
-pub(super) struct Fair<'g> {
-    graph: &'g Graph,
-    recurring: Vec<Vec<bool>>,
-    /// For each of these transitions and each state where it leads, [`NONE`] where it is disabled;
-    /// and whether it is to be treated strongly fair.
-    targets: Vec<(TransitionId, bool, Vec<u32>)>,
+pub(super) struct Fair<'g, S> {
+    graph: &'g S,
+    recurring: Vec<BitSet>,
+    fair: Vec<Treated>,
+}
+
+/// A transition that is treated fairly.
+struct Treated {
+    transition: TransitionId,
+    is_strong: bool,
+    /// The states that enable it.
+    enabled: BitSet,
+    /// For each state where the states begin that it leads to, and where the last ones end.
+    starts: Vec<u32>,
+    to: Vec<u32>,
+}
+
+impl Treated {
+    fn of(&self, state: u32) -> &[u32] {
+        &self.to[self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize]
+    }
 }
 
 /// Sets of states in each of which a fair run can stay, going everywhere.
@@ -56,36 +72,54 @@ impl FairSets {
     }
 }
 
-impl<'g> Fair<'g> {
-    pub(super) fn new(graph: &'g Graph, fairness: &Fairness<'_>) -> Self {
+impl<'g, S: Successors> Fair<'g, S> {
+    pub(super) fn new(
+        graph: &'g S,
+        fairness: &Fairness<'_>,
+        memory: &mut Memory,
+        jobs: usize,
+    ) -> Result<Self, Limit> {
         let states = graph.states();
-        let weak = fairness.weak.iter().map(|it| (*it, false, vec![NONE; states]));
-        let strong = fairness.strong.iter().map(|it| (*it, true, vec![NONE; states]));
-        let mut targets: Vec<_> = weak.chain(strong).collect();
-        if !targets.is_empty() {
+        let weak = fairness.weak.iter().map(|it| (*it, false));
+        let strong = fairness.strong.iter().map(|it| (*it, true));
+        let mut fair = Vec::new();
+        for (transition, is_strong) in weak.chain(strong) {
+            memory.take(BitSet::bytes(states) + 4 * states as u64)?;
+            let fireable = Formula::Atom(Atom::Fireable(vec![transition]));
+            let enabled = Goal::new(&fireable).map(|it| graph.satisfying(it, jobs));
+            let enabled = enabled.unwrap_or_else(|| BitSet::new(states, false));
+            let starts = Vec::with_capacity(states + 1);
+            fair.push(Treated { transition, is_strong, enabled, starts, to: Vec::new() });
+        }
+        if !fair.is_empty() {
             for state in 0..states as u32 {
                 let arcs = graph.transitions(state);
-                for (transition, _, to) in &mut targets {
-                    if let Ok(at) = arcs.binary_search(transition) {
-                        to[state as usize] = graph.successors(state)[at];
-                    }
+                for it in &mut fair {
+                    it.starts.push(it.to.len() as u32);
+                    let first = arcs.partition_point(|other| *other < it.transition);
+                    let same = arcs[first..].iter().take_while(|other| **other == it.transition);
+                    let count = same.count();
+                    memory.room(&mut it.to, count)?;
+                    it.to.extend(&graph.successors(state)[first..first + count]);
                 }
             }
+            fair.iter_mut().for_each(|it| it.starts.push(it.to.len() as u32));
         }
-        Self {
-            graph,
-            recurring: fairness.recurring.iter().map(|it| graph.satisfying(*it)).collect(),
-            targets,
+        let mut recurring = Vec::new();
+        for goal in &fairness.recurring {
+            memory.take(BitSet::bytes(states))?;
+            recurring.push(graph.satisfying(*goal, jobs));
         }
+        Ok(Self { graph, recurring, fair })
     }
 
     /// The fair sets inside of a region. Those of different numbers are disjoint, and every fair
     /// run that stays in the region is in one of them from some time on.
-    pub(super) fn sets(&self, region: &[bool]) -> FairSets {
+    pub(super) fn sets(&self, region: &BitSet) -> FairSets {
         let mut of = vec![NONE; region.len()];
         // The region that a state is in; NONE in none of those that are still looked at.
-        let mut part: Vec<u32> = region.iter().map(|it| if *it { 0 } else { NONE }).collect();
-        let first: Vec<u32> = (0..region.len() as u32).filter(|it| region[*it as usize]).collect();
+        let mut part: Vec<u32> = region.iter().map(|it| if it { 0 } else { NONE }).collect();
+        let first: Vec<u32> = region.ones().collect();
         let (mut work, mut parts, mut sets) = (vec![first], 1, 0);
         let mut low = vec![0; region.len()];
         while let Some(states) = work.pop() {
@@ -119,23 +153,23 @@ impl<'g> Fair<'g> {
     /// fair run in it does without, none when it is fair as it is.
     fn verdict(&self, component: &[u32], part: &[u32]) -> Option<Vec<u32>> {
         let first = *component.first()?;
-        let is_inside = |to: u32| to != NONE && part[to as usize] == part[first as usize];
+        let is_inside = |to: u32| part[to as usize] == part[first as usize];
         let successors = self.graph.successors(first);
         if component.len() == 1 && !successors.is_empty() && !successors.contains(&first) {
             return None;
         }
-        let some = |holds: &dyn Fn(usize) -> bool| component.iter().any(|it| holds(*it as usize));
-        if !self.recurring.iter().all(|it| some(&|state| it[state])) {
+        let some = |holds: &dyn Fn(u32) -> bool| component.iter().any(|it| holds(*it));
+        if !self.recurring.iter().all(|it| some(&|state| it.has(state))) {
             return None;
         }
         let mut removed = Vec::new();
-        for (_, is_strong, to) in &self.targets {
-            if some(&|state| is_inside(to[state])) {
+        for it in &self.fair {
+            if some(&|state| it.of(state).iter().any(|to| is_inside(*to))) {
                 continue;
             }
-            if *is_strong {
-                removed.extend(component.iter().filter(|it| to[**it as usize] != NONE));
-            } else if !some(&|state| to[state] == NONE) {
+            if it.is_strong {
+                removed.extend(component.iter().filter(|state| it.enabled.has(**state)));
+            } else if !some(&|state| !it.enabled.has(state)) {
                 return None;
             }
         }
@@ -147,14 +181,14 @@ impl<'g> Fair<'g> {
     pub(super) fn run(
         &self,
         from: u32,
-        region: &[bool],
+        region: &BitSet,
         sets: &FairSets,
     ) -> (Vec<TransitionId>, Rest) {
         let mut stem = Vec::new();
         let mut first = from;
         if !sets.has(first) {
             let is_last = |_, to: u32, _: usize| sets.has(to);
-            let Some(way) = self.way(first, &|it| region[it as usize], is_last) else {
+            let Some(way) = self.way(first, &|it| region.has(it), is_last) else {
                 return (stem, Rest::Any);
             };
             (stem, first) = way;
@@ -176,18 +210,18 @@ impl<'g> Fair<'g> {
             }
         };
         for holds in &self.recurring {
-            if !holds[at as usize] {
-                go(&mut cycle, &mut at, &|_, to, _| holds[to as usize]);
+            if !holds.has(at) {
+                go(&mut cycle, &mut at, &|_, to, _| holds.has(to));
             }
         }
-        for (transition, is_strong, to) in &self.targets {
-            let members = || (0..sets.of.len()).filter(|it| sets.of[*it] == set);
-            if members().any(|it| to[it] != NONE && inside(to[it])) {
+        for it in &self.fair {
+            let mut members = (0..sets.of.len() as u32).filter(|it| inside(*it));
+            if members.any(|state| it.of(state).iter().any(|to| inside(*to))) {
                 let fires =
-                    |from: u32, _, arc: usize| self.graph.transitions(from)[arc] == *transition;
+                    |from: u32, _, arc: usize| self.graph.transitions(from)[arc] == it.transition;
                 go(&mut cycle, &mut at, &fires);
-            } else if !is_strong && to[at as usize] != NONE {
-                go(&mut cycle, &mut at, &|_, it, _| to[it as usize] == NONE);
+            } else if !it.is_strong && it.enabled.has(at) {
+                go(&mut cycle, &mut at, &|_, to, _| !it.enabled.has(to));
             }
         }
         if at != first || cycle.is_empty() {
@@ -233,7 +267,12 @@ impl<'g> Fair<'g> {
 
 /// The strongly connected components of some states, by arcs inside of their part. `low` is room
 /// for numbers.
-fn components(graph: &Graph, states: &[u32], part: &[u32], low: &mut [u32]) -> Vec<Vec<u32>> {
+fn components(
+    graph: &impl Successors,
+    states: &[u32],
+    part: &[u32],
+    low: &mut [u32],
+) -> Vec<Vec<u32>> {
     // Numbers in the order in which states are met; NONE for those that are left.
     for it in states {
         low[*it as usize] = 0;

@@ -1,136 +1,199 @@
 //! Where the parts of a formula of CTL hold.
 
 use super::fairness::{Fair, FairSets, Fairness};
-use crate::explicit::{Goal, Graph};
-use crate::property::{Ctl, CtlNode};
+use super::successors::Successors;
+use crate::explicit::{BitSet, Goal, Limit, Memory};
+use crate::property::{Ctl, CtlNode, Formula};
 
-/// What is known of the parts of a formula in the markings of a graph.
-pub(super) struct Labelling<'g> {
-    pub(super) graph: &'g Graph,
+/// What is known of the parts of a formula in the states of a graph.
+pub(super) struct Labelling<'g, S> {
+    pub(super) graph: &'g S,
     pub(super) formula: &'g Ctl,
-    pub(super) fair: Fair<'g>,
+    pub(super) fair: Fair<'g, S>,
     /// States from which some fair run goes; `None` when all runs are fair.
-    pub(super) fair_states: Option<Vec<bool>>,
+    pub(super) fair_states: Option<BitSet>,
     before: Option<Predecessors>,
-    pub(super) labels: Vec<Option<Vec<bool>>>,
+    pub(super) labels: Vec<Option<BitSet>>,
     pub(super) ranks: Vec<Option<Vec<u32>>>,
+    memory: Memory,
+    jobs: usize,
 }
 
-impl<'g> Labelling<'g> {
+impl<'g, S: Successors> Labelling<'g, S> {
     /// Nothing is looked at yet, but what fairness asks for.
-    pub(super) fn new(graph: &'g Graph, formula: &'g Ctl, fairness: &Fairness<'g>) -> Self {
+    pub(super) fn new(
+        graph: &'g S,
+        formula: &'g Ctl,
+        fairness: &Fairness<'g>,
+        (mut memory, jobs): (Memory, usize),
+    ) -> Result<Self, Limit> {
         let nodes = formula.nodes().len();
         let mut labelling = Self {
             graph,
             formula,
-            fair: Fair::new(graph, fairness),
+            fair: Fair::new(graph, fairness, &mut memory, jobs)?,
             fair_states: None,
             before: None,
             labels: vec![None; nodes],
             ranks: vec![None; nodes],
+            memory,
+            jobs,
         };
         if !fairness.is_none() {
-            labelling.fair_states = Some(labelling.always(&vec![true; graph.states()]));
+            let all = BitSet::new(graph.states(), true);
+            labelling.fair_states = Some(labelling.always(&all)?);
         }
-        labelling
+        Ok(labelling)
     }
-}
 
-impl Labelling<'_> {
-    /// Whether a part holds in the initial marking; parts of it that do not matter for this are not
+    /// Whether a part holds in the first state; parts of it that do not matter for this are not
     /// looked at.
-    pub(super) fn holds(&mut self, node: u32) -> bool {
-        match &self.formula.nodes()[node as usize] {
-            CtlNode::Not(a) => !self.holds(*a),
-            CtlNode::And(all) => all.iter().all(|it| self.holds(*it)),
-            CtlNode::Or(all) => all.iter().any(|it| self.holds(*it)),
-            _ => self.label(node)[0],
-        }
+    pub(super) fn holds(&mut self, node: u32) -> Result<bool, Limit> {
+        let formula = self.formula;
+        Ok(match &formula.nodes()[node as usize] {
+            CtlNode::Not(a) => !self.holds(*a)?,
+            CtlNode::And(all) => {
+                for it in all {
+                    if !self.holds(*it)? {
+                        return Ok(false);
+                    }
+                }
+                true
+            }
+            CtlNode::Or(all) => {
+                for it in all {
+                    if self.holds(*it)? {
+                        return Ok(true);
+                    }
+                }
+                false
+            }
+            // All states are reached from the first one.
+            CtlNode::Until(a, b) if self.fair_states.is_none() && self.is_true(*a) => {
+                self.label(*b)?.ones().next().is_some() && self.label(node)?.has(0)
+            }
+            _ => self.label(node)?.has(0),
+        })
+    }
+
+    fn is_true(&self, node: u32) -> bool {
+        matches!(&self.formula.nodes()[node as usize],
+            CtlNode::State(it) if *it == Formula::TRUE)
     }
 
     /// Where a part holds. Nesting is as deep as formulas may be.
-    fn label(&mut self, node: u32) -> &[bool] {
+    fn label(&mut self, node: u32) -> Result<&BitSet, Limit> {
         if self.labels[node as usize].is_none() {
-            let label = self.labelled(node);
+            let label = self.labelled(node)?;
             self.labels[node as usize] = Some(label);
         }
-        self.labels[node as usize].as_deref().unwrap_or(&[])
+        self.labels[node as usize].as_ref().ok_or(Limit::Bytes)
     }
 
-    fn labelled(&mut self, node: u32) -> Vec<bool> {
-        let (states, graph) = (self.graph.states(), self.graph);
-        match &self.formula.nodes()[node as usize] {
+    fn set(&mut self, all: bool) -> Result<BitSet, Limit> {
+        let states = self.graph.states();
+        self.memory.take(BitSet::bytes(states))?;
+        Ok(BitSet::new(states, all))
+    }
+
+    fn labelled(&mut self, node: u32) -> Result<BitSet, Limit> {
+        let (formula, graph) = (self.formula, self.graph);
+        let mut holds = match &formula.nodes()[node as usize] {
+            CtlNode::And(_) => self.set(true)?,
+            _ => self.set(false)?,
+        };
+        match &formula.nodes()[node as usize] {
             CtlNode::State(state) => {
-                Goal::new(state).map_or(vec![false; states], |it| graph.satisfying(it))
-            }
-            CtlNode::Not(a) => self.label(*a).iter().map(|it| !it).collect(),
-            CtlNode::And(all) => {
-                let mut holds = vec![true; states];
-                for part in all {
-                    holds.iter_mut().zip(self.label(*part)).for_each(|(holds, it)| *holds &= it);
+                if let Some(goal) = Goal::new(state) {
+                    holds = graph.satisfying(goal, self.jobs);
                 }
-                holds
+            }
+            CtlNode::Not(a) => holds = self.label(*a)?.complement(),
+            CtlNode::And(all) => {
+                for part in all {
+                    holds.and(self.label(*part)?);
+                }
             }
             CtlNode::Or(all) => {
-                let mut holds = vec![false; states];
                 for part in all {
-                    holds.iter_mut().zip(self.label(*part)).for_each(|(holds, it)| *holds |= it);
+                    holds.or(self.label(*part)?);
                 }
-                holds
             }
             CtlNode::Next(a) => {
-                let goal = self.fair_and(*a);
-                let some = |state| graph.successors(state).iter().any(|it| goal[*it as usize]);
-                (0..states as u32).map(some).collect()
+                let goal = self.fair_and(*a)?;
+                for state in 0..graph.states() as u32 {
+                    if graph.successors(state).iter().any(|it| goal.has(*it)) {
+                        holds.insert(state);
+                    }
+                }
             }
             CtlNode::Until(a, b) => {
-                let goal = self.fair_and(*b);
-                let through = self.label(*a).to_vec();
-                let ranks = self.backward(&goal, &through);
-                let holds = ranks.iter().map(|it| *it != u32::MAX).collect();
+                let goal = self.fair_and(*b)?;
+                let through = self.label(*a)?.clone();
+                let ranks = self.backward(&goal, &through)?;
+                for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
+                    holds.insert(state);
+                }
                 self.ranks[node as usize] = Some(ranks);
-                holds
             }
             CtlNode::Globally(a) => {
-                let region = self.label(*a).to_vec();
-                self.always(&region)
+                let region = self.label(*a)?.clone();
+                holds = self.always(&region)?;
             }
         }
+        Ok(holds)
     }
 
-    fn fair_and(&mut self, node: u32) -> Vec<bool> {
-        let mut holds = self.label(node).to_vec();
+    fn fair_and(&mut self, node: u32) -> Result<BitSet, Limit> {
+        let mut holds = self.label(node)?.clone();
         if let Some(fair) = &self.fair_states {
-            holds.iter_mut().zip(fair).for_each(|(holds, it)| *holds &= it);
+            holds.and(fair);
         }
-        holds
+        Ok(holds)
     }
 
     /// From which states of a region a fair run stays in it for ever.
-    fn always(&mut self, region: &[bool]) -> Vec<bool> {
+    fn always(&mut self, region: &BitSet) -> Result<BitSet, Limit> {
+        let states = self.graph.states();
+        // Lists of the search for components, which are given back.
+        let bytes = 24 * states as u64;
+        self.memory.take(bytes)?;
         let sets = self.fair.sets(region);
-        let goal: Vec<bool> = (0..region.len() as u32).map(|it| sets.has(it)).collect();
-        self.backward(&goal, region).into_iter().map(|it| it != u32::MAX).collect()
+        let mut goal = BitSet::new(states, false);
+        (0..states as u32).filter(|it| sets.has(*it)).for_each(|it| goal.insert(it));
+        drop(sets);
+        self.memory.release(bytes);
+        let ranks = self.backward(&goal, region)?;
+        self.memory.release(4 * states as u64);
+        for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
+            goal.insert(state);
+        }
+        Ok(goal)
     }
 
-    pub(super) fn sets(&self, region: &[bool]) -> FairSets {
+    pub(super) fn sets(&self, region: &BitSet) -> FairSets {
         self.fair.sets(region)
     }
 
     /// For each state how many firings through such states a goal is away; `u32::MAX` when none is
     /// reached.
-    fn backward(&mut self, goal: &[bool], through: &[bool]) -> Vec<u32> {
+    fn backward(&mut self, goal: &BitSet, through: &BitSet) -> Result<Vec<u32>, Limit> {
         let graph = self.graph;
+        self.memory.take(4 * graph.states() as u64)?;
+        if self.before.is_none() {
+            self.memory.take(Predecessors::bytes(graph))?;
+        }
         let before = self.before.get_or_insert_with(|| Predecessors::new(graph));
-        let mut ranks: Vec<u32> = goal.iter().map(|it| if *it { 0 } else { u32::MAX }).collect();
-        let mut level: Vec<u32> = (0..goal.len() as u32).filter(|it| goal[*it as usize]).collect();
+        let mut ranks = vec![u32::MAX; graph.states()];
+        let mut level: Vec<u32> = goal.ones().collect();
+        level.iter().for_each(|it| ranks[*it as usize] = 0);
         let mut rank = 0;
         while !level.is_empty() {
             rank += 1;
             let mut next = Vec::new();
             for state in level {
                 for &from in before.of(state) {
-                    if through[from as usize] && ranks[from as usize] == u32::MAX {
+                    if ranks[from as usize] == u32::MAX && through.has(from) {
                         ranks[from as usize] = rank;
                         next.push(from);
                     }
@@ -138,40 +201,45 @@ impl Labelling<'_> {
             }
             level = next;
         }
-        ranks
+        Ok(ranks)
     }
 }
 
 /// For each state those that it follows.
 struct Predecessors {
-    starts: Vec<usize>,
+    starts: Vec<u32>,
     states: Vec<u32>,
 }
 
 impl Predecessors {
-    fn new(graph: &Graph) -> Self {
+    fn bytes(graph: &impl Successors) -> u64 {
+        if u32::try_from(graph.arcs()).is_err() {
+            return u64::MAX / 2; // positions are numbers of 32 bits
+        }
+        4 * (2 * graph.states() as u64 + graph.arcs() as u64)
+    }
+
+    fn new(graph: &impl Successors) -> Self {
         let count = graph.states();
-        let mut starts = vec![0; count + 1];
-        let arcs = || {
-            (0..count as u32)
-                .flat_map(|from| graph.successors(from).iter().map(move |to| (from, *to)))
-        };
-        for (_, to) in arcs() {
-            starts[to as usize + 1] += 1;
+        let mut starts = vec![0_u32; count + 1];
+        for from in 0..count as u32 {
+            graph.successors(from).iter().for_each(|it| starts[*it as usize + 1] += 1);
         }
         for at in 0..count {
             starts[at + 1] += starts[at];
         }
         let (mut ends, mut states) = (starts.clone(), vec![0; graph.arcs()]);
-        for (from, to) in arcs() {
-            let end = &mut ends[to as usize];
-            states[*end] = from;
-            *end += 1;
+        for from in 0..count as u32 {
+            for &to in graph.successors(from) {
+                let end = &mut ends[to as usize];
+                states[*end as usize] = from;
+                *end += 1;
+            }
         }
         Self { starts, states }
     }
 
     fn of(&self, state: u32) -> &[u32] {
-        &self.states[self.starts[state as usize]..self.starts[state as usize + 1]]
+        &self.states[self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize]
     }
 }

@@ -1,10 +1,12 @@
 //! Formulas of LTL.
 
-use super::emptiness::some_run;
+use super::emptiness::{Searched, some_run};
 use super::product::Stop;
+use super::source::{Met, Stored};
+use super::successors::Successors;
 use super::verdict::{Reason, Verdict};
 use crate::explicit::{Limits, Progress};
-use crate::property::{Formula, Ltl};
+use crate::property::{Assumptions, Formula, Ltl};
 use crate::pt::Pt;
 
 /// Whether a formula without quantifiers is true of all runs from the initial marking. A
@@ -40,7 +42,7 @@ use crate::pt::Pt;
 /// assert_eq!(run, Run { stem: vec![TransitionId(0), TransitionId(2)], rest: Rest::Stays });
 /// ```
 pub fn all_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
-    searched(pt, Ltl::negation_of(path), false, limits, progress)
+    met(pt, Ltl::negation_of(path), false, limits, progress)
 }
 
 /// Whether a formula without quantifiers is true of some run from the initial marking; the answer
@@ -59,20 +61,51 @@ pub fn all_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Prog
 /// assert!(matches!(verdict, Verdict::Known { holds: true, .. })); // if it never breaks
 /// ```
 pub fn some_runs(pt: &Pt, path: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
-    searched(pt, Ltl::new(path), true, limits, progress)
+    met(pt, Ltl::new(path), true, limits, progress)
 }
 
-fn searched(
+/// Whether a formula without quantifiers is true of all, or of some, of the runs of a net that are
+/// as assumed.
+pub(crate) fn fair_runs(
+    pt: &Pt,
+    (path, assumed): (&Formula, &Assumptions),
+    all: bool,
+    limits: &Limits,
+    progress: &dyn Fn(Progress),
+) -> Verdict {
+    met(pt, Ltl::fair(path, assumed, !all), !all, limits, progress)
+}
+
+/// The same of the runs of a graph in which a transition leads to one state at most; the bytes of
+/// the graph itself are not counted.
+pub(crate) fn stored_runs(
+    graph: &impl Successors,
+    (path, assumed): (&Formula, &Assumptions),
+    all: bool,
+    (limits, jobs): (&Limits, usize),
+    progress: &dyn Fn(Progress),
+) -> Verdict {
+    known(Ltl::fair(path, assumed, !all), !all, |formula| {
+        some_run(Stored::new(graph, formula, limits, jobs), formula, progress)
+    })
+}
+
+fn met(
     pt: &Pt,
     formula: Option<Ltl>,
     found: bool,
     limits: &Limits,
     progress: &dyn Fn(Progress),
 ) -> Verdict {
+    known(formula, found, |formula| some_run(Met::new(pt, formula, limits), formula, progress))
+}
+
+/// The verdict on a formula of which finding a run says `found`.
+fn known(formula: Option<Ltl>, found: bool, search: impl FnOnce(&Ltl) -> Searched) -> Verdict {
     let Some(formula) = formula else {
         return Verdict::Unknown { reason: Reason::Kind, states: 0 };
     };
-    let searched = some_run(pt, &formula, limits, progress);
+    let searched = search(&formula);
     let states = searched.states;
     match searched.run {
         Ok(run) => Verdict::Known { holds: run.is_some() == found, run, states },

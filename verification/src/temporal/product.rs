@@ -1,10 +1,9 @@
-//! The net and an automaton side by side, as far as they are followed.
+//! A net and an automaton side by side, as far as they are followed.
 
 use super::automaton::{Automaton, Move, TooLarge};
-use crate::explicit::{Index, Limit, Limits, Markings, hash};
-use crate::property::{Condition, Ltl, LtlNode};
-use crate::pt::Pt;
-use crate::stubborn::{Closure, visible};
+use super::source::Source;
+use crate::explicit::{Index, Limit, hash};
+use crate::property::{Ltl, LtlNode};
 use std::collections::HashMap;
 
 /// No transition: after a deadlock the marking lasts.
@@ -29,48 +28,41 @@ impl From<TooLarge> for Stop {
     }
 }
 
-/// Pairs of a marking and a state of the automaton, with numbers in the order in which they are
-/// met.
-pub(super) struct Product<'a> {
-    pub(super) markings: Markings<'a>,
+/// Pairs of a state and a state of the automaton, with numbers in the order in which they are met.
+pub(super) struct Product<'a, S> {
+    pub(super) source: S,
     pub(super) automaton: Automaton<'a>,
-    conditions: Vec<Condition<'a>>,
-    /// For each marking the number of its valuation; [`NONE`] when it was not looked at.
+    /// For each state the number of its valuation; [`NONE`] when it was not looked at.
     valuation_of: Vec<u32>,
     valuations: Vec<Vec<u64>>,
     numbers: HashMap<Vec<u64>, u32>,
+    /// The transitions whose firings the formula sees, with their bits behind those of the
+    /// valuation of a state; and how many words all bits take.
+    fires: Vec<(u32, usize)>,
+    words: usize,
     pairs: Vec<(u32, u32)>,
     index: Index,
-    /// What may be left out, and the transitions that the formula sees; `None` when nothing may.
-    reduction: Option<(Closure<'a>, Vec<bool>)>,
 }
 
-impl<'a> Product<'a> {
-    pub(super) fn new(pt: &'a Pt, formula: &'a Ltl, limits: &Limits) -> Result<Self, Stop> {
-        let (mut conditions, mut seen) = (Vec::new(), vec![false; pt.transitions.len()]);
-        let mut next = false;
-        for node in formula.nodes() {
-            match node {
-                LtlNode::State(state) => {
-                    // The parts of a formula of LTL that are called states speak of one marking.
-                    conditions.push(Condition::new(state, pt).ok_or(Stop::TooLarge)?);
-                    seen.iter_mut().zip(visible(pt, state)).for_each(|(seen, it)| *seen |= it);
-                }
-                LtlNode::Next(_) => next = true,
-                _ => {}
-            }
-        }
-        let reduction = (!next && seen.iter().any(|it| !it)).then(|| (Closure::new(pt), seen));
+impl<'a, S: Source> Product<'a, S> {
+    pub(super) fn new(source: S, formula: &'a Ltl) -> Result<Self, Stop> {
+        let is_state = |it: &&LtlNode| matches!(it, LtlNode::State(_));
+        let first = formula.nodes().iter().filter(is_state).count();
+        let seen = formula.nodes().iter().filter_map(|it| match it {
+            LtlNode::Fires(transition) => Some(transition.0),
+            _ => None,
+        });
+        let fires: Vec<(u32, usize)> = seen.zip(first..).collect();
         let mut product = Self {
-            markings: Markings::new(pt, limits)?,
+            source,
             automaton: Automaton::new(formula)?,
-            conditions,
             valuation_of: Vec::new(),
             valuations: Vec::new(),
             numbers: HashMap::new(),
+            words: (first + fires.len()).div_ceil(64),
+            fires,
             pairs: Vec::new(),
             index: Index::default(),
-            reduction,
         };
         product.pair(0, 0)?;
         Ok(product)
@@ -81,97 +73,84 @@ impl<'a> Product<'a> {
         self.pairs.len()
     }
 
-    /// The marking and the state of a pair.
+    /// The two states of a pair.
     pub(super) fn of(&self, pair: u32) -> (u32, u32) {
         self.pairs[pair as usize]
     }
 
     /// The number of a pair; a new one gets the next number.
-    pub(super) fn pair(&mut self, marking: u32, state: u32) -> Result<u32, Limit> {
-        match self.found(marking, state) {
+    pub(super) fn pair(&mut self, state: u32, automaton: u32) -> Result<u32, Limit> {
+        match self.found(state, automaton) {
             Ok(pair) => Ok(pair),
             Err(slot) => {
                 let pair = self.pairs.len() as u32;
                 if pair == NONE {
                     return Err(Limit::States);
                 }
-                self.markings.memory.room(&mut self.pairs, 1)?;
-                self.pairs.push((marking, state));
+                self.source.memory().room(&mut self.pairs, 1)?;
+                self.pairs.push((state, automaton));
                 let pairs = &self.pairs;
                 let hash_of = |it: u32| mixed(pairs[it as usize]);
-                self.index.insert(slot, pair, &mut self.markings.memory, hash_of)?;
+                self.index.insert(slot, pair, self.source.memory(), hash_of)?;
                 Ok(pair)
             }
         }
     }
 
     /// The number of a pair if it was met.
-    pub(super) fn known(&self, marking: u32, state: u32) -> Option<u32> {
-        self.found(marking, state).ok()
+    pub(super) fn known(&self, state: u32, automaton: u32) -> Option<u32> {
+        self.found(state, automaton).ok()
     }
 
-    fn found(&self, marking: u32, state: u32) -> Result<u32, usize> {
-        self.index.find(mixed((marking, state)), |it| self.pairs[it as usize] == (marking, state))
+    fn found(&self, state: u32, automaton: u32) -> Result<u32, usize> {
+        let pair = (state, automaton);
+        self.index.find(mixed(pair), |it| self.pairs[it as usize] == pair)
     }
 
-    /// The moves of the automaton from a pair.
-    pub(super) fn moves(&mut self, pair: u32) -> Result<Vec<Move>, Stop> {
-        let (marking, state) = self.of(pair);
-        let valuation = self.valuation(marking)?;
-        Ok(self.automaton.moves(state, valuation, &self.valuations[valuation as usize])?.to_vec())
+    /// Whether the moves of the automaton depend on what fires.
+    pub(super) fn sees_firings(&self) -> bool {
+        !self.fires.is_empty()
     }
 
-    fn valuation(&mut self, marking: u32) -> Result<u32, Limit> {
-        let met = self.markings.len();
-        self.markings.memory.extend(&mut self.valuation_of, met, NONE)?;
-        if self.valuation_of[marking as usize] == NONE {
-            let look = self.markings.look(marking);
-            let mut holds = vec![0; self.conditions.len().div_ceil(64)];
-            for (at, condition) in self.conditions.iter().enumerate() {
-                holds[at / 64] |= u64::from(condition.holds(&look)) << (at % 64);
-            }
-            let number = *self.numbers.entry(holds).or_insert_with_key(|holds| {
-                self.valuations.push(holds.clone());
-                self.valuations.len() as u32 - 1
-            });
-            self.valuation_of[marking as usize] = number;
+    /// The moves of the automaton from a pair, when this fires.
+    pub(super) fn moves(&mut self, pair: u32, fired: u32) -> Result<Vec<Move>, Stop> {
+        let (state, automaton) = self.of(pair);
+        let mut valuation = self.valuation(state)?;
+        if let Some(&(_, bit)) = self.fires.iter().find(|it| it.0 == fired) {
+            let mut holds = self.valuations[valuation as usize].clone();
+            holds[bit / 64] |= 1 << (bit % 64);
+            valuation = self.number(holds);
         }
-        Ok(self.valuation_of[marking as usize])
+        let holds = &self.valuations[valuation as usize];
+        Ok(self.automaton.moves(automaton, valuation, holds)?.to_vec())
     }
 
-    /// The transitions that are enabled in a marking; [`NONE`] alone in a deadlock.
-    pub(super) fn transitions(&mut self, marking: u32) -> Vec<u32> {
-        let all: Vec<u32> = self.markings.look(marking).transitions().collect();
-        if all.is_empty() { vec![NONE] } else { all }
+    fn valuation(&mut self, state: u32) -> Result<u32, Limit> {
+        let met = self.source.len();
+        self.source.memory().extend(&mut self.valuation_of, met, NONE)?;
+        if self.valuation_of[state as usize] == NONE {
+            let mut holds = self.source.valuation(state);
+            holds.resize(self.words, 0);
+            self.valuation_of[state as usize] = self.number(holds);
+        }
+        Ok(self.valuation_of[state as usize])
     }
 
-    /// Transitions that suffice, unless they close a cycle; none of them is seen. `None` when all
-    /// are to be fired.
-    pub(super) fn few(&mut self, marking: u32) -> Option<Vec<u32>> {
-        let (closure, seen) = self.reduction.as_mut()?;
-        let look = self.markings.look(marking);
-        let few = closure.persistent(look, |it| !seen[it as usize])?;
-        (few.len() < look.transitions().count()).then_some(few)
-    }
-
-    /// The marking after a transition.
-    pub(super) fn fire(&mut self, marking: u32, transition: u32) -> Result<u32, Limit> {
-        if transition == NONE { Ok(marking) } else { self.markings.fire(marking, transition) }
+    fn number(&mut self, holds: Vec<u64>) -> u32 {
+        *self.numbers.entry(holds).or_insert_with_key(|holds| {
+            self.valuations.push(holds.clone());
+            self.valuations.len() as u32 - 1
+        })
     }
 
     /// The steps from a pair to pairs that were met: transition, pair, promises.
     pub(super) fn steps(&mut self, pair: u32) -> Vec<(u32, u32, u128)> {
-        // The moves of a pair that was left were worked out then.
-        let Ok(moves) = self.moves(pair) else { return Vec::new() };
-        let marking = self.of(pair).0;
+        let state = self.of(pair).0;
         let mut steps = Vec::new();
-        for transition in self.transitions(marking) {
-            let after = if transition == NONE {
-                Some(marking)
-            } else {
-                self.markings.known(marking, transition)
-            };
-            let Some(after) = after else { continue };
+        for transition in self.source.transitions(state) {
+            // The moves of a pair that was left were worked out then.
+            let Ok(moves) = self.moves(pair, transition) else { return Vec::new() };
+            let Some(after) = self.source.known(state, transition) else { continue };
             for step in &moves {
                 steps.extend(self.known(after, step.to).map(|to| (transition, to, step.promises)));
             }
@@ -180,6 +159,6 @@ impl<'a> Product<'a> {
     }
 }
 
-fn mixed((marking, state): (u32, u32)) -> u64 {
-    hash(&[u64::from(marking) << 32 | u64::from(state)])
+fn mixed((state, automaton): (u32, u32)) -> u64 {
+    hash(&[u64::from(state) << 32 | u64::from(automaton)])
 }

@@ -41,8 +41,10 @@ impl Run {
     }
 }
 
-/// The most firings that are tried to find how a run can go on.
+/// The most firings that are tried to find how a run can go on, and the most tokens and transitions
+/// that are looked at for it.
 const TRIED: usize = 4_096;
+const LOOKED: usize = 1 << 22;
 
 impl Run {
     /// The same run with a loop or a deadlock at its end where that is found with little effort, by
@@ -57,7 +59,8 @@ impl Run {
             return self;
         };
         let (mut met, mut fired) = (HashMap::new(), Vec::new());
-        while fired.len() < TRIED {
+        let tried = TRIED.min(LOOKED / (pt.places.len() + pt.transitions.len() + 1));
+        while fired.len() < tried {
             if let Some(back) = met.insert(marking.clone(), fired.len()) {
                 let cycle = fired.split_off(back);
                 self.stem.extend(fired);

@@ -2,6 +2,8 @@
 
 use super::labelling::Labelling;
 use super::run::{Rest, Run};
+use super::successors::Successors;
+use crate::explicit::BitSet;
 use crate::property::CtlNode;
 use cotama_core::net::TransitionId;
 
@@ -17,7 +19,10 @@ pub struct Witness {
 
 /// A run from the initial marking that shows the verdict; `None` when no run is needed, or when
 /// none can begin to show it.
-pub(super) fn explained(labelling: &Labelling<'_>, verdict: bool) -> Option<Witness> {
+pub(super) fn explained<S: Successors>(
+    labelling: &Labelling<'_, S>,
+    verdict: bool,
+) -> Option<Witness> {
     let mut path = Path { labelling, state: 0, fired: Vec::new(), rest: Rest::Any, has_run: false };
     let is_complete = path.show(labelling.formula.root(), verdict);
     if !path.has_run {
@@ -35,15 +40,15 @@ pub(super) fn explained(labelling: &Labelling<'_>, verdict: bool) -> Option<Witn
     Some(Witness { run, is_complete })
 }
 
-struct Path<'l> {
-    labelling: &'l Labelling<'l>,
+struct Path<'l, S> {
+    labelling: &'l Labelling<'l, S>,
     state: u32,
     fired: Vec<TransitionId>,
     rest: Rest,
     has_run: bool,
 }
 
-impl Path<'_> {
+impl<S: Successors> Path<'_, S> {
     fn node(&self, at: u32) -> &CtlNode {
         &self.labelling.formula.nodes()[at as usize]
     }
@@ -51,7 +56,7 @@ impl Path<'_> {
     /// Whether a part holds here; parts that were not looked at do not matter.
     fn holds(&self, node: u32) -> Option<bool> {
         if let Some(label) = &self.labelling.labels[node as usize] {
-            return Some(label[self.state as usize]);
+            return Some(label.has(self.state));
         }
         let of = |it: &u32| self.holds(*it);
         match self.node(node) {
@@ -149,8 +154,8 @@ impl Path<'_> {
     }
 
     fn is_goal(&self, node: u32, state: u32) -> bool {
-        let holds = |label: &Option<Vec<bool>>| label.as_ref().is_some_and(|it| it[state as usize]);
-        let is_fair = self.labelling.fair_states.as_ref().is_none_or(|it| it[state as usize]);
+        let holds = |label: &Option<BitSet>| label.as_ref().is_some_and(|it| it.has(state));
+        let is_fair = self.labelling.fair_states.as_ref().is_none_or(|it| it.has(state));
         is_fair && holds(&self.labelling.labels[node as usize])
     }
 
@@ -161,7 +166,7 @@ impl Path<'_> {
     }
 
     /// A fair run through a region from here for ever.
-    fn go_on(&mut self, region: &[bool]) {
+    fn go_on(&mut self, region: &BitSet) {
         self.has_run = true;
         let sets = self.labelling.sets(region);
         let (stem, rest) = self.labelling.fair.run(self.state, region, &sets);

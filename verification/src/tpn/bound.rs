@@ -8,7 +8,7 @@ use super::net::Interval;
 /// negated largest lower and the largest upper bound of an interval (a firing replaces bounds by
 /// bounds of this kind, see [`super::domain`]), so with bounds up to [`Interval::LARGEST`] sums of
 /// several of them never leave 64 bits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Bound(i64);
 
 impl Bound {
@@ -45,6 +45,11 @@ impl Bound {
     pub(super) fn checked_plus(self, other: Self) -> Option<Self> {
         let sum = self.plus(other);
         (sum == Self::INFINITE || sum.0.abs() < Self::LARGEST).then_some(sum)
+    }
+
+    /// The bound of the negated difference that holds exactly where this one does not.
+    pub(super) const fn beyond(self) -> Self {
+        Self(1 - self.0)
     }
 
     /// The same with the value included.

@@ -133,9 +133,4 @@ impl Classes {
             _ => &[],
         }
     }
-
-    /// Whether a class has a token in this place.
-    pub(super) fn marked(&self, class: ClassId, place: u32) -> bool {
-        self.marking(class).get(place as usize).is_some_and(|&tokens| tokens > 0)
-    }
 }

@@ -13,11 +13,13 @@
 //! exact, in dense time, with open bounds where they are open. What a limit cuts short is said to
 //! be unknown.
 
+mod atomic;
 mod bound;
 mod classes;
 mod convert;
 mod domain;
 mod explore;
+mod graph;
 mod growth;
 mod index;
 mod markings;
@@ -25,13 +27,16 @@ mod net;
 mod response;
 mod schedule;
 mod untimed;
+mod zone;
 
+pub(crate) use atomic::atomic;
 pub use classes::{ClassId, Classes};
 pub use convert::{Converted, Difference, NotANet, exported, from_net, to_net};
 pub use explore::classes;
+pub(crate) use graph::ClassGraph;
 pub use net::{Interval, TimeNet, TimeNetDefect, TimePlace, TimeTransition};
-pub(crate) use response::measured;
 pub use response::{Response, Time, bound, bound_from_start};
+pub(crate) use response::{longest, measured};
 pub use schedule::{Date, NoSchedule, Reach, Schedule, Step, deadlock, reach, schedule};
 pub use untimed::{Untimed, markings as untimed};
 

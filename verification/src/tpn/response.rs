@@ -124,19 +124,50 @@ fn response(
     if entries.is_empty() {
         return Response::NeverFires;
     }
-    let mut search =
-        Search { classes, to: to.0, limits, met: classes.classes(), bytes: classes.bytes() };
+    let mut search = Search::new(classes, |tokens| tokens[to.0 as usize] > 0, limits);
     match search.min(&entries).and_then(|min| Ok((min, search.max(&entries)?))) {
         Ok((min, max)) => Response::Between { min, max },
         Err(stop) => Response::Unknown { stop, explored: search.met },
     }
 }
 
+/// The most time that passes in any run from a time at which a cause holds to the first time, then
+/// or later, at which an effect does. `at_start` asks about the start alone. The classes are all
+/// that there are.
+///
+/// Between firings a marking stays, so it is enough to measure from each class whose marking holds
+/// the cause and not the effect, when it is entered; and of these from those that are entered from
+/// another one, as the others are met later in a run that is measured already.
+pub(crate) fn longest(
+    classes: &Classes,
+    cause: impl Fn(&[u32]) -> bool,
+    effect: impl Fn(&[u32]) -> bool,
+    at_start: bool,
+    limits: &Limits<'_>,
+) -> Result<Time, Stop> {
+    let mut search = Search::new(classes, effect, limits);
+    let all = 0..classes.classes() as ClassId;
+    let waits: Vec<bool> =
+        all.clone().map(|it| !search.marked(it) && cause(classes.marking(it))).collect();
+    let mut is_entered = vec![false; waits.len()];
+    is_entered[0] = waits[0];
+    if !at_start {
+        for from in all.clone().filter(|it| !waits[*it as usize]) {
+            for &(_, to) in classes.successors(from) {
+                is_entered[to as usize] = waits[to as usize];
+            }
+        }
+    }
+    let entries: Vec<ClassId> = all.filter(|it| is_entered[*it as usize]).collect();
+    if entries.is_empty() { Ok(Time::Finite(0)) } else { search.max(&entries) }
+}
+
 /// A search through classes in which the place is not marked, with one more variable y: minus the
 /// time since the firing.
 struct Search<'c> {
     classes: &'c Classes,
-    to: u32,
+    /// For each class whether what is waited for is there.
+    is_over: Vec<bool>,
     limits: &'c Limits<'c>,
     /// Classes and rows of y that were met.
     met: usize,
@@ -158,8 +189,14 @@ struct Firing<'c> {
 }
 
 impl<'c> Search<'c> {
+    fn new(classes: &'c Classes, is_over: impl Fn(&[u32]) -> bool, limits: &'c Limits<'c>) -> Self {
+        let all = 0..classes.classes() as ClassId;
+        let is_over = all.map(|it| is_over(classes.marking(it))).collect();
+        Self { classes, is_over, limits, met: classes.classes(), bytes: classes.bytes() }
+    }
+
     fn marked(&self, class: ClassId) -> bool {
-        self.classes.marked(class, self.to)
+        self.is_over[class as usize]
     }
 
     fn load(&self, class: ClassId, into: &mut Domain) {

@@ -102,7 +102,7 @@ fn a_successor_is_one_step_away() {
         Certificate::of(&battery, "", question.clone(), false, Evidence::trace(&battery, &[0]));
     assert_eq!(
         shown(&certificate),
-        "net battery (3 places, 3 transitions): A(X(2 <= full)) is false\n  by a trace of 1 firing"
+        "net battery (3 places, 3 transitions): AX (2 <= full) is false\n  by a trace of 1 firing"
     );
     all_refused(
         &certificate,

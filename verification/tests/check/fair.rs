@@ -107,7 +107,8 @@ fn the_front_says_of_two_thousand_nets_what_the_engine_says_and_its_runs_replay(
         let assumed = Assumptions { weak, strong, often };
         let formula = branching(&mut random, &pt, 3);
         let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-        let engine = ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::of(&assumed).unwrap());
+        let fairness = Fairness::of(&assumed).unwrap();
+        let engine = ctl(&graph, &Ctl::new(&formula).unwrap(), &fairness, 1 << 30, 1).unwrap();
         let property = named(Question::Fair(formula, assumed), &pt);
         let model = Model::from(pt);
         let answer = check(&model, &property, &Options::default());

@@ -8,13 +8,15 @@
 mod contest;
 mod fair;
 mod laws;
+mod limits;
 mod message;
 mod mutations;
-mod nets;
+pub(crate) mod nets;
 mod quick;
 mod replay;
 mod small;
 mod timed;
+mod timed_logic;
 mod unbounded;
 
 use cotama_verification::property::{Property, Question};

@@ -69,6 +69,7 @@ fn an_alarm_is_never_raised() {
             )
         };
         let mut words = vacuous(formula)
+            .asked
             .into_iter()
             .filter(|it| holds(&it.formula))
             .map(|it| it.words(text, &pt));

@@ -128,6 +128,7 @@ fn formula_of(ltl: &Ltl, at: u32) -> Formula {
     let not = |at: &u32| Box::new(Formula::Not(of(at).into()));
     match &ltl.nodes()[at as usize] {
         LtlNode::State(formula) => formula.clone(),
+        LtlNode::Fires(_) => unreachable!("nothing is assumed"),
         LtlNode::And(all) => Formula::And(all.iter().map(of).collect()),
         LtlNode::Or(all) => Formula::Or(all.iter().map(of).collect()),
         LtlNode::Next(a) => Formula::Next(of(a).into()),

@@ -126,13 +126,14 @@ fn a_level_of_five_thousand_large_markings_is_counted_whole() {
 }
 
 #[test]
-fn a_marking_of_more_than_128_words_is_a_limit() {
-    // Places of 32 bits and one more each, which nothing bounds: 256 of them are too many.
+fn a_marking_of_more_than_128_words_is_no_limit() {
+    // Places of 32 bits and one more each, which nothing bounds: 256 of them are too many
+    // to be packed.
     let counters = |count: u32| {
         let gives: Vec<[(u32, u32); 1]> = (0..count).map(|it| [(it, 1 << 31)]).collect();
         let moves: Vec<[&[(u32, u32)]; 3]> =
             gives.iter().map(|it| [&[][..], &[], &it[..]]).collect();
         space(&net(&vec![0; count as usize], &moves)).limit
     };
-    assert_eq!((counters(4), counters(256)), (Some(Limit::Tokens), Some(Limit::Words)));
+    assert_eq!((counters(4), counters(256)), (Some(Limit::Tokens), Some(Limit::Tokens)));
 }

@@ -8,6 +8,7 @@ mod plain;
 mod public;
 mod random;
 mod ways;
+mod wide;
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, TransitionId};

@@ -117,7 +117,7 @@ proptest! {
         work in 0..200_u64,
         nodes in 0..4_u32,
     ) {
-        let mut structure = Structure::new(&pt, Limits { work, nodes });
+        let mut structure = Structure::new(&pt, Limits { work, nodes, ..Limits::default() });
         let (markings, _) = explore(&pt, 500);
         if let Answer::Impossible(proof) = structure.reach(&goal) {
             prop_assert!(!markings.iter().any(|marking| goal.iter().all(|it| holds(it, marking))));

@@ -10,6 +10,7 @@ use cotama_verification::structural::{
     Answer, Limits, Stop, Structure, Unknown, class, commoner, minimal_siphons, place_invariants,
     place_semiflows,
 };
+use std::sync::Arc;
 
 fn tokens_at_most(place: u32, most: i64) -> Linear {
     Linear { constant: -most, weights: vec![(PlaceId(place), 1)] }
@@ -84,8 +85,8 @@ fn a_proof_with_a_wrong_number_is_refused() {
     assert!(!Bound { at_most: 1, ..bound.clone() }.holds(&pt, structure.dead()));
     let Refutation::Sum(sum) = bound.refutation.clone() else { panic!("not a sum") };
     let stronger =
-        LinearInvariant { constant: sum.invariant.constant - 1, ..sum.invariant.clone() };
-    let forged = Refutation::Sum(Sum { invariant: stronger, ..sum });
+        LinearInvariant { constant: sum.invariant.constant - 1, ..(*sum.invariant).clone() };
+    let forged = Refutation::Sum(Sum { invariant: Arc::new(stronger), ..sum });
     assert!(!Bound { refutation: forged, ..bound }.holds(&pt, structure.dead()));
 }
 
@@ -246,11 +247,12 @@ fn a_forged_proof_is_refused() {
         !unreachable(&pt, &DeadTransitions::default(), &[goal], &Refutation::Sum(sum))
     };
     let never_grows = LinearInvariant { weights: vec![(PlaceId(0), 1)], constant: 0 };
-    let sum = Sum { premises: vec![(0, 1)], invariant: never_grows, ..Sum::default() };
+    let sum = Sum { premises: vec![(0, 1)], invariant: Arc::new(never_grows), ..Sum::default() };
     assert!(refuses(tokens_at_least(0, 1), sum));
     // `-5 - tokens <= 0` always holds; minus once it is `5 + tokens <= 0`, which does not follow.
     let never_shrinks = LinearInvariant { weights: vec![(PlaceId(0), -1)], constant: 0 };
-    let turned = Sum { premises: vec![(0, -1)], invariant: never_shrinks, ..Sum::default() };
+    let turned =
+        Sum { premises: vec![(0, -1)], invariant: Arc::new(never_shrinks), ..Sum::default() };
     assert!(refuses(tokens_at_least(0, -5), turned));
 }
 

@@ -11,7 +11,7 @@ use cotama_verification::temporal::{CtlAnswer, Fairness, Rest, Run, Verdict, ans
 
 fn answered(pt: &Pt, formula: &Formula) -> CtlAnswer {
     let graph = Graph::new(pt, &Limits::default(), &|_| ()).unwrap();
-    ctl(&graph, &Ctl::new(formula).unwrap(), &Fairness::default())
+    ctl(&graph, &Ctl::new(formula).unwrap(), &Fairness::default(), 1 << 30, 2).unwrap()
 }
 
 #[test]
@@ -56,7 +56,7 @@ fn labels_and_ranks_are_right_in_every_marking() {
         }
         let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
         let form = Ctl::new(&said).unwrap();
-        let found = ctl(&graph, &form, &Fairness::default());
+        let found = ctl(&graph, &form, &Fairness::default(), 1 << 30, 1).unwrap();
         let states = 0..graph.states();
         let number = |at: usize| {
             space.markings.iter().position(|it| *it == graph.marking(at as u32)).unwrap()

@@ -4,10 +4,15 @@ use super::{formula, lamp};
 use crate::properties::oracle::Space;
 use crate::properties::random::{Random, branching, net, state};
 use cotama_core::net::TransitionId;
-use cotama_verification::explicit::{Goal, Graph, Limits};
+use cotama_verification::explicit::{BitSet, Goal, Graph, Limits};
 use cotama_verification::property::{Ctl, CtlNode, Formula};
 use cotama_verification::pt::Pt;
-use cotama_verification::temporal::{Fairness, Rest, Run, ctl};
+use cotama_verification::temporal::{CtlAnswer, Fairness, Rest, Run};
+
+/// The answer, with memory enough.
+fn ctl(graph: &Graph, formula: &Ctl, fairness: &Fairness<'_>) -> CtlAnswer {
+    cotama_verification::temporal::ctl(graph, formula, fairness, 1 << 30, 1).unwrap()
+}
 
 /// A small graph with a bit for each state.
 struct Small {
@@ -142,8 +147,8 @@ fn verdicts_on_fair_runs_are_those_of_trying_all_sets() {
         let recurring: Vec<Formula> =
             (0..random.below(2)).map(|_| state(&mut random, &pt, 1)).collect();
         let atoms = |formula: &Formula| {
-            let holds = graph.satisfying(Goal::new(formula).unwrap());
-            holds.iter().enumerate().fold(0_u32, |set, (at, it)| set | u32::from(*it) << at)
+            let holds = graph.satisfying(Goal::new(formula).unwrap(), 1);
+            holds.iter().enumerate().fold(0_u32, |set, (at, it)| set | u32::from(it) << at)
         };
         let arcs = |state: u32| {
             let to = graph.successors(state).iter().map(|it| *it as usize);
@@ -163,8 +168,8 @@ fn verdicts_on_fair_runs_are_those_of_trying_all_sets() {
         let expected = small.labels(&form, &atoms);
         assert_eq!(found.verdict, expected[form.root() as usize] & 1 == 1, "{}", text());
         for (label, expected) in found.labels.iter().zip(&expected) {
-            for (state, holds) in label.iter().flatten().enumerate() {
-                assert_eq!(*holds, Small::is_in(*expected, state), "{}", text());
+            for (state, holds) in label.iter().flat_map(BitSet::iter).enumerate() {
+                assert_eq!(holds, Small::is_in(*expected, state), "{}", text());
             }
         }
         changed += u32::from(ctl(&graph, &form, &Fairness::default()).verdict != found.verdict);

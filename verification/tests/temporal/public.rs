@@ -98,7 +98,7 @@ fn labels_of_the_stored_graph_give_the_verdicts_of_the_table() {
             };
             let Some(formula) = Ctl::new(formula) else { continue };
             assert_eq!(
-                ctl(&graph, &formula, &Fairness::default()).verdict,
+                ctl(&graph, &formula, &Fairness::default(), 4 << 30, 2).unwrap().verdict,
                 *expected,
                 "{}",
                 property.name

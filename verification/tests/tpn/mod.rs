@@ -11,7 +11,7 @@ mod growth;
 mod random;
 mod reading;
 mod recovery;
-mod regions;
+pub(crate) mod regions;
 pub(crate) mod replay;
 mod response;
 mod schedules;

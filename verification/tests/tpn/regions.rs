@@ -105,6 +105,13 @@ pub(crate) struct Regions<'n> {
     edges: Vec<Vec<(Option<usize>, usize)>>,
 }
 
+/// The states of a net just after a firing.
+pub(crate) struct Instants {
+    /// Tokens, and what fired last.
+    pub(crate) states: Vec<(Vec<u32>, Option<usize>)>,
+    pub(crate) next: Vec<Vec<usize>>,
+}
+
 /// All regions; `None` when there are more than `most` or a place gets more than `tokens`.
 pub(crate) fn regions(net: &TimeNet, most: usize, tokens: u32) -> Option<Regions<'_>> {
     let initial: Vec<u32> = net.places().iter().map(|it| it.initial).collect();
@@ -133,6 +140,33 @@ pub(crate) fn regions(net: &TimeNet, most: usize, tokens: u32) -> Option<Regions
 }
 
 impl Regions<'_> {
+    /// The regions just after a firing, the first one that of the start, each with what fired last:
+    /// their tokens, and where firings lead after any time.
+    pub(crate) fn instants(&self) -> Instants {
+        let mut list = vec![(0, None)];
+        let mut numbers = HashMap::from([(list[0], 0)]);
+        let mut next: Vec<Vec<usize>> = Vec::new();
+        while next.len() < list.len() {
+            let (mut open, mut met) = (vec![list[next.len()].0], HashSet::new());
+            let mut to = BTreeSet::new();
+            while let Some(region) = open.pop().filter(|it| met.insert(*it)) {
+                for &(fired, target) in &self.edges[region] {
+                    if fired.is_none() {
+                        open.push(target);
+                        continue;
+                    }
+                    to.insert(*numbers.entry((target, fired)).or_insert_with_key(|it| {
+                        list.push(*it);
+                        list.len() - 1
+                    }));
+                }
+            }
+            next.push(to.into_iter().collect());
+        }
+        let tokens = |it: &(usize, Option<usize>)| (self.list[it.0].0.clone(), it.1);
+        Instants { states: list.iter().map(tokens).collect(), next }
+    }
+
     /// The different markings.
     pub(crate) fn markings(&self) -> BTreeSet<Vec<u32>> {
         self.list.iter().map(|it| it.0.clone()).collect()
