@@ -102,6 +102,19 @@ const HARMLESS: &[(&str, &[&str])] = &[
             "pf.a9.level_1: without level >= 1",
             "pf.a20.level_1: without level >= 1",
             "pf.as2.level_1: without level >= 1",
+            "pf.a23.level_1: without level >= 1",
+            "pf.a24.level_1: without level >= 1",
+            "pf.a25.level_1: without level >= 1",
+            "pf.as5.level_1: without level >= 1",
+        ],
+    ),
+    (
+        "below all particles a line before it fires",
+        &[
+            "pf.a23.level_2: without level >= 2",
+            "pf.a24.level_2: without level >= 2",
+            "pf.a25.level_2: without level >= 2",
+            "pf.as5.level_2: without level >= 2",
         ],
     ),
     (
