@@ -2,12 +2,12 @@
 
 use crate::answers::check::VerifyAnswer;
 use crate::args::VerifyArgs;
+use crate::check::questions;
 use crate::exit::{Exit, Failure};
 use crate::input;
 use crate::kind::{self, Kind};
 use crate::output::Screen;
 use crate::render;
-use crate::check::questions;
 use crate::subject::Subject;
 use cotama_verification::certificate::{Certificate, VerifyError, verify as verify_text};
 

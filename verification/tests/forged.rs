@@ -77,3 +77,65 @@ fn more_than_none_is_one_and_not_two() {
         "no contradiction: the constant is not above 0"
     );
 }
+
+#[test]
+fn a_temporal_operator_without_a_quantifier_is_refused() {
+    let idle = || net(&[("p", 1)], &[("p", 1)], &[("p", 1)]);
+    let yes = || Box::new(Formula::AtMost(at_most(1, -1)));
+    let and = |it: Formula| Formula::And(vec![it]);
+    for formula in [
+        Formula::Next(yes()),
+        Formula::Finally(yes()),
+        Formula::Globally(yes()),
+        Formula::Until(Box::new((*yes(), *yes()))),
+        Formula::Not(Box::new(Formula::Next(yes()))),
+        and(Formula::Next(yes())),
+        Formula::ExistsNext(Box::new(Formula::Finally(yes()))),
+    ] {
+        for evidence in [Evidence::State, Evidence::Graph(1), Evidence::Each(vec![Evidence::State])]
+        {
+            let message = refusal(idle(), Question::Formula(formula.clone()), true, evidence);
+            assert_eq!(message, "speaks of a run, and no quantifier of which", "{formula}");
+        }
+    }
+}
+
+#[test]
+fn a_place_that_is_not_there_does_not_grow() {
+    let source = net(&[("p", 0)], &[], &[("p", 1)]);
+    let growth = Growth { stem: Vec::new(), pump: vec!["fire".to_owned()] };
+    let places = ["p", "q"].map(str::to_owned).into();
+    let question = Question::Unbounded { places };
+    let message = refusal(source, question, true, Evidence::Growth(growth));
+    assert!(message.contains("`q`") || message.contains("\"q\""), "{message}");
+}
+
+#[test]
+fn a_next_marking_and_the_next_one_of_a_run_have_texts_of_their_own() {
+    let yes = || Box::new(Formula::And(Vec::new()));
+    let next = Formula::Exists(Box::new(Formula::Next(yes())));
+    assert_eq!(next.to_string(), "E(X(true))");
+    assert_eq!(Formula::ExistsNext(yes()).to_string(), "EX (true)");
+    assert_eq!(Formula::AllNext(yes()).to_string(), "AX (true)");
+}
+
+#[test]
+fn a_certificate_is_about_its_net_and_its_question() {
+    use cotama_verification::check::{Model, Options, check};
+    use cotama_verification::{property, tina};
+    let read = |text: &str| tina::read("it.net", text.as_bytes()).unwrap().untimed();
+    let model = Model::from(read("pl p (1)  tr go p -> q  tr back q -> p"));
+    let ask = |text| property::parse(text, model.pt()).unwrap();
+    let options = Options { evidence: true, ..Options::default() };
+    for text in ["AG !(p & q)", "live", "bounds(p + q)", "AG EF p", "EF q"] {
+        let asked = ask(text);
+        let shown = check(&model, &asked, &options).certificate(model.pt(), &asked).unwrap();
+        let shown = Certificate::read(&shown.text()).unwrap();
+        assert_eq!(shown.is_about(model.pt(), &asked), Ok(()), "{text}");
+        let at = |pt, text| shown.is_about(pt, &ask(text)).unwrap_err().at;
+        assert_eq!(at(model.pt(), "AG !(p & q) & EF p"), "question");
+        let tokens = read("pl p (2)  tr go p -> q  tr back q -> p");
+        let arcs = read("pl p (1)  tr go p -> q  tr back q -> q");
+        assert_eq!([at(&tokens, text), at(&arcs, text)], ["net", "net"]);
+    }
+}

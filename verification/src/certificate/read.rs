@@ -3,7 +3,7 @@
 
 use super::sum::{Marking, ONE, Sum};
 use super::verified::{Checked, at, each, ensure, error};
-use super::{Certificate, Formula, Linear, Net, SCHEMA};
+use super::{Certificate, Formula, Linear, Net, Question, SCHEMA};
 use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::iter::once;
@@ -37,6 +37,11 @@ pub(super) fn certificate(text: &str) -> Checked<Certificate> {
     let read: Certificate = serde_json::from_str(text).map_err(error).map_err(at("certificate"))?;
     let other = format_args!("is `{}`, not `{SCHEMA}`", read.schema);
     ensure(read.schema == SCHEMA, other).map_err(at("schema"))?;
+    let is_closed = match &read.question {
+        Question::Formula(formula) => formula.is_about_markings(),
+        _ => true,
+    };
+    ensure(is_closed, "speaks of a run, and no quantifier of which").map_err(at("question"))?;
     Ok(read)
 }
 
@@ -79,6 +84,10 @@ impl<'a> Numbered<'a> {
 
     pub(super) fn place(&self, name: &str) -> Checked<usize> {
         number(&self.places, name)
+    }
+
+    pub(super) fn places(&self, names: &[String]) -> Checked<Vec<usize>> {
+        names.iter().map(|it| self.place(it)).collect()
     }
 
     pub(super) fn transition(&self, name: &str) -> Checked<usize> {

@@ -214,9 +214,11 @@ impl<'a, 'n> Asked<'a, 'n> {
                 return first;
             }
         }
-        let first = self.ask(&Structural, self.net, task, limits);
-        if first.is_something() {
-            return first;
+        if !self.is_seen_sooner(goal) {
+            let first = self.ask(&Structural, self.net, task, limits);
+            if first.is_something() {
+                return first;
+            }
         }
         if let Some(graph) = self.graph() {
             return self.reach_in(&graph, goal);

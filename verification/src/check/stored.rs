@@ -3,6 +3,7 @@
 use super::Choice;
 use super::auto::{Asked, CERTIFIED};
 use super::budget::Budget;
+use super::clauses::clauses;
 use super::engine::{Engine, Finding, Found, Task};
 use super::engines::{Explicit, Temporal};
 use crate::certificate::{Evidence, most_markings};
@@ -12,6 +13,9 @@ use std::rc::Rc;
 
 /// The most markings of a graph that is made because evidence asks for it.
 const STORED: u64 = 2_000_000;
+
+/// The most clauses that the structure is asked of where there is a graph.
+const CLAUSES: usize = 8;
 
 impl Asked<'_, '_> {
     /// The graph of the whole net: if it is there already, or if evidence asks for it.
@@ -26,6 +30,12 @@ impl Asked<'_, '_> {
             let _ = self.net.graph(&Budget { limits, ..self.budget });
         }
         self.net.made().filter(|it| it.states() as u64 <= limits.states)
+    }
+
+    /// Whether there is a graph, and more is asked than the structure shows in a moment.
+    pub(super) fn is_seen_sooner(&self, goal: &Formula) -> bool {
+        let many = || clauses(goal, self.net.pt()).is_none_or(|it| it.len() > CLAUSES);
+        self.net.made().is_some() && many()
     }
 
     /// What the graph says of a formula about runs, if there is one for it. Where a run may show

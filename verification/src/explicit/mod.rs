@@ -43,6 +43,7 @@ mod kept;
 mod layout;
 mod liveness;
 mod markings;
+mod often;
 mod plan;
 mod reach;
 mod space;

@@ -73,7 +73,7 @@ pub(super) struct RawArc<'a> {
     pub(super) span: Span,
     pub(super) source: Text<'a>,
     pub(super) target: Text<'a>,
-    pub(super) weight: Option<Spanned<u64>>,
+    pub(super) weight: Option<Box<Spanned<u64>>>,
     /// It takes nothing, and has no arc back.
     pub(super) test: bool,
     pub(super) own: OwnArc,

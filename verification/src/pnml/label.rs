@@ -52,7 +52,7 @@ impl<'a> Parser<'a> {
                 if let (Some(value), Some(arc)) =
                     (self.findings.keep(weight), self.document.arcs.last_mut())
                 {
-                    arc.weight = Some(Spanned { value, span: text.span });
+                    arc.weight = Some(Box::new(Spanned { value, span: text.span }));
                 }
             }
             Label::ArcType => {

@@ -5,7 +5,7 @@ use std::collections::HashSet;
 /// The names of some objects, made unique: of those that share a name the first one keeps it, the
 /// others are named `name (id)`, and `name (id) (id)` and so on where that is taken too.
 pub(super) fn unique<'a>(objects: impl Iterator<Item = (&'a str, &'a str)> + Clone) -> Vec<String> {
-    let mut given = HashSet::new();
+    let mut given = HashSet::with_capacity(objects.size_hint().0);
     let first: Vec<bool> = objects.clone().map(|(name, _)| given.insert(name)).collect();
     let mut added = HashSet::new();
     let rename = |((name, id), first): ((&str, &str), bool)| {

@@ -18,7 +18,8 @@ pub(super) fn parse(text: &str, limits: Limits) -> (Option<Document<'_>>, Findin
     let mut parser = Parser {
         xml: Xml::new(text, limits),
         limits,
-        document: Document { ids: HashMap::new(), ..Document::default() },
+        // An object takes 60 bytes of a file or more.
+        document: Document { ids: HashMap::with_capacity(text.len() / 128), ..Document::default() },
         findings: Findings::default(),
         contexts: Vec::new(),
         text: None,

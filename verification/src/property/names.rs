@@ -46,7 +46,7 @@ struct Index<'a> {
 
 impl<'a> Index<'a> {
     fn new(ids: &'a [String], names: &'a [String], first: First) -> Self {
-        let mut positions = HashMap::new();
+        let mut positions = HashMap::with_capacity(names.len());
         let (first, second) = match first {
             First::Ids => (ids, names),
             First::Names => (names, ids),

@@ -45,11 +45,9 @@ pub fn parse_with(text: &str, net: &Pt, ids: Ids<'_>) -> Result<Property, Proper
 /// The formula, if there is an engine for it on fair runs: if it is of CTL, or one quantifier in
 /// front of a formula of LTL.
 fn on_fair_runs(formula: Formula, span: Range<usize>) -> Result<Formula, Fault> {
-    let is_linear = |it: &Formula| match it {
-        Formula::All(path) | Formula::Exists(path) => Ltl::new(path).is_some(),
-        _ => false,
-    };
-    if Ctl::new(&formula).is_some() || is_linear(&formula) {
+    let is_linear = matches!(&formula,
+        Formula::All(path) | Formula::Exists(path) if Ltl::new(path).is_some());
+    if is_linear || Ctl::new(&formula).is_some() {
         return Ok(formula);
     }
     let message = "assumptions are made for formulas of CTL, and of LTL behind one quantifier";

@@ -99,8 +99,7 @@ impl Numbered<'_> {
         let (_, before) = self.way(&self.initial, &by.stem).map_err(at(".growth.stem"))?;
         let (_, after) = self.way(&before, &by.pump).map_err(at(".growth.pump"))?;
         let kept = before.iter().zip(&after).all(|(before, after)| before <= after);
-        let places = each(places, |it| self.place(it)).map_err(at(".places"))?;
-        let grows = places.into_iter().any(|it| before[it] < after[it]);
+        let grows = self.places(places)?.into_iter().any(|it| before[it] < after[it]);
         ensure(kept && grows, "takes tokens away, or adds none where asked")
             .map_err(at(".growth.pump"))
     }
