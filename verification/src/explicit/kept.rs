@@ -11,7 +11,7 @@ use std::sync::{Mutex, PoisonError};
 /// How markings are kept.
 #[derive(Debug)]
 pub(super) enum Kept {
-    Packed(Packed),
+    Packed(Box<Packed>),
     Sparse(Box<Sparse>, Box<Mutex<Cursor>>),
 }
 
