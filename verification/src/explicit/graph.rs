@@ -206,7 +206,13 @@ impl Search for Construction<'_> {
         Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
             starts.push(successors.len());
             let markings = Packed { space, words: S, markings: markings.into_flattened() };
-            Graph { markings: Kept::Packed(markings), starts, successors, transitions, fired }
+            Graph {
+                markings: Kept::Packed(Box::new(markings)),
+                starts,
+                successors,
+                transitions,
+                fired,
+            }
         }))
     }
 }

@@ -16,7 +16,7 @@ const WORTH: usize = 1 << 14;
 /// How markings are kept.
 #[derive(Debug)]
 pub(super) enum Kept {
-    Packed(Packed),
+    Packed(Box<Packed>),
     Sparse(Box<Sparse>, Box<Mutex<Cursor>>),
 }
 

@@ -194,7 +194,7 @@ fn fire(pt: &Pt, marking: &mut [u32], transition: u32) -> bool {
         && pt.effects.of(transition).iter().all(after);
     for &(place, by) in pt.effects.of(transition).iter().filter(|_| can) {
         let tokens = &mut marking[place as usize];
-        *tokens = tokens.wrapping_add(by as u32);
+        *tokens = tokens.wrapping_add_signed(by as i32);
     }
     can
 }
@@ -203,7 +203,7 @@ fn fire(pt: &Pt, marking: &mut [u32], transition: u32) -> bool {
 fn unfire(pt: &Pt, marking: &mut [u32], transition: u32) {
     for &(place, by) in pt.effects.of(transition) {
         let tokens = &mut marking[place as usize];
-        *tokens = tokens.wrapping_sub(by as u32);
+        *tokens = tokens.wrapping_add_signed(-by as i32);
     }
 }
 

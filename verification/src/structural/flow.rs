@@ -103,9 +103,8 @@ pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<
     let mut leading: BTreeMap<u32, Row> = BTreeMap::new();
     let mut flows = Vec::new();
     for mut row in rows {
-        loop {
-            // Each row ends with its own column.
-            let Some(&(column, number)) = row.first() else { break };
+        // Each row ends with its own column.
+        while let Some(&(column, number)) = row.first() {
             if column >= width {
                 flows.push(flow(&row, width));
                 break;

@@ -94,8 +94,8 @@ impl<'a> Structure<'a> {
     }
 
     fn note_cut(&mut self) {
-        let stops = self.programs.iter().filter_map(|it| it.as_ref().err().copied());
-        self.cut = stops.filter(|it| matches!(it, Stop::Work | Stop::Time)).last().or(self.cut);
+        let mut stops = self.programs.iter().filter_map(|it| it.as_ref().err().copied());
+        self.cut = stops.rfind(|it| matches!(it, Stop::Work | Stop::Time)).or(self.cut);
     }
 
     fn programs(pt: &Pt, dead: &DeadTransitions, limits: Limits) -> [Result<Program, Stop>; 2] {
