@@ -165,8 +165,7 @@ impl Formula {
             Self::Not(a) | Self::ExistsNext(a) | Self::AllNext(a) => a.is_about_markings(),
             Self::And(all) | Self::Or(all) => all.iter().all(Self::is_about_markings),
             Self::Next(_) | Self::Finally(_) | Self::Globally(_) | Self::Until(_) => false,
-            Self::AtMost(_) | Self::Fireable(_) | Self::Deadlock => true,
-            Self::Exists(_) | Self::All(_) => true,
+            _ => true,
         }
     }
 }

@@ -40,7 +40,7 @@ const NONE: u32 = u32::MAX;
 pub(super) struct Fair<'g, S> {
     graph: &'g S,
     recurring: Vec<BitSet>,
-    fair: Vec<Treated>,
+    treated: Vec<Treated>,
 }
 
 /// A transition that is treated fairly.
@@ -82,19 +82,19 @@ impl<'g, S: Successors> Fair<'g, S> {
         let states = graph.states();
         let weak = fairness.weak.iter().map(|it| (*it, false));
         let strong = fairness.strong.iter().map(|it| (*it, true));
-        let mut fair = Vec::new();
+        let mut treated = Vec::new();
         for (transition, is_strong) in weak.chain(strong) {
             memory.take(BitSet::bytes(states) + 4 * states as u64)?;
             let fireable = Formula::Atom(Atom::Fireable(vec![transition]));
             let enabled = Goal::new(&fireable).map(|it| graph.satisfying(it, jobs));
             let enabled = enabled.unwrap_or_else(|| BitSet::new(states, false));
             let starts = Vec::with_capacity(states + 1);
-            fair.push(Treated { transition, is_strong, enabled, starts, to: Vec::new() });
+            treated.push(Treated { transition, is_strong, enabled, starts, to: Vec::new() });
         }
-        if !fair.is_empty() {
+        if !treated.is_empty() {
             for state in 0..states as u32 {
                 let arcs = graph.transitions(state);
-                for it in &mut fair {
+                for it in &mut treated {
                     it.starts.push(it.to.len() as u32);
                     let first = arcs.partition_point(|other| *other < it.transition);
                     let same = arcs[first..].iter().take_while(|other| **other == it.transition);
@@ -103,14 +103,14 @@ impl<'g, S: Successors> Fair<'g, S> {
                     it.to.extend(&graph.successors(state)[first..first + count]);
                 }
             }
-            fair.iter_mut().for_each(|it| it.starts.push(it.to.len() as u32));
+            treated.iter_mut().for_each(|it| it.starts.push(it.to.len() as u32));
         }
         let mut recurring = Vec::new();
         for goal in &fairness.recurring {
             memory.take(BitSet::bytes(states))?;
             recurring.push(graph.satisfying(*goal, jobs));
         }
-        Ok(Self { graph, recurring, fair })
+        Ok(Self { graph, recurring, treated })
     }
 
     /// The fair sets inside of a region. Those of different numbers are disjoint, and every fair
@@ -163,7 +163,7 @@ impl<'g, S: Successors> Fair<'g, S> {
             return None;
         }
         let mut removed = Vec::new();
-        for it in &self.fair {
+        for it in &self.treated {
             if some(&|state| it.of(state).iter().any(|to| is_inside(*to))) {
                 continue;
             }
@@ -214,7 +214,7 @@ impl<'g, S: Successors> Fair<'g, S> {
                 go(&mut cycle, &mut at, &|_, to, _| holds.has(to));
             }
         }
-        for it in &self.fair {
+        for it in &self.treated {
             let mut members = (0..sets.of.len() as u32).filter(|it| inside(*it));
             if members.any(|state| it.of(state).iter().any(|to| inside(*to))) {
                 let fires =

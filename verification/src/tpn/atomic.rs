@@ -127,14 +127,11 @@ impl Atomic {
                     let same = of.entry(step.target).or_default();
                     let known =
                         same.iter().copied().find(|it| self.list[*it as usize].1.contains(&zone));
-                    let target = match known {
-                        Some(it) => it,
-                        None => {
-                            let new = self.list.len() as ClassId;
-                            same.push(new);
-                            self.push(step.target, zone)
-                        }
-                    };
+                    let target = known.unwrap_or(self.list.len() as ClassId);
+                    if known.is_none() {
+                        same.push(target);
+                        self.push(step.target, zone);
+                    }
                     self.connect(class, position as u32, target);
                 }
             }
