@@ -40,8 +40,9 @@ pub(crate) fn broken(system: &System<'_>) -> Result<Option<&'static str>, FlatEr
     }
     let in_the_graph = || {
         let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
-        let holds =
-            |it: &Formula| ctl(&graph, &Ctl::new(it).unwrap(), &Fairness::default()).verdict;
+        let holds = |it: &Formula| {
+            ctl(&graph, &Ctl::new(it).unwrap(), &Fairness::default(), 4 << 30, 1).unwrap().verdict
+        };
         others.iter().find(|it| !holds(&it.1)).map(|it| it.0)
     };
     let remembered = || {

@@ -33,7 +33,10 @@ fn holds(text: &str, pt: &Pt, graph: &Graph, waits: &[&str]) -> bool {
         graph,
         &Ctl::new(&formula(text, pt)).unwrap(),
         &Fairness { recurring, ..Fairness::default() },
+        4 << 30,
+        1,
     )
+    .unwrap()
     .verdict
 }
 

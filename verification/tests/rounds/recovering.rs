@@ -15,7 +15,9 @@ use cotama_verification::temporal::{Fairness, ctl};
 
 fn holds(text: &str, pt: &Pt, graph: &Graph) -> bool {
     let Question::Formula(formula) = parse(text, pt).unwrap().question else { panic!("{text}") };
-    ctl(graph, &Ctl::new(&formula.simplified()).unwrap(), &Fairness::default()).verdict
+    ctl(graph, &Ctl::new(&formula.simplified()).unwrap(), &Fairness::default(), 4 << 30, 1)
+        .unwrap()
+        .verdict
 }
 
 /// Those that do not hold, of what needs no memory.

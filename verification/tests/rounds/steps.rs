@@ -68,8 +68,9 @@ fn after_each(then: &Formula, pt: &Pt) -> Option<Formula> {
 #[test]
 fn what_holds_after_the_next_firing_is_told_before_it() {
     let (pt, graph) = explored(&rounds(&reconstruction::SYSTEM).unwrap());
-    let asked =
-        |formula: Formula| ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default()).verdict;
+    let asked = |formula: Formula| {
+        ctl(&graph, &Ctl::new(&formula).unwrap(), &Fairness::default(), 4 << 30, 1).unwrap().verdict
+    };
     let not = |it: &Formula| Formula::Not(it.clone().into());
     let some = |it: Formula| Formula::Exists(Formula::Finally(it.into()).into());
     for text in [
