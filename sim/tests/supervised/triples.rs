@@ -83,7 +83,7 @@ fn story(run: &Run) -> String {
 /// Which of the failures are late without the others: two of them, or only all three.
 fn explained(supervised: &Supervised<'_>, script: &Script, run: &Run) -> String {
     let pairs = [[0, 1], [0, 2], [1, 2]].into_iter().filter_map(|pair| {
-        let injections = pair.map(|it| script.injections[it].clone()).to_vec();
+        let injections = pair.map(|it| script.injections[it]).to_vec();
         let script = Script { injections, answers: Vec::new() };
         let run = supervised.run(&script).unwrap();
         (!is_in_time(&run, &script)).then(|| story(&run))

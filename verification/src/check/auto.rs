@@ -18,7 +18,7 @@ use std::cell::RefMut;
 use std::time::{Duration, Instant};
 
 /// Markings that are few enough to be met before anything cleverer is tried.
-const FEW: u64 = 200_000;
+const FEW: u64 = 600_000;
 
 /// Markings of a net whose graph is evidence: those that the small checker passes through in less
 /// than a minute.

@@ -130,7 +130,7 @@ fn is_quick(asked: &Asked) -> bool {
 
 /// As one formula, so that the small checker passes through the markings once.
 #[test]
-#[ignore = "a minute: CI runs it"]
+#[ignore = "takes minutes"]
 fn the_small_checker_is_convinced_of_27_requirements_at_once() {
     let (pt, graph) = explored(&rounds(&delivery::SYSTEM).unwrap());
     let asked = REQUIREMENTS.iter().filter_map(|it| it.asked).filter(is_quick);
