@@ -159,12 +159,21 @@ fn formulas_of_ctl_are_what_regions_say() {
 
 #[test]
 fn formulas_of_ltl_are_what_regions_say_and_their_runs_have_dates() {
-    let [hold, shown] = compare_linear(72, 600, false);
-    assert!((400..1_000).contains(&hold) && shown > 100, "{hold} {shown}");
+    let [hold, shown] = compare_linear(72, 100, false);
+    assert!(hold > 50 && shown > 15, "{hold} {shown}");
 }
 
 #[test]
 fn formulas_of_ltl_on_fair_runs_are_what_regions_say() {
+    let [hold, shown] = compare_linear(73, 50, true);
+    assert!(hold > 25 && shown > 8, "{hold} {shown}");
+}
+
+#[test]
+#[ignore = "a minute: CI runs it"]
+fn formulas_of_ltl_are_what_regions_say_of_900_nets() {
+    let [hold, shown] = compare_linear(72, 600, false);
+    assert!((400..1_000).contains(&hold) && shown > 100, "{hold} {shown}");
     let [hold, shown] = compare_linear(73, 300, true);
     assert!((150..550).contains(&hold) && shown > 50, "{hold} {shown}");
 }

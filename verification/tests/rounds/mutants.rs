@@ -95,6 +95,7 @@ fn a_guard_that_forgets_the_global_event_is_found() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn a_start_that_ignores_the_module_status_is_found() {
     found(
         &unguarded(&["pf.a1"], &["sonar", "mcl"]),
