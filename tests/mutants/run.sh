@@ -10,6 +10,7 @@
 #
 #   mutant: what is wrong, in plain words
 #   file: path below verification/src; for `decisional`, in the workspace
+#   crate: `models` for a defect that models/tests/supervised kills, in `decisional`
 #   test: the module of tests/engines.rs that kills it, where it is not the one of the engine; for
 #       `decisional`, of sim/tests/supervised
 #   by: the test that kills it, tried first; the whole module is run only when it does not;
@@ -115,6 +116,7 @@ try() {
 run() {
     engine=$1 usual=${target_of[$1]:-$1} crate=verification program=engines below=verification/src/
     [[ $engine != decisional ]] || crate=sim program=supervised below=
+    local usual_crate=$crate
     local line name names
     for name in $({ echo "$usual"; sed -n 's/^test: //p' "$lists/$engine.txt"; } | sort -u); do
         mapfile -t names < <(awk -v usual="$usual" -v wanted="$name" '
@@ -131,10 +133,12 @@ run() {
             'mutant: '*)
                 try
                 mutant=${line#*: } target=$usual file='' by='' old='' new='' equivalent=''
+                crate=$usual_crate
                 ;;
             'file: '*) file=${line#*: } ;;
             'by: '*) by=${line#*: } ;;
             'test: '*) target=${line#*: } ;;
+            'crate: '*) crate=${line#*: } ;;
             'equivalent: '*) equivalent=${line#*: } ;;
             '- '*) old+=${old:+$'\n'}${line#- } ;;
             '+ '*) new+=${new:+$'\n'}${line#+ } ;;

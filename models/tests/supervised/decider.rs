@@ -114,6 +114,14 @@ fn a_sonar_that_sees_too_far_costs_the_sonars_and_the_speed() {
 }
 
 #[test]
+fn a_failure_that_has_passed_does_not_hide_another_one() {
+    let mut robot = Robot::following();
+    assert_eq!(robot.sees(&[Flag::SonarFar]).diagnosis, Diagnosis::Unique(Son1));
+    robot.step(Perceived { lowered: Flags::of(&[Flag::SonarFar]), ..QUIET }, None);
+    assert_eq!(robot.sees(&[Flag::SonarSilent]).diagnosis, Diagnosis::Unique(Son2));
+}
+
+#[test]
 fn two_losses_at_once_are_told_one_a_round_and_what_is_said_waits() {
     let mut robot = Robot::following();
     let both = Perceived { raised: Flags::of(&[Flag::SonarFar, Flag::NoFrame]), ..QUIET };

@@ -2,8 +2,8 @@
 
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::Configuration::{
-    self, FollowingDegraded, FollowingOdometric, FollowingOptimal, TeleoperationDegraded,
-    TeleoperationFull, Teleprogramming,
+    self, FollowingDegraded, FollowingDvz, FollowingOdometric, FollowingOptimal,
+    TeleoperationDegraded, TeleoperationFull, Teleprogramming,
 };
 use cotama_models::cotama::{FailureMode, Module};
 use cotama_models::missions::Mission;
@@ -169,4 +169,16 @@ fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
         _ => None,
     });
     assert_eq!(up, Some(("Optimal", Some(1))));
+}
+
+/// Sonars and avoidance fail at once; the sonars return, and the next drive has the other avoidance.
+#[test]
+fn an_avoidance_that_lost_sonars_hid_is_not_used_when_they_return() {
+    let at = When::At(Millis(36_800));
+    let crash = Injection { part: Module::Smz, ..Injection::new(at, FailureMode::Sw1) };
+    let run = run(true, vec![fails(FailureMode::Son2, 10_000, 20_000), crash]);
+    assert!(run.conduct.iter().all(|it| it.detected.unwrap().0 == Millis(37_000)));
+    let later = run.configurations.iter().filter(|it| it.0 > Millis(37_000));
+    let later: Vec<_> = later.filter_map(|it| it.1).collect();
+    assert!(later.contains(&FollowingDvz) && !later.contains(&FollowingOptimal), "{later:?}");
 }

@@ -84,6 +84,8 @@ fn the_object_is_delivered_after_two_requests() {
     assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 2));
     assert_eq!((run.x, run.time), (Millimetres(80_000), Millis(413_200)));
     assert!(!run.moved_when_safe);
+    // Localisation goes on after it was late: its watchdog is answered.
+    assert_eq!(run.oldest_pose, Millis(620));
 }
 
 #[test]
