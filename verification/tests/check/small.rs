@@ -157,7 +157,7 @@ fn a_thousand_small_nets_are_as_the_book_says() {
 #[ignore = "a minute: CI runs it"]
 fn ten_thousand_small_nets_are_as_the_book_says() {
     let counts = counts(10_000);
-    assert_eq!(counts.unknown, BTreeMap::from([("structural", 8_312), ("stubborn", 20_000)]));
+    assert_eq!(counts.unknown, BTreeMap::from([("structural", 8_198), ("stubborn", 20_000)]));
     for (choice, engine, least) in [
         ("auto", "structural", 37_000),
         ("auto", "stubborn", 21_000),
