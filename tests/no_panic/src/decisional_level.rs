@@ -11,10 +11,11 @@ use cotama_core::system::Of;
 use cotama_core::units::Millis;
 use cotama_models::cotama::Round as Decided;
 use cotama_models::cotama::{
-    Body, Cause, Configuration, Configurations, Decision, DecisionalLevel, DeliveryDecider,
-    Diagnosis, FailureMode, FailureModes, Finding, Flags, Health, Losses, Modules, NoPlanLeft,
-    Perceived, Plans, Report, Requests, Resources, Severity, Situation, StatusVector, Told, Why,
-    Word, available, by_rules, decide, delivery, diagnose, judge, lost_after, undetectable,
+    Adjusted, Adjustment, Adjustments, Body, Cause, Configuration, Configurations, Decision,
+    DecisionalLevel, DeliveryDecider, Diagnosis, FailureMode, FailureModes, Finding, Flags, Health,
+    Loss, Losses, Mode, Modules, NoPlanLeft, Perceived, Plans, Report, Requests, Resources,
+    Severity, Situation, StatusVector, Told, Why, Word, available, by_rules, decide, delivery,
+    diagnose, judge, lost_after, undetectable,
 };
 
 #[unsafe(no_mangle)]
