@@ -129,7 +129,8 @@ pub(crate) struct CheckArgs {
     /// Asks properties without a quantifier of the marking at the start
     #[arg(long)]
     pub(crate) initial: bool,
-    /// Which engine looks for the answer
+    /// Which engine looks for the answer. What speaks of runs, and nets with time, have one engine,
+    /// which each choice asks
     #[arg(long, value_enum, value_name = "ENGINE", default_value_t = EngineName::Auto)]
     pub(crate) engine: EngineName,
     /// Leaves the intervals of transitions out: they fire in any order, at any time

@@ -1,10 +1,11 @@
 //! Formulas of CTL on a stored graph.
 
+use super::bit_sets::BitSets;
 use super::fairness::Fairness;
 use super::labelling::Labelling;
 use super::successors::Successors;
 use super::witness::{Witness, explained};
-use crate::explicit::{BitSet, Limit, Memory};
+use crate::explicit::{BitSet, Limit};
 use crate::property::Ctl;
 
 /// What was found of a formula of CTL.
@@ -61,7 +62,7 @@ pub fn ctl<S: Successors>(
     bytes: u64,
     jobs: usize,
 ) -> Result<CtlAnswer, Limit> {
-    let mut labelling = Labelling::new(graph, formula, fairness, (Memory::new(bytes), jobs))?;
+    let mut labelling = Labelling::new(BitSets::new(graph, fairness, bytes, jobs)?, formula);
     let verdict = labelling.holds(formula.root())?;
     let witness = explained(&labelling, verdict);
     Ok(CtlAnswer { verdict, labels: labelling.labels, ranks: labelling.ranks, witness })

@@ -1,54 +1,45 @@
 //! Where the parts of a formula of CTL hold.
 
-use super::fairness::{Fair, FairSets, Fairness};
-use super::successors::Successors;
-use crate::explicit::{BitSet, Goal, Limit, Memory};
+use super::state_sets::StateSets;
+use crate::explicit::Limit;
 use crate::property::{Ctl, CtlNode, Formula};
 
-/// What is known of the parts of a formula in the states of a graph.
-pub(super) struct Labelling<'g, S> {
-    pub(super) graph: &'g S,
-    pub(super) formula: &'g Ctl,
-    pub(super) fair: Fair<'g, S>,
-    /// States from which some fair run goes; `None` when all runs are fair.
-    pub(super) fair_states: Option<BitSet>,
-    before: Option<Predecessors>,
-    pub(super) labels: Vec<Option<BitSet>>,
-    pub(super) ranks: Vec<Option<Vec<u32>>>,
-    memory: Memory,
-    jobs: usize,
+/// What is known of the parts of a formula, by sets of states of any kind.
+///
+/// ```
+/// use cotama_models::nets::door;
+/// use cotama_verification::explicit::{Graph, Limits};
+/// use cotama_verification::property::{Ctl, Question, parse};
+/// use cotama_verification::pt::Pt;
+/// use cotama_verification::temporal::{BitSets, Labelling};
+/// let door = Pt::from(&door::NET);
+/// let graph = Graph::new(&door, &Limits::default(), &|_| ()).unwrap();
+/// let Question::Formula(formula) = parse("AG EF Open", &door).unwrap().question else { panic!() };
+/// let formula = Ctl::new(&formula).unwrap();
+/// let sets = BitSets::new(&graph, &Default::default(), 1 << 20, 1).unwrap();
+/// assert!(Labelling::new(sets, &formula).holds(formula.root()).unwrap());
+/// ```
+pub struct Labelling<'f, S: StateSets> {
+    pub(super) sets: S,
+    pub(super) formula: &'f Ctl,
+    pub(super) labels: Vec<Option<S::Set>>,
+    pub(super) ranks: Vec<Option<S::Ranks>>,
 }
 
-impl<'g, S: Successors> Labelling<'g, S> {
-    /// Nothing is looked at yet, but what fairness asks for.
-    pub(super) fn new(
-        graph: &'g S,
-        formula: &'g Ctl,
-        fairness: &Fairness<'g>,
-        (mut memory, jobs): (Memory, usize),
-    ) -> Result<Self, Limit> {
+impl<'f, S: StateSets> Labelling<'f, S> {
+    /// Nothing is looked at yet.
+    pub fn new(sets: S, formula: &'f Ctl) -> Self {
         let nodes = formula.nodes().len();
-        let mut labelling = Self {
-            graph,
-            formula,
-            fair: Fair::new(graph, fairness, &mut memory, jobs)?,
-            fair_states: None,
-            before: None,
-            labels: vec![None; nodes],
-            ranks: vec![None; nodes],
-            memory,
-            jobs,
-        };
-        if !fairness.is_none() {
-            let all = BitSet::new(graph.states(), true);
-            labelling.fair_states = Some(labelling.always(&all)?);
-        }
-        Ok(labelling)
+        let labels = (0..nodes).map(|_| None).collect();
+        Self { sets, formula, labels, ranks: (0..nodes).map(|_| None).collect() }
     }
 
     /// Whether a part holds in the first state; parts of it that do not matter for this are not
     /// looked at.
-    pub(super) fn holds(&mut self, node: u32) -> Result<bool, Limit> {
+    ///
+    /// # Errors
+    /// The limit that was reached.
+    pub fn holds(&mut self, node: u32) -> Result<bool, Limit> {
         let formula = self.formula;
         Ok(match &formula.nodes()[node as usize] {
             CtlNode::Not(a) => !self.holds(*a)?,
@@ -68,12 +59,19 @@ impl<'g, S: Successors> Labelling<'g, S> {
                 }
                 false
             }
-            // All states are reached from the first one.
-            CtlNode::Until(a, b) if self.fair_states.is_none() && self.is_true(*a) => {
-                self.label(*b)?.ones().next().is_some() && self.label(node)?.has(0)
+            CtlNode::Until(a, b) if self.is_true(*a) => {
+                self.label(*b)?;
+                let goal = self.labels[*b as usize].as_ref();
+                !goal.is_none_or(|it| self.sets.is_empty(it)) && self.has_first(node)?
             }
-            _ => self.label(node)?.has(0),
+            _ => self.has_first(node)?,
         })
+    }
+
+    fn has_first(&mut self, node: u32) -> Result<bool, Limit> {
+        self.label(node)?;
+        let label = &self.labels[node as usize];
+        Ok(label.as_ref().is_some_and(|it| self.sets.has_first(it)))
     }
 
     fn is_true(&self, node: u32) -> bool {
@@ -82,164 +80,48 @@ impl<'g, S: Successors> Labelling<'g, S> {
     }
 
     /// Where a part holds. Nesting is as deep as formulas may be.
-    fn label(&mut self, node: u32) -> Result<&BitSet, Limit> {
-        if self.labels[node as usize].is_none() {
-            let label = self.labelled(node)?;
-            self.labels[node as usize] = Some(label);
+    fn label(&mut self, node: u32) -> Result<(), Limit> {
+        if self.labels[node as usize].is_some() {
+            return Ok(());
         }
-        self.labels[node as usize].as_ref().ok_or(Limit::Bytes)
-    }
-
-    fn set(&mut self, all: bool) -> Result<BitSet, Limit> {
-        let states = self.graph.states();
-        self.memory.take(BitSet::bytes(states))?;
-        Ok(BitSet::new(states, all))
-    }
-
-    fn labelled(&mut self, node: u32) -> Result<BitSet, Limit> {
-        let (formula, graph) = (self.formula, self.graph);
-        let mut holds = match &formula.nodes()[node as usize] {
-            CtlNode::And(_) => self.set(true)?,
-            _ => self.set(false)?,
+        let formula = self.formula;
+        let parts: &[u32] = match &formula.nodes()[node as usize] {
+            CtlNode::State(_) => &[],
+            CtlNode::Not(a) | CtlNode::Next(a) | CtlNode::Globally(a) => &[*a],
+            CtlNode::And(all) | CtlNode::Or(all) => all,
+            CtlNode::Until(a, b) => &[*a, *b],
         };
-        match &formula.nodes()[node as usize] {
-            CtlNode::State(state) => {
-                if let Some(goal) = Goal::new(state) {
-                    holds = graph.satisfying(goal, self.jobs);
-                }
-            }
-            CtlNode::Not(a) => holds = self.label(*a)?.complement(),
+        for part in parts {
+            self.label(*part)?;
+        }
+        let (sets, labels) = (&mut self.sets, &self.labels);
+        let known = |part: &u32| labels[*part as usize].as_ref().ok_or(Limit::Bytes);
+        let label = match &formula.nodes()[node as usize] {
+            CtlNode::State(state) => sets.satisfying(state)?,
+            CtlNode::Not(a) => sets.complement(known(a)?)?,
             CtlNode::And(all) => {
+                let mut holds = sets.all(true)?;
                 for part in all {
-                    holds.and(self.label(*part)?);
+                    sets.and(&mut holds, known(part)?);
                 }
+                holds
             }
             CtlNode::Or(all) => {
+                let mut holds = sets.all(false)?;
                 for part in all {
-                    holds.or(self.label(*part)?);
+                    sets.or(&mut holds, known(part)?);
                 }
+                holds
             }
-            CtlNode::Next(a) => {
-                let goal = self.fair_and(*a)?;
-                for state in 0..graph.states() as u32 {
-                    if graph.successors(state).iter().any(|it| goal.has(*it)) {
-                        holds.insert(state);
-                    }
-                }
-            }
+            CtlNode::Next(a) => sets.before(known(a)?)?,
             CtlNode::Until(a, b) => {
-                let goal = self.fair_and(*b)?;
-                let through = self.label(*a)?.clone();
-                let ranks = self.backward(&goal, &through)?;
-                for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
-                    holds.insert(state);
-                }
+                let (holds, ranks) = sets.until(known(a)?, known(b)?)?;
                 self.ranks[node as usize] = Some(ranks);
+                holds
             }
-            CtlNode::Globally(a) => {
-                let region = self.label(*a)?.clone();
-                holds = self.always(&region)?;
-            }
-        }
-        Ok(holds)
-    }
-
-    fn fair_and(&mut self, node: u32) -> Result<BitSet, Limit> {
-        let mut holds = self.label(node)?.clone();
-        if let Some(fair) = &self.fair_states {
-            holds.and(fair);
-        }
-        Ok(holds)
-    }
-
-    /// From which states of a region a fair run stays in it for ever.
-    fn always(&mut self, region: &BitSet) -> Result<BitSet, Limit> {
-        let states = self.graph.states();
-        // Lists of the search for components, which are given back.
-        let bytes = 24 * states as u64;
-        self.memory.take(bytes)?;
-        let sets = self.fair.sets(region);
-        let mut goal = BitSet::new(states, false);
-        (0..states as u32).filter(|it| sets.has(*it)).for_each(|it| goal.insert(it));
-        drop(sets);
-        self.memory.release(bytes);
-        let ranks = self.backward(&goal, region)?;
-        self.memory.release(4 * states as u64);
-        for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
-            goal.insert(state);
-        }
-        Ok(goal)
-    }
-
-    pub(super) fn sets(&self, region: &BitSet) -> FairSets {
-        self.fair.sets(region)
-    }
-
-    /// For each state how many firings through such states a goal is away; `u32::MAX` when none is
-    /// reached.
-    fn backward(&mut self, goal: &BitSet, through: &BitSet) -> Result<Vec<u32>, Limit> {
-        let graph = self.graph;
-        self.memory.take(4 * graph.states() as u64)?;
-        if self.before.is_none() {
-            self.memory.take(Predecessors::bytes(graph))?;
-        }
-        let before = self.before.get_or_insert_with(|| Predecessors::new(graph));
-        let mut ranks = vec![u32::MAX; graph.states()];
-        let mut level: Vec<u32> = goal.ones().collect();
-        level.iter().for_each(|it| ranks[*it as usize] = 0);
-        let mut rank = 0;
-        while !level.is_empty() {
-            rank += 1;
-            let mut next = Vec::new();
-            for state in level {
-                for &from in before.of(state) {
-                    if ranks[from as usize] == u32::MAX && through.has(from) {
-                        ranks[from as usize] = rank;
-                        next.push(from);
-                    }
-                }
-            }
-            level = next;
-        }
-        Ok(ranks)
-    }
-}
-
-/// For each state those that it follows.
-struct Predecessors {
-    starts: Vec<u32>,
-    states: Vec<u32>,
-}
-
-impl Predecessors {
-    fn bytes(graph: &impl Successors) -> u64 {
-        if u32::try_from(graph.arcs()).is_err() {
-            return u64::MAX / 2; // positions are numbers of 32 bits
-        }
-        4 * (2 * graph.states() as u64 + graph.arcs() as u64)
-    }
-
-    fn new(graph: &impl Successors) -> Self {
-        let count = graph.states();
-        let mut starts = vec![0_u32; count + 1];
-        for from in 0..count as u32 {
-            graph.successors(from).iter().for_each(|it| starts[*it as usize + 1] += 1);
-        }
-        for at in 0..count {
-            starts[at + 1] += starts[at];
-        }
-        let (mut ends, mut states) = (starts.clone(), vec![0; graph.arcs()]);
-        for from in 0..count as u32 {
-            for &to in graph.successors(from) {
-                let end = &mut ends[to as usize];
-                states[*end as usize] = from;
-                *end += 1;
-            }
-        }
-        Self { starts, states }
-    }
-
-    fn of(&self, state: u32) -> &[u32] {
-        &self.states[self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize]
+            CtlNode::Globally(a) => sets.always(known(a)?)?,
+        };
+        self.labels[node as usize] = Some(label);
+        Ok(())
     }
 }

@@ -10,6 +10,7 @@
 
 mod answer;
 mod automaton;
+mod bit_sets;
 mod ctl;
 mod emptiness;
 mod engine;
@@ -19,19 +20,23 @@ mod ltl;
 mod product;
 mod run;
 mod source;
+mod state_sets;
 mod successors;
 mod verdict;
 mod witness;
 
 pub use answer::answer;
 pub(crate) use answer::branching;
+pub use bit_sets::BitSets;
 pub use ctl::{CtlAnswer, ctl};
 pub use engine::{Branching, Runs, StoredBranching};
 pub(crate) use engine::{of_runs, verdict};
 pub use fairness::Fairness;
+pub use labelling::Labelling;
 pub(crate) use ltl::stored_runs;
 pub use ltl::{all_runs, some_runs};
 pub use run::{Rest, Run};
+pub use state_sets::StateSets;
 pub use successors::Successors;
 pub use verdict::{Reason, Verdict};
 pub use witness::Witness;

@@ -1,5 +1,6 @@
 //! One run that shows why a formula of CTL holds, or does not.
 
+use super::bit_sets::BitSets;
 use super::labelling::Labelling;
 use super::run::{Rest, Run};
 use super::successors::Successors;
@@ -20,7 +21,7 @@ pub struct Witness {
 /// A run from the initial marking that shows the verdict; `None` when no run is needed, or when
 /// none can begin to show it.
 pub(super) fn explained<S: Successors>(
-    labelling: &Labelling<'_, S>,
+    labelling: &Labelling<'_, BitSets<'_, S>>,
     verdict: bool,
 ) -> Option<Witness> {
     let mut path = Path { labelling, state: 0, fired: Vec::new(), rest: Rest::Any, has_run: false };
@@ -29,7 +30,7 @@ pub(super) fn explained<S: Successors>(
         return None;
     }
     if path.rest == Rest::Any
-        && let Some(fair) = &labelling.fair_states
+        && let Some(fair) = &labelling.sets.fair_states
     {
         path.go_on(fair);
     }
@@ -40,15 +41,15 @@ pub(super) fn explained<S: Successors>(
     Some(Witness { run, is_complete })
 }
 
-struct Path<'l, S> {
-    labelling: &'l Labelling<'l, S>,
+struct Path<'l, 'f, 'g, S: Successors> {
+    labelling: &'l Labelling<'f, BitSets<'g, S>>,
     state: u32,
     fired: Vec<TransitionId>,
     rest: Rest,
     has_run: bool,
 }
 
-impl<S: Successors> Path<'_, S> {
+impl<S: Successors> Path<'_, '_, '_, S> {
     fn node(&self, at: u32) -> &CtlNode {
         &self.labelling.formula.nodes()[at as usize]
     }
@@ -85,7 +86,7 @@ impl<S: Successors> Path<'_, S> {
         if self.is_state(node) {
             return true;
         }
-        let graph = self.labelling.graph;
+        let graph = self.labelling.sets.graph;
         match (self.node(node).clone(), value) {
             (CtlNode::State(_), _) => true,
             (CtlNode::Not(a), _) => self.show(a, !value),
@@ -155,21 +156,21 @@ impl<S: Successors> Path<'_, S> {
 
     fn is_goal(&self, node: u32, state: u32) -> bool {
         let holds = |label: &Option<BitSet>| label.as_ref().is_some_and(|it| it.has(state));
-        let is_fair = self.labelling.fair_states.as_ref().is_none_or(|it| it.has(state));
+        let is_fair = self.labelling.sets.fair_states.as_ref().is_none_or(|it| it.has(state));
         is_fair && holds(&self.labelling.labels[node as usize])
     }
 
     fn step(&mut self, arc: usize) {
         self.has_run = true;
-        self.fired.push(self.labelling.graph.transitions(self.state)[arc]);
-        self.state = self.labelling.graph.successors(self.state)[arc];
+        self.fired.push(self.labelling.sets.graph.transitions(self.state)[arc]);
+        self.state = self.labelling.sets.graph.successors(self.state)[arc];
     }
 
     /// A fair run through a region from here for ever.
     fn go_on(&mut self, region: &BitSet) {
         self.has_run = true;
-        let sets = self.labelling.sets(region);
-        let (stem, rest) = self.labelling.fair.run(self.state, region, &sets);
+        let sets = self.labelling.sets.fair_sets(region);
+        let (stem, rest) = self.labelling.sets.fair.run(self.state, region, &sets);
         self.fired.extend(stem);
         self.rest = rest;
     }

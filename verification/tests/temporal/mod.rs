@@ -4,6 +4,7 @@ mod branching;
 mod fairness;
 mod linear;
 mod public;
+mod sets;
 
 use crate::properties::oracle::Space;
 use cotama_core::net::TransitionId;

@@ -1,0 +1,203 @@
+//! Sets of the states of a graph as bit vectors.
+
+use super::fairness::{Fair, FairSets, Fairness};
+use super::state_sets::StateSets;
+use super::successors::Successors;
+use crate::explicit::{BitSet, Goal, Limit, Memory};
+use crate::property::Formula;
+
+/// Sets of states of a graph as bit vectors, with the fair runs in it.
+pub struct BitSets<'g, S> {
+    pub(super) graph: &'g S,
+    pub(super) fair: Fair<'g, S>,
+    /// States from which some fair run goes; `None` when all runs are fair.
+    pub(super) fair_states: Option<BitSet>,
+    before: Option<Predecessors>,
+    memory: Memory,
+    jobs: usize,
+}
+
+impl<'g, S: Successors> BitSets<'g, S> {
+    /// All about fairness that is asked again and again, in at most so many bytes.
+    ///
+    /// # Errors
+    /// [`Limit::Bytes`] when they are not enough.
+    pub fn new(
+        graph: &'g S,
+        fairness: &Fairness<'g>,
+        bytes: u64,
+        jobs: usize,
+    ) -> Result<Self, Limit> {
+        let mut memory = Memory::new(bytes);
+        let fair = Fair::new(graph, fairness, &mut memory, jobs)?;
+        let mut sets = Self { graph, fair, fair_states: None, before: None, memory, jobs };
+        if !fairness.is_none() {
+            let all = BitSet::new(graph.states(), true);
+            sets.fair_states = Some(sets.always(&all)?);
+        }
+        Ok(sets)
+    }
+
+    /// The sets in each of which a fair run can stay.
+    pub(super) fn fair_sets(&self, region: &BitSet) -> FairSets {
+        self.fair.sets(region)
+    }
+
+    fn set(&mut self, all: bool) -> Result<BitSet, Limit> {
+        let states = self.graph.states();
+        self.memory.take(BitSet::bytes(states))?;
+        Ok(BitSet::new(states, all))
+    }
+
+    fn fair_and(&self, set: &BitSet) -> BitSet {
+        let mut holds = set.clone();
+        if let Some(fair) = &self.fair_states {
+            holds.and(fair);
+        }
+        holds
+    }
+
+    /// For each state how many firings through such states a goal is away; `u32::MAX` when none is
+    /// reached.
+    fn backward(&mut self, goal: &BitSet, through: &BitSet) -> Result<Vec<u32>, Limit> {
+        let graph = self.graph;
+        self.memory.take(4 * graph.states() as u64)?;
+        if self.before.is_none() {
+            self.memory.take(Predecessors::bytes(graph))?;
+        }
+        let before = self.before.get_or_insert_with(|| Predecessors::new(graph));
+        let mut ranks = vec![u32::MAX; graph.states()];
+        let mut level: Vec<u32> = goal.ones().collect();
+        level.iter().for_each(|it| ranks[*it as usize] = 0);
+        let mut rank = 0;
+        while !level.is_empty() {
+            rank += 1;
+            let mut next = Vec::new();
+            for state in level {
+                for &from in before.of(state) {
+                    if ranks[from as usize] == u32::MAX && through.has(from) {
+                        ranks[from as usize] = rank;
+                        next.push(from);
+                    }
+                }
+            }
+            level = next;
+        }
+        Ok(ranks)
+    }
+}
+
+impl<S: Successors> StateSets for BitSets<'_, S> {
+    type Set = BitSet;
+    /// For each state how many firings the goal is away; `u32::MAX` where none is reached.
+    type Ranks = Vec<u32>;
+
+    fn all(&mut self, is_full: bool) -> Result<BitSet, Limit> {
+        self.set(is_full)
+    }
+
+    fn satisfying(&mut self, formula: &Formula) -> Result<BitSet, Limit> {
+        let set = self.set(false)?;
+        let (graph, jobs) = (self.graph, self.jobs);
+        Ok(Goal::new(formula).map_or(set, |goal| graph.satisfying(goal, jobs)))
+    }
+
+    fn complement(&mut self, set: &BitSet) -> Result<BitSet, Limit> {
+        self.memory.take(BitSet::bytes(set.len()))?;
+        Ok(set.complement())
+    }
+
+    fn and(&mut self, set: &mut BitSet, other: &BitSet) {
+        set.and(other);
+    }
+
+    fn or(&mut self, set: &mut BitSet, other: &BitSet) {
+        set.or(other);
+    }
+
+    fn before(&mut self, goal: &BitSet) -> Result<BitSet, Limit> {
+        let goal = self.fair_and(goal);
+        let mut holds = self.set(false)?;
+        for state in 0..self.graph.states() as u32 {
+            if self.graph.successors(state).iter().any(|it| goal.has(*it)) {
+                holds.insert(state);
+            }
+        }
+        Ok(holds)
+    }
+
+    fn until(&mut self, through: &BitSet, goal: &BitSet) -> Result<(BitSet, Vec<u32>), Limit> {
+        let mut holds = self.set(false)?;
+        let goal = self.fair_and(goal);
+        let ranks = self.backward(&goal, through)?;
+        for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
+            holds.insert(state);
+        }
+        Ok((holds, ranks))
+    }
+
+    fn always(&mut self, region: &BitSet) -> Result<BitSet, Limit> {
+        let states = self.graph.states();
+        let mut goal = self.set(false)?;
+        // Lists of the search for components, which are given back.
+        let bytes = 24 * states as u64;
+        self.memory.take(bytes)?;
+        let sets = self.fair.sets(region);
+        (0..states as u32).filter(|it| sets.has(*it)).for_each(|it| goal.insert(it));
+        drop(sets);
+        self.memory.release(bytes);
+        let ranks = self.backward(&goal, region)?;
+        self.memory.release(4 * states as u64);
+        for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
+            goal.insert(state);
+        }
+        Ok(goal)
+    }
+
+    fn has_first(&self, set: &BitSet) -> bool {
+        set.has(0)
+    }
+
+    fn is_empty(&self, set: &BitSet) -> bool {
+        set.ones().next().is_none()
+    }
+}
+
+/// For each state those that it follows.
+struct Predecessors {
+    starts: Vec<u32>,
+    states: Vec<u32>,
+}
+
+impl Predecessors {
+    fn bytes(graph: &impl Successors) -> u64 {
+        if u32::try_from(graph.arcs()).is_err() {
+            return u64::MAX / 2; // positions are numbers of 32 bits
+        }
+        4 * (2 * graph.states() as u64 + graph.arcs() as u64)
+    }
+
+    fn new(graph: &impl Successors) -> Self {
+        let count = graph.states();
+        let mut starts = vec![0_u32; count + 1];
+        for from in 0..count as u32 {
+            graph.successors(from).iter().for_each(|it| starts[*it as usize + 1] += 1);
+        }
+        for at in 0..count {
+            starts[at + 1] += starts[at];
+        }
+        let (mut ends, mut states) = (starts.clone(), vec![0; graph.arcs()]);
+        for from in 0..count as u32 {
+            for &to in graph.successors(from) {
+                let end = &mut ends[to as usize];
+                states[*end as usize] = from;
+                *end += 1;
+            }
+        }
+        Self { starts, states }
+    }
+
+    fn of(&self, state: u32) -> &[u32] {
+        &self.states[self.starts[state as usize] as usize..self.starts[state as usize + 1] as usize]
+    }
+}
