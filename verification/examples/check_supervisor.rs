@@ -47,7 +47,7 @@ pub(crate) fn run(out: &mut impl Write) -> Result<(), Box<dyn Error>> {
     writeln!(out, "{}: {:?} ({})", wish.name, answer.verdict, answer.engine())?;
 
     // 3. Why not? The shortest way there, in the words of the net.
-    let run = answer.run.clone().ok_or("a broken wish has a run")?.into();
+    let run = answer.run.clone().ok_or("a broken wish has a run")?;
     let case = Case::new(model.pt(), &wish, false, &run).with_net(&dock::NET);
     for (at, step) in Diagnosis::new(&case)?.trace.iter().enumerate() {
         let event = step.event.as_deref().unwrap_or("-");

@@ -4,11 +4,10 @@ use crate::answers::check::{ChangeRow, FiringRow, NeverRow, RestRow, UnusedRow};
 use crate::render::visible;
 use crate::subject::Subject;
 use cotama_verification::check::{Answer, Checker, Options, Verdict};
-use cotama_verification::diagnosis::{Case, Diagnosis, Never, NotARun, Run, Step, Unused, vacuous};
+use cotama_verification::diagnosis::{Case, Diagnosis, Never, NotARun, Step, Unused, vacuous};
 use cotama_verification::explicit::Limits;
 use cotama_verification::flat::{Part, Rounds};
 use cotama_verification::property::{Formula, Property, Question};
-use cotama_verification::temporal::Rest;
 use std::fmt::Write;
 
 /// What may be asked to find out whether a property holds vacuously: so many questions, each among
@@ -27,15 +26,9 @@ pub(super) fn diagnosis(
     answer: &Answer,
 ) -> Option<Result<Diagnosis, NotARun>> {
     let run = answer.run.as_ref()?;
-    let cycle = match &run.rest {
-        Rest::Any => None,
-        Rest::Stays => Some(Vec::new()),
-        Rest::Cycle(cycle) => Some(cycle.clone()),
-    };
-    let run = Run { stem: run.stem.clone(), cycle };
     let case = Case {
         schedule: answer.schedule.as_ref(),
-        ..Case::new(subject.model.pt(), property, answer.verdict != Verdict::Holds(false), &run)
+        ..Case::new(subject.model.pt(), property, answer.verdict != Verdict::Holds(false), run)
     };
     let view = subject.net.as_ref().map(|it| it.view());
     let net = view.as_ref().map(|it| it.net());
@@ -50,15 +43,14 @@ pub(super) fn shown(subject: &Subject, answer: &Answer, count: usize) -> Vec<boo
     let (Some(rounds), Some(run)) = (&subject.rounds, &answer.run) else {
         return vec![true; count];
     };
-    let run = Run::from(run.clone());
     run.firings().map(|it| rounds.part(it) != Some(Part::Between)).collect()
 }
 
 /// A run of a system in rounds, as what happens in each of them.
 pub(super) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer) -> String {
-    let run = answer.run.clone().map(Run::from).unwrap_or_default();
-    let firings: Vec<_> = run.firings().collect();
     let mut text = format!("{}\n", diagnosis.summary);
+    let Some(run) = &answer.run else { return text };
+    let firings: Vec<_> = run.firings().collect();
     for (round, number) in rounds.told(&firings).into_iter().zip(1..) {
         let outside = round.outside.map(|(event, fired)| match event {
             Some(event) => format!("from outside {event}: {fired}"),
@@ -68,7 +60,7 @@ pub(super) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer)
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  round {number}  {}", visible(&all.join("; ")));
     }
-    if run.cycle.as_ref().is_some_and(|it| !it.is_empty()) {
+    if run.cycle().is_some_and(|it| !it.is_empty()) {
         let before = rounds.told(&run.stem).len();
         let _ = writeln!(text, "  what follows round {before} repeats for ever");
     }

@@ -145,8 +145,14 @@ impl fmt::Display for Evidence {
                 let traps = it.facts.iter().filter(|it| matches!(it, Fact::Trap(_))).count();
                 let leaves =
                     it.cases.iter().filter(|it| matches!(it, Case::Contradiction(_))).count();
-                let facts = count(it.facts.len() - traps, "inequality");
-                let facts = facts.replace("inequalitys", "inequalities");
+                let inductive = |it: &&Fact| matches!(it, Fact::Inductive(_));
+                let inductive = it.facts.iter().filter(inductive).count();
+                let facts = count(it.facts.len() - traps - inductive, "inequality");
+                let mut facts = facts.replace("inequalitys", "inequalities");
+                if inductive > 0 {
+                    facts += ", ";
+                    facts += &count(inductive, "inductive formula");
+                }
                 write!(
                     f,
                     "{facts} and {} that exclude {}",

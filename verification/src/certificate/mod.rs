@@ -333,6 +333,21 @@ pub enum Fact {
     /// Places of which one is marked here; each transition that takes from one of them gives to one
     /// of them, so that one is always marked. As an inequality: `1 - sum of tokens <= 0`.
     Trap(Vec<String>),
+    /// A formula that holds here, and that every transition keeps. As what an `and` assumes.
+    Inductive(Inductive),
+}
+
+/// A formula of inequalities that holds here, and that no transition makes false. Facts before it
+/// may be used to show that.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Inductive {
+    /// The formula: `and`, `or` and `not` of inequalities.
+    pub holds: Formula,
+    /// For each transition that changes one of its sums, and may fire, a tree of cases. It starts
+    /// from an `and`: the formula holds, the transition is enabled, and after it the formula does
+    /// not hold.
+    pub kept: Vec<(String, Vec<Case>)>,
 }
 
 /// A node of the tree of cases.

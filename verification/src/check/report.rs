@@ -157,11 +157,11 @@ impl Report {
 
     /// Why an answer is as it is; `None` when no run shows it.
     pub fn diagnosis(&self, property: &Property, answer: &Answer) -> Option<Diagnosis> {
-        let run = answer.run.as_ref()?.clone().into();
+        let run = answer.run.as_ref()?;
         let holds = answer.verdict != Verdict::Holds(false);
         let case = Case {
             schedule: answer.schedule.as_ref(),
-            ..Case::new(self.model.pt(), property, holds, &run)
+            ..Case::new(self.model.pt(), property, holds, run)
         };
         let view = self.net.as_ref().map(OwnedNet::view);
         let net = view.as_ref().map(|it| it.net());

@@ -14,7 +14,7 @@ const MOST: usize = 6;
 impl Teller<'_> {
     /// The cause, and what is to be added to it.
     pub(super) fn reason(&self) -> (String, Vec<String>) {
-        match (&self.forever, &self.run().cycle) {
+        match (&self.forever, self.run().cycle()) {
             (Some(forever), Some(cycle)) if !cycle.is_empty() => self.repeating(forever, cycle),
             (Some(forever), Some(_)) => {
                 let last = self.run().len();

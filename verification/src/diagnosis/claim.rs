@@ -1,6 +1,6 @@
 //! What a run has to show, and where along the run it is so.
 
-use super::run::Run;
+use super::Run;
 use crate::property::{Atom, Condition, Formula};
 use crate::pt::Pt;
 use crate::tpn::Date;

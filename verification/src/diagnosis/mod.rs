@@ -42,7 +42,8 @@ mod unused;
 mod vacuity;
 mod words;
 
-pub use run::{NotARun, Run};
+pub use crate::temporal::Run;
+pub use run::NotARun;
 pub use shrink::shrink;
 pub use step::{AtomTrack, Change, Meaning, Step, Tokens, Track, Turn};
 pub use unused::{Never, Unused};

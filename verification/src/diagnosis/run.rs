@@ -1,19 +1,9 @@
 //! A run of a net, step by step.
 
 use crate::pt::Pt;
-use crate::temporal::{self, Rest};
+use crate::temporal::{Rest, Run};
 use cotama_core::net::TransitionId;
 use std::fmt;
-
-/// A run from the initial marking that shows why a property holds or does not.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Run {
-    /// Transitions fired one after the other.
-    pub stem: Vec<TransitionId>,
-    /// `None` when it makes no difference how the run goes on; else the transitions that repeat for
-    /// ever, none when the stem leads to a deadlock, whose marking lasts.
-    pub cycle: Option<Vec<TransitionId>>,
-}
 
 /// Why this is no run of the net. Firings are counted from 1.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -89,12 +79,22 @@ impl std::error::Error for NotARun {}
 impl Run {
     /// A run to a marking; what comes after it makes no difference.
     pub fn to(stem: Vec<TransitionId>) -> Self {
-        Self { stem, cycle: None }
+        Self { stem, rest: Rest::Any }
+    }
+
+    /// What fires again and again at its end: nothing after a deadlock; `None` where what comes
+    /// after the stem makes no difference.
+    pub fn cycle(&self) -> Option<&[TransitionId]> {
+        match &self.rest {
+            Rest::Any => None,
+            Rest::Stays => Some(&[]),
+            Rest::Cycle(cycle) => Some(cycle),
+        }
     }
 
     /// How many firings it has, those of the cycle counted once.
     pub fn len(&self) -> usize {
-        self.stem.len() + self.cycle.as_ref().map_or(0, Vec::len)
+        self.stem.len() + self.cycle().map_or(0, <[_]>::len)
     }
 
     /// Whether nothing fires in it.
@@ -104,12 +104,12 @@ impl Run {
 
     /// Its firings, those of the cycle once.
     pub fn firings(&self) -> impl Iterator<Item = TransitionId> {
-        self.stem.iter().chain(self.cycle.iter().flatten()).copied()
+        self.stem.iter().chain(self.cycle().unwrap_or_default()).copied()
     }
 
     /// Where the cycle begins, if there is one in which something fires.
     pub(super) fn cycle_start(&self) -> Option<usize> {
-        self.cycle.as_ref().filter(|it| !it.is_empty()).map(|_| self.stem.len())
+        self.cycle().filter(|it| !it.is_empty()).map(|_| self.stem.len())
     }
 
     /// Shows each marking, with how many firings are before it; where the cycle ends, its first one
@@ -140,7 +140,7 @@ impl Run {
         if first_of_cycle.is_some_and(|first| first != marking) {
             return Err(NotARun::Open);
         }
-        if self.cycle.as_ref().is_some_and(Vec::is_empty)
+        if self.cycle().is_some_and(<[_]>::is_empty)
             && let Some(transition) = enabled(pt, &marking).next()
         {
             return Err(NotARun::GoesOn {
@@ -162,17 +162,6 @@ impl Run {
         // What is no run was refused before.
         let _ = self.walk(pt, stop);
         found
-    }
-}
-
-impl From<temporal::Run> for Run {
-    fn from(run: temporal::Run) -> Self {
-        let cycle = match run.rest {
-            Rest::Any => None,
-            Rest::Stays => Some(Vec::new()),
-            Rest::Cycle(cycle) => Some(cycle),
-        };
-        Self { stem: run.stem, cycle }
     }
 }
 

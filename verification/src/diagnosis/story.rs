@@ -1,8 +1,9 @@
 //! What a run shows, said in words: what comes to be when, and by what.
 
 use super::Case;
+use super::Run;
 use super::claim::Along;
-use super::run::{Run, enabled};
+use super::run::enabled;
 use super::words::{self, Says, counted, name, ticked};
 use crate::property::{Formula, Question};
 use crate::pt::Pt;
@@ -102,8 +103,8 @@ impl Teller<'_> {
         }
         self.explain(&claim, 0);
         let what = self.clauses.join(", and ");
-        let what = match (&self.run().cycle, self.said) {
-            (Some(cycle), None) if cycle.is_empty() => {
+        let what = match (self.run().cycle(), self.said) {
+            (Some([]), None) => {
                 format!("on a run that ends in a deadlock {what}")
             }
             (Some(_), None) => format!("on a run that goes on for ever {what}"),
@@ -121,8 +122,7 @@ impl Teller<'_> {
             self.culprits.extend(words::places(&literals));
         }
         let last = self.run().len();
-        let is_dead =
-            self.speaks_of_deadlock() || self.run().cycle.as_ref().is_some_and(Vec::is_empty);
+        let is_dead = self.speaks_of_deadlock() || self.run().cycle().is_some_and(<[_]>::is_empty);
         if is_dead && enabled(self.pt(), &self.marking(last)).next().is_none() {
             notes.extend(self.stuck());
         }

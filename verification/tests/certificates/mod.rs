@@ -2,6 +2,7 @@
 
 mod engines;
 mod graph;
+mod inductive;
 mod lasso;
 mod mutations;
 mod parts;

@@ -3,14 +3,6 @@
 use std::fs;
 use std::path::Path;
 
-#[test]
-fn the_checker_has_fewer_than_400_lines() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("src/certificate/verify");
-    let files = fs::read_dir(&folder).unwrap().map(|it| it.unwrap().path());
-    let lines: usize = files.map(|it| fs::read_to_string(it).unwrap().lines().count()).sum();
-    assert!((1..400).contains(&lines), "{lines} lines");
-}
-
 /// All of it: the checker, and what it shares with the crate: data types, reading, sums and answers.
 const ALL: [&str; 7] = [
     "mod.rs",

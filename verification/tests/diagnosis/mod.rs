@@ -33,7 +33,7 @@ fn parse(pt: &Pt, text: &str) -> Property {
 fn checked(pt: &Pt, property: &Property) -> (bool, Run) {
     let Question::Formula(formula) = &property.question else { panic!("not a formula") };
     match temporal::answer(pt, formula, &Limits::default(), &|_| ()) {
-        Verdict::Known { holds, run: Some(run), .. } => (holds, run.into()),
+        Verdict::Known { holds, run: Some(run), .. } => (holds, run),
         other => panic!("{}: {other:?}", property.name),
     }
 }

@@ -4,13 +4,23 @@ use crate::diagnosis::{nets, parse};
 use cotama_core::net::TransitionId;
 use cotama_verification::diagnosis::{Case, Diagnosis, NotARun, Run};
 use cotama_verification::pt::Pt;
+use cotama_verification::temporal::Rest;
 use cotama_verification::tpn::Schedule;
+
+/// What fires for ever; nothing is a deadlock.
+fn rest(cycle: Option<Vec<TransitionId>>) -> Rest {
+    match cycle {
+        None => Rest::Any,
+        Some(cycle) if cycle.is_empty() => Rest::Stays,
+        Some(cycle) => Rest::Cycle(cycle),
+    }
+}
 
 fn diagnosed(cycle: Option<&[u32]>, stem: &[u32]) -> Result<Diagnosis, NotARun> {
     let pt = Pt::from(&nets::server().view().net());
     let property = parse(&pt, "AF served");
     let ids = |all: &[u32]| all.iter().map(|it| TransitionId(*it)).collect();
-    let run = Run { stem: ids(stem), cycle: cycle.map(ids) };
+    let run = Run { stem: ids(stem), rest: rest(cycle.map(ids)) };
     Diagnosis::new(&Case::new(&pt, &property, false, &run))
 }
 
@@ -115,7 +125,7 @@ fn every_kind_of_formula_is_explained_on_every_run() {
                 .collect();
             let property = parse(&pt, &text);
             for (stem, cycle) in &runs {
-                let run = Run { stem: ids(stem), cycle: cycle.as_deref().map(ids) };
+                let run = Run { stem: ids(stem), rest: rest(cycle.as_deref().map(ids)) };
                 for holds in [false, true] {
                     let it = Diagnosis::new(&Case::new(&pt, &property, holds, &run)).unwrap();
                     assert!(

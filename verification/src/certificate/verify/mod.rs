@@ -1,4 +1,5 @@
-//! The checker of certificates. This folder is all of it: fewer than 400 lines, and no engine.
+//! The checker of certificates, without an engine: with all that it shares with the crate, fewer
+//! than 600 lines that say something.
 //!
 //! What it shares with the rest of the crate decides nothing about evidence: the data types of a
 //! file, their reading with numbers for names (`read.rs`), weighted sums (`sum.rs`), the words of

@@ -3,10 +3,10 @@
 use super::{Checked, Claim, Marking, Numbered, at, each, ensure, error};
 use crate::certificate::Formula::{self, And, AtMost, Not, Or};
 use crate::certificate::sum::{ONE, Sum};
-use crate::certificate::{Case, Fact, Linear, Refutation};
+use crate::certificate::{Case, Fact, Inductive, Linear, Refutation};
 
 /// What is known of a marking: sums that are at most 0, and lists with a part of this truth.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub(crate) struct Known<'a> {
     pub(crate) sums: Vec<Sum>,
     pub(crate) lists: Vec<(&'a [Formula], bool)>,
@@ -16,7 +16,8 @@ impl Numbered<'_> {
     /// That no marking reachable from this one is a goal: one where the claim is so.
     pub(super) fn refute(&self, from: &Marking, goal: Claim<'_>, by: &Refutation) -> Checked<()> {
         let dead = each(&by.dead, |it| self.transition(&it.0)).map_err(at(".dead"))?;
-        let facts = each(&by.facts, |it| self.fact(from, it, &dead)).map_err(at(".facts"))?;
+        let mut facts = Known::default();
+        each(&by.facts, |it| self.learn(from, it, &dead, &mut facts)).map_err(at(".facts"))?;
         let never = |(it, by): (&usize, &(String, Vec<_>))| {
             self.close(&facts, (&self.enabling(*it)?, true), &by.1)
         };
@@ -24,11 +25,22 @@ impl Numbered<'_> {
         self.close(&facts, goal, &by.cases).map_err(at(".cases"))
     }
 
-    /// A fact, as a sum that is at most 0. Dead transitions break nothing.
-    fn fact(&self, from: &Marking, by: &Fact, dead: &[usize]) -> Checked<Sum> {
+    /// Puts a fact with what is known. Dead transitions break nothing.
+    fn learn<'a>(
+        &self,
+        from: &Marking,
+        by: &'a Fact,
+        dead: &[usize],
+        known: &mut Known<'a>,
+    ) -> Checked<()> {
         let (fact, trap) = match by {
             Fact::AtMost(linear) => (self.linear(linear)?, false),
             Fact::Trap(places) => (self.linear(&Linear::trap(places))?, true),
+            Fact::Inductive(by) => {
+                self.holds(from, (&by.holds, true))?;
+                self.is_kept(by, dead, known)?;
+                return self.assume((&by.holds, true), known);
+            }
         };
         ensure(fact.value(from) <= 0, "does not hold at the start")?;
         for (id, [take, give]) in self.arcs.iter().enumerate() {
@@ -38,16 +50,50 @@ impl Numbered<'_> {
             let name = &self.net.transitions[id].name;
             ensure(!breaks || dead.contains(&id), format_args!("`{name}` breaks it"))?;
         }
-        Ok(fact)
+        known.sums.push(fact);
+        Ok(())
+    }
+
+    /// That no transition makes a formula false where it holds, and what is known.
+    fn is_kept(&self, by: &Inductive, dead: &[usize], known: &Known<'_>) -> Checked<()> {
+        for (id, transition) in self.net.transitions.iter().enumerate() {
+            let before = self.before(&by.holds, id)?;
+            if before == by.holds || dead.contains(&id) {
+                continue;
+            }
+            let cases = by.kept.iter().find(|it| it.0 == transition.name);
+            let breaks = [by.holds.clone(), self.enabling(id)?, Not(Box::new(before))];
+            self.close(known, (&And(breaks.into()), true), cases.map_or(&[], |it| &it.1))
+                .map_err(at(format_args!(", `{}`", transition.name)))?;
+        }
+        Ok(())
+    }
+
+    /// What holds before a firing exactly when this holds after it.
+    fn before(&self, after: &Formula, id: usize) -> Checked<Formula> {
+        let list = |all: &[Formula]| each(all, |it| self.before(it, id));
+        Ok(match after {
+            AtMost(linear) => {
+                self.spend(64 * (1 + linear.weights.len()))?;
+                let ([take, give], sum) = (&self.arcs[id], self.linear(linear)?);
+                let constant = i128::from(linear.constant) + sum.weigh(give) - sum.weigh(take);
+                let constant = constant.try_into().map_err(|_| error("numbers get too large"))?;
+                AtMost(Linear { constant, ..linear.clone() })
+            }
+            Not(a) => Not(Box::new(self.before(a, id)?)),
+            And(all) => And(list(all)?),
+            Or(all) => Or(list(all)?),
+            _ => return Err(error("is no formula of inequalities")),
+        })
     }
 
     /// That the goal is not so where the facts hold.
-    fn close(&self, facts: &[Sum], goal: Claim<'_>, cases: &[Case]) -> Checked<()> {
+    fn close(&self, facts: &Known<'_>, goal: Claim<'_>, cases: &[Case]) -> Checked<()> {
         let cut = |it: &Case| if let Case::Cut(it) = it { it.clone() } else { Linear::trap(&[]) };
         let cuts: Vec<Formula> = cases.iter().map(|it| AtMost(cut(it))).collect();
-        let mut known = Known { sums: facts.to_vec(), lists: Vec::new() };
+        let mut known = facts.clone();
         // What is left to refute: how much is known there, and what else is assumed.
-        let mut left = vec![(facts.len(), 0, goal)];
+        let mut left = vec![(known.sums.len(), known.lists.len(), goal)];
         for (n, case) in cases.iter().enumerate() {
             let (sums, lists, claim) = left.pop().ok_or_else(|| error("there are too many"))?;
             known.sums.truncate(sums);
