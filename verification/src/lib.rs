@@ -26,6 +26,7 @@
 pub mod bounds;
 pub mod certificate;
 pub mod check;
+mod components;
 pub mod conform;
 pub mod coverability;
 pub mod diagnosis;
@@ -33,6 +34,7 @@ pub mod engines;
 pub mod explicit;
 pub mod export;
 pub mod flat;
+mod integer;
 pub mod play;
 pub mod pnml;
 pub mod property;

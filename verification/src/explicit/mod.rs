@@ -55,13 +55,14 @@ mod view;
 mod wide;
 mod worker;
 
+pub use crate::components::Components;
 pub use bits::BitSet;
 pub use engine::{Explicit, Few, Stored};
 pub(crate) use engine::{certified, evidence, reached};
 pub use goal::Goal;
 pub use graph::Graph;
 pub use growth::Growth;
-pub use liveness::{Components, Liveness};
+pub use liveness::Liveness;
 pub(crate) use markings::{Index, Look, Markings, Memory, hash};
 pub(crate) use reach::most;
 pub use reach::{Reached, reach};

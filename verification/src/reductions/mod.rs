@@ -34,7 +34,6 @@
 //! - Thierry-Mieg, "Structural reductions revisited", 2020.
 
 mod agglomerate;
-mod components;
 mod draft;
 mod filled;
 mod implied;
