@@ -12,6 +12,7 @@
 //! | [`export`] | a net as a file of another tool, or as a drawing |
 //! | [`flat`] | a system of nets as one net |
 //! | [`guide`] | how to check a net of one's own, and ten counterexamples |
+//! | [`limits`] | what a search may use, and why it ended before its end |
 //! | [`play`] | any net or system in play, whatever its size |
 //! | [`pnml`] | the exchange format of Petri nets, read and written |
 //! | [`pt`] | a net without time and priorities, as engines read it |
@@ -35,6 +36,7 @@ pub mod explicit;
 pub mod export;
 pub mod flat;
 mod integer;
+pub mod limits;
 pub mod play;
 pub mod pnml;
 pub mod property;
