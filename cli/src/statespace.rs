@@ -13,6 +13,7 @@ use cotama_core::net::TransitionId;
 use cotama_verification::check::Model;
 use cotama_verification::coverability::{self, Bounded};
 use cotama_verification::explicit;
+use cotama_verification::limits::Limit;
 use cotama_verification::pt::Pt;
 use cotama_verification::tpn::{self, TimeNet};
 use std::time::Instant;
@@ -66,8 +67,7 @@ fn markings(pt: &Pt, budget: &Budget, progress: &Progress) -> StatespaceAnswer {
         .as_ref()
         .map(|it| GrowthRow { first: names(pt, &it.first), repeated: names(pt, &it.repeated) });
     if bounded.is_none() {
-        let over = || budget.limits.is_over();
-        match coverability::bounded(pt, &budget.coverability(&over)) {
+        match coverability::bounded(pt, &budget.limits) {
             Bounded::Yes => bounded = Some(true),
             Bounded::No(found) => {
                 bounded = Some(false);
@@ -111,8 +111,7 @@ fn markings(pt: &Pt, budget: &Budget, progress: &Progress) -> StatespaceAnswer {
 }
 
 fn classes(net: &TimeNet, untimed: &Pt, budget: &Budget) -> StatespaceAnswer {
-    let over = || budget.limits.is_over();
-    let graph = tpn::classes(net, &budget.classes(&over));
+    let graph = tpn::classes(net, &budget.limits);
     let all = graph.stopped().is_none();
     let count = |number: usize| all.then(|| number.to_string());
     let (mut most, mut sum) = (vec![0_u64; untimed.places.len()], 0);
@@ -152,10 +151,20 @@ fn classes(net: &TimeNet, untimed: &Pt, budget: &Budget) -> StatespaceAnswer {
             states: graph.classes().to_string(),
             arcs: graph.edges().to_string(),
         },
-        limit: graph.stopped().map(|it| it.to_string()),
+        limit: graph.stopped().map(|it| limit_of_classes(it).to_owned()),
         engine: "classes",
         seconds: 0.0,
         bytes_per_state: None,
+    }
+}
+
+fn limit_of_classes(limit: Limit) -> &'static str {
+    match limit {
+        Limit::Unbounded => "the net is unbounded",
+        Limit::States => "the limit of classes was reached",
+        Limit::Bytes => "the limit of memory was reached",
+        Limit::Time => "it was interrupted",
+        Limit::Tokens | Limit::Words | Limit::Work => "a number of tokens or a time is too large",
     }
 }
 

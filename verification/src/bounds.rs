@@ -5,6 +5,7 @@
 //! place alone, and combine sums until no transition increases any of them.
 
 use crate::explicit::{Limit, Limits};
+use crate::integer::gcd;
 use crate::pt::Pt;
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -405,13 +406,6 @@ pub(crate) fn combined(
             sum => all.push((id, sum)),
         }
     }
-}
-
-pub(crate) fn gcd(mut a: u64, mut b: u64) -> u64 {
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }
 
 impl Sum {

@@ -12,6 +12,7 @@
 //! | [`export`] | a net as a file of another tool, or as a drawing |
 //! | [`flat`] | a system of nets as one net |
 //! | [`guide`] | how to check a net of one's own, and ten counterexamples |
+//! | [`limits`] | what a search may use, and why it ended before its end |
 //! | [`play`] | any net or system in play, whatever its size |
 //! | [`pnml`] | the exchange format of Petri nets, read and written |
 //! | [`pt`] | a net without time and priorities, as engines read it |
@@ -26,6 +27,7 @@
 pub mod bounds;
 pub mod certificate;
 pub mod check;
+mod components;
 pub mod conform;
 pub mod coverability;
 pub mod diagnosis;
@@ -33,6 +35,8 @@ pub mod engines;
 pub mod explicit;
 pub mod export;
 pub mod flat;
+mod integer;
+pub mod limits;
 pub mod play;
 pub mod pnml;
 pub mod property;

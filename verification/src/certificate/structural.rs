@@ -79,7 +79,7 @@ impl Evidence {
     /// };
     /// let Formula::Finally(goal) = &**path else { panic!("not of that form") };
     ///
-    /// let structure = Structure::new(&lamp, structural::Limits::default());
+    /// let structure = Structure::new(&lamp, &structural::Limits::default());
     /// let inequality = property::Linear { constant: 2, weights: vec![(off, -1), (on, -1)] };
     /// let structural::Answer::Impossible(refutation) = structure.reach(&[inequality.clone()])
     /// else {

@@ -4,7 +4,7 @@ use crate::engines::{Found, Reason, Task};
 use crate::explicit;
 use crate::property::{Atom, Formula, Linear};
 use crate::pt::Pt;
-use crate::reductions::{Goal, Keep, LiftError, Limits, Reduced, Tokens, Trail, reduce_within};
+use crate::reductions::{Effort, Goal, Keep, LiftError, Reduced, Tokens, Trail, reduce_within};
 use crate::temporal::{Rest, Run};
 use cotama_core::net::{PlaceId, TransitionId};
 
@@ -111,8 +111,7 @@ fn smaller(pt: &Pt, keep: &Keep, limits: &explicit::Limits) -> Option<Reduced> {
     if size * BYTES > limits.bytes || limits.is_over() {
         return None;
     }
-    let limits = Limits { deadline: limits.deadline, ..Limits::default() };
-    let reduced = reduce_within(pt, keep, &limits);
+    let reduced = reduce_within(pt, keep, limits, &Effort::default());
     (!reduced.counts.is_empty()).then_some(reduced)
 }
 

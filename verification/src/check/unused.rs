@@ -47,8 +47,7 @@ impl<'m> Checker<'m> {
                 (space.dead_transitions.clone(), space.bounds.iter().map(|it| *it > 0).collect())
             }
             Some(Limit::Unbounded) => {
-                let stop = || budget.limits.is_over();
-                let set = CoverabilitySet::new(pt, &budget.coverability(&stop)).ok()?;
+                let set = CoverabilitySet::new(pt, &budget.coverability()).ok()?;
                 (
                     set.dead_transitions(),
                     set.bounds().iter().map(|it| *it > Tokens::new(0)).collect(),
@@ -64,8 +63,7 @@ impl<'m> Checker<'m> {
     }
 
     fn in_time(&self, net: &TimeNet, budget: &Budget<'_>) -> Option<Unused<'m>> {
-        let stop = || budget.limits.is_over();
-        let classes = self.known.classes(net, &budget.classes(&stop)).ok()?;
+        let classes = self.known.classes(net, &budget.limits).ok()?;
         let pt = self.known.pt();
         let mut marked = vec![false; pt.places.len()];
         for class in 0..classes.classes() as u32 {

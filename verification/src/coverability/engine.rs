@@ -1,10 +1,9 @@
 //! The engine for nets with infinitely many markings.
 
-use super::{Bounded, CoverabilitySet, Coverable, Limit, Unfinished, bounded, reaches};
+use super::{Bounded, CoverabilitySet, Coverable, Unfinished, bounded, reaches};
 use crate::bounds::bounds_within;
 use crate::certificate::Evidence;
 use crate::engines::{Bid, Budget, Engine, Extent, Finding, Found, Known, Reason, Task};
-use crate::explicit;
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 
@@ -36,9 +35,8 @@ impl Engine for Coverability {
     }
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
-        let stop = || budget.limits.is_over();
-        let limits = budget.coverability(&stop);
-        let unfinished = |it: Unfinished| Finding::stopped(limit(it.limit), it.nodes);
+        let limits = budget.coverability();
+        let unfinished = |it: Unfinished| Finding::stopped(it.limit, it.nodes);
         match task {
             Task::Reach(goal) => match reaches(net.pt(), goal, &limits) {
                 None => Finding::unsuited(),
@@ -87,8 +85,7 @@ const MANY: u64 = 50;
 /// unbounded, or else a part of the way to many tokens in one of them. There may be none: tokens
 /// that grow in a place can be moved to another one.
 pub(crate) fn growth(pt: &Pt, places: &[PlaceId], budget: &Budget<'_>) -> Option<Evidence> {
-    let stop = || budget.limits.is_over();
-    let limits = budget.coverability(&stop);
+    let limits = budget.coverability();
     if let Bounded::No(growth) = bounded(pt, &limits)
         && growth.grows.iter().any(|it| places.contains(&it.0))
     {
@@ -136,14 +133,5 @@ fn covered(set: &CoverabilitySet<'_>, task: Task<'_>) -> Found {
             }
             Err(_) => Found::Nothing(Reason::Undecided),
         },
-    }
-}
-
-fn limit(limit: Limit) -> explicit::Limit {
-    match limit {
-        Limit::Nodes => explicit::Limit::States,
-        Limit::Bytes => explicit::Limit::Bytes,
-        Limit::Stopped => explicit::Limit::Time,
-        Limit::Numbers => explicit::Limit::Tokens,
     }
 }

@@ -2,7 +2,7 @@
 
 use super::search::{Order, Search};
 use super::word::Growth;
-use super::{Limit, Limits, Unfinished};
+use super::{FIRINGS, Limit, Limits, Unfinished};
 use crate::bounds::bounds;
 use crate::pt::Pt;
 
@@ -30,11 +30,11 @@ pub enum Bounded {
 /// let Bounded::No(growth) = bounded(&belt, &Limits::default()) else { panic!("it fills") };
 /// assert_eq!(growth.grows, [(belt.place("full").unwrap(), 1)]);
 /// ```
-pub fn bounded(pt: &Pt, limits: &Limits<'_>) -> Bounded {
-    let few = Limits { nodes: limits.nodes.min(FIRST), ..*limits };
+pub fn bounded(pt: &Pt, limits: &Limits) -> Bounded {
+    let few = Limits { states: limits.states.min(FIRST), ..*limits };
     for order in [Order::First, Order::Greatest] {
         match search(pt, &few, order) {
-            Bounded::Unknown(Unfinished { limit: Limit::Nodes, .. }) if limits.nodes > FIRST => {}
+            Bounded::Unknown(Unfinished { limit: Limit::States, .. }) if limits.states > FIRST => {}
             answer => return answer,
         }
     }
@@ -44,15 +44,36 @@ pub fn bounded(pt: &Pt, limits: &Limits<'_>) -> Bounded {
     search(pt, limits, Order::Greatest)
 }
 
-fn search(pt: &Pt, limits: &Limits<'_>, order: Order) -> Bounded {
+fn search(pt: &Pt, limits: &Limits, order: Order) -> Bounded {
     let mut search = Search::new(pt, order);
     let is_raised = &mut |marking: &[super::Tokens]| marking.iter().any(|it| it.is_omega());
     match search.run(limits, is_raised) {
         Ok(None) => Bounded::Yes,
-        Ok(Some(id)) => match search.pumping(id, limits.firings) {
+        Ok(Some(id)) => match search.pumping(id, FIRINGS) {
             Some(growth) => Bounded::No(growth),
-            None => Bounded::Unknown(Unfinished { limit: Limit::Numbers, nodes: search.nodes() }),
+            None => Bounded::Unknown(Unfinished { limit: Limit::Tokens, nodes: search.nodes() }),
         },
         Err(unfinished) => Bounded::Unknown(unfinished),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tina;
+    use cotama_core::net::PlaceId;
+
+    #[test]
+    fn a_stem_and_a_pump_are_counted_one_by_one() {
+        let net = b"tr put a -> b*3  tr turn b*3 -> a c  pl a (1)";
+        let pt = tina::read("long.net", net).unwrap().untimed();
+        let mut search = Search::new(&pt, Order::First);
+        let found = search.run(&Limits::default(), &mut |it| it.iter().any(|it| it.is_omega()));
+        let growth = search.pumping(found.unwrap().unwrap(), 1).unwrap();
+        assert_eq!(
+            (growth.stem.firings, growth.pump.length, growth.pump.firings),
+            (Some(vec![]), 2, None)
+        );
+        assert_eq!(growth.grows, [(PlaceId(2), 1)]);
     }
 }

@@ -55,6 +55,7 @@ mod set;
 mod tokens;
 mod word;
 
+pub use crate::limits::{Limit, Limits};
 pub(crate) use engine::growth;
 pub use engine::{Coverability, FewOmegas};
 pub use growth::{Bounded, bounded};
@@ -65,49 +66,8 @@ pub use word::{Growth, Sequence};
 
 use std::fmt;
 
-/// How much a search may use.
-#[derive(Clone, Copy)]
-pub struct Limits<'a> {
-    /// The most ω-markings that are kept; never more than 2^32 - 2.
-    pub nodes: u64,
-    /// The most bytes for them, as estimated.
-    pub bytes: u64,
-    /// The most firings of a sequence that is written out.
-    pub firings: u64,
-    /// Asked again and again whether to stop.
-    pub stop: &'a dyn Fn() -> bool,
-}
-
-impl Default for Limits<'_> {
-    /// 4 GiB, sequences of a million firings, no other limit.
-    fn default() -> Self {
-        Self { nodes: u64::MAX, bytes: 4 << 30, firings: 1_000_000, stop: &|| false }
-    }
-}
-
-impl fmt::Debug for Limits<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { nodes, bytes, firings, stop: _ } = self;
-        f.debug_struct("Limits")
-            .field("nodes", nodes)
-            .field("bytes", bytes)
-            .field("firings", firings)
-            .finish_non_exhaustive()
-    }
-}
-
-/// Why a search ended before its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// More ω-markings than [`Limits::nodes`].
-    Nodes,
-    /// More memory than [`Limits::bytes`].
-    Bytes,
-    /// [`Limits::stop`] said so.
-    Stopped,
-    /// A number passed 63 bits.
-    Numbers,
-}
+/// The most firings of a sequence that is written out.
+pub const FIRINGS: u64 = 1_000_000;
 
 /// A search that did not come to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -122,10 +82,10 @@ impl fmt::Display for Unfinished {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { limit, nodes } = self;
         let limit = match limit {
-            Limit::Nodes => "the limit of markings",
+            Limit::States => "the limit of markings",
             Limit::Bytes => "the limit of memory",
-            Limit::Stopped => "a request to stop",
-            Limit::Numbers => "a number of more than 63 bits",
+            Limit::Time => "the limit of time",
+            _ => "a number of more than 63 bits",
         };
         write!(f, "ended by {limit} after {nodes} markings")
     }

@@ -3,7 +3,7 @@
 use super::growth::FIRST;
 use super::search::{Order, Search};
 use super::set::demand;
-use super::{Limit, Limits, Sequence, Tokens, Unfinished};
+use super::{FIRINGS, Limit, Limits, Sequence, Tokens, Unfinished};
 use crate::property::{Atom, Condition, Formula};
 use crate::pt::Pt;
 use cotama_core::net::PlaceId;
@@ -33,7 +33,7 @@ pub enum Coverable {
 /// let both = coverable(&pt, &[(place("on"), 1), (place("off"), 1)], &Limits::default());
 /// assert!(matches!(both, Coverable::No));
 /// ```
-pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Coverable {
+pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits) -> Coverable {
     let known = |it: &&(PlaceId, u64)| (it.0.0 as usize) < pt.places.len();
     if target.iter().any(|it| !known(&it) && it.1 > 0) {
         return Coverable::No;
@@ -70,7 +70,7 @@ pub fn coverable(pt: &Pt, target: &[(PlaceId, u64)], limits: &Limits<'_>) -> Cov
 /// assert_eq!(way.firings, Some(vec![TransitionId(0); 3]));
 /// assert_eq!(reaches(&net, &goal("heap = 5"), &Limits::default()), None);
 /// ```
-pub fn reaches(pt: &Pt, goal: &Formula, limits: &Limits<'_>) -> Option<Coverable> {
+pub fn reaches(pt: &Pt, goal: &Formula, limits: &Limits) -> Option<Coverable> {
     let condition = Condition::new(goal, pt).filter(|_| is_upward_closed(goal))?;
     Some(find(pt, limits, &|marking| {
         condition.holds(marking).then(|| smallest(&condition, marking))
@@ -116,8 +116,8 @@ fn smallest(condition: &Condition<'_>, marking: &[Tokens]) -> Vec<u64> {
 }
 
 /// Looks for an ω-marking that is as asked; then also for the tokens that matter.
-fn find(pt: &Pt, limits: &Limits<'_>, meets: &dyn Fn(&[Tokens]) -> Option<Vec<u64>>) -> Coverable {
-    let run = |limits: &Limits<'_>, order| {
+fn find(pt: &Pt, limits: &Limits, meets: &dyn Fn(&[Tokens]) -> Option<Vec<u64>>) -> Coverable {
+    let run = |limits: &Limits, order| {
         let mut search = Search::new(pt, order);
         let mut demand = None;
         let found = search.run(limits, &mut |marking| {
@@ -127,15 +127,15 @@ fn find(pt: &Pt, limits: &Limits<'_>, meets: &dyn Fn(&[Tokens]) -> Option<Vec<u6
         match (found, demand) {
             (Ok(Some(id)), Some(demand)) => {
                 let unwritten = Sequence { length: u128::MAX, firings: None };
-                Coverable::Yes(search.sequence(id, demand, limits.firings).unwrap_or(unwritten))
+                Coverable::Yes(search.sequence(id, demand, FIRINGS).unwrap_or(unwritten))
             }
             (Ok(_), _) => Coverable::No,
             (Err(unfinished), _) => Coverable::Unknown(unfinished),
         }
     };
-    let few = Limits { nodes: limits.nodes.min(FIRST), ..*limits };
+    let few = Limits { states: limits.states.min(FIRST), ..*limits };
     match run(&few, Order::First) {
-        Coverable::Unknown(Unfinished { limit: Limit::Nodes, .. }) if limits.nodes > FIRST => {
+        Coverable::Unknown(Unfinished { limit: Limit::States, .. }) if limits.states > FIRST => {
             run(limits, Order::Greatest)
         }
         answer => answer,

@@ -68,7 +68,7 @@ impl<'n> Search<'n> {
     /// Goes on until all markings are covered, or until one is `found`: its number.
     pub(super) fn run(
         &mut self,
-        limits: &Limits<'_>,
+        limits: &Limits,
         found: &mut dyn FnMut(&[Tokens]) -> bool,
     ) -> Result<Option<u32>, Unfinished> {
         self.grow(limits, found).map_err(|limit| Unfinished { limit, nodes: self.nodes() })
@@ -76,7 +76,7 @@ impl<'n> Search<'n> {
 
     fn grow(
         &mut self,
-        limits: &Limits<'_>,
+        limits: &Limits,
         found: &mut dyn FnMut(&[Tokens]) -> bool,
     ) -> Result<Option<u32>, Limit> {
         let marking = self.pt.initial.iter().map(|&it| Tokens::from(it)).collect();
@@ -92,8 +92,8 @@ impl<'n> Search<'n> {
                     break;
                 }
                 let Some(marking) = self.fired(id, transition)? else { continue };
-                if (limits.stop)() {
-                    return Err(Limit::Stopped);
+                if limits.is_over() {
+                    return Err(Limit::Time);
                 }
                 if self.maximal.covers(&marking, &self.markings) {
                     continue;
@@ -118,21 +118,21 @@ impl<'n> Search<'n> {
         let mut after = marking.to_vec();
         for &(place, change) in self.pt.effects.of(transition) {
             let tokens = &mut after[place as usize];
-            *tokens = tokens.changed(change).ok_or(Limit::Numbers)?;
+            *tokens = tokens.changed(change).ok_or(Limit::Tokens)?;
         }
         Ok(Some(after))
     }
 
     /// Makes a node of the limit of a candidate that is not covered.
-    fn add(&mut self, mut candidate: Candidate, limits: &Limits<'_>) -> Result<Option<u32>, Limit> {
+    fn add(&mut self, mut candidate: Candidate, limits: &Limits) -> Result<Option<u32>, Limit> {
         self.raise(&mut candidate)?;
         if !candidate.raised.is_empty() && self.maximal.covers(&candidate.marking, &self.markings) {
             return Ok(None);
         }
         // A node, its place in the heap, the antichain and the table of hashes.
         let bytes = self.bytes() + self.pt.places.len() as u64 * 8 + 160;
-        if self.nodes() >= limits.nodes.min(u64::from(u32::MAX) - 1) {
-            return Err(Limit::Nodes);
+        if self.nodes() >= limits.states.min(u64::from(u32::MAX) - 1) {
+            return Err(Limit::States);
         }
         if bytes > limits.bytes {
             return Err(Limit::Bytes);
@@ -171,11 +171,11 @@ impl<'n> Search<'n> {
                 Some(known) => known,
                 None => match self.smaller(candidate) {
                     Some(ancestor) => {
-                        let word = self.way(ancestor, candidate).ok_or(Limit::Numbers)?;
-                        let pump = self.pumps.add(self.pt, word).ok_or(Limit::Numbers)?;
+                        let word = self.way(ancestor, candidate).ok_or(Limit::Tokens)?;
+                        let pump = self.pumps.add(self.pt, word).ok_or(Limit::Tokens)?;
                         debug_assert!(pump.raises(&candidate.marking));
                         if !pump.raises(&candidate.marking) {
-                            return Err(Limit::Numbers);
+                            return Err(Limit::Tokens);
                         }
                         self.pumps.all.len() - 1
                     }

@@ -1,7 +1,7 @@
 //! The minimal coverability set.
 
 use super::search::{Order, Search};
-use super::{Limits, Sequence, Tokens, Unfinished};
+use super::{FIRINGS, Limits, Sequence, Tokens, Unfinished};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 
@@ -25,7 +25,6 @@ pub struct CoverabilitySet<'n> {
     search: Search<'n>,
     /// By marking.
     maximal: Vec<u32>,
-    firings: u64,
 }
 
 impl<'n> CoverabilitySet<'n> {
@@ -33,10 +32,10 @@ impl<'n> CoverabilitySet<'n> {
     ///
     /// # Errors
     /// When a limit is reached.
-    pub fn new(pt: &'n Pt, limits: &Limits<'_>) -> Result<Self, Unfinished> {
+    pub fn new(pt: &'n Pt, limits: &Limits) -> Result<Self, Unfinished> {
         let mut search = Search::new(pt, Order::Greatest);
         search.run(limits, &mut |_| false)?;
-        Ok(Self { maximal: search.maximal(), search, firings: limits.firings })
+        Ok(Self { maximal: search.maximal(), search })
     }
 
     /// The maximal ω-markings, each by place, in ascending order.
@@ -82,7 +81,7 @@ impl<'n> CoverabilitySet<'n> {
         let id = *self.maximal.iter().find(is_covered)?;
         Some(
             self.search
-                .sequence(id, demand, self.firings)
+                .sequence(id, demand, FIRINGS)
                 .unwrap_or(Sequence { length: u128::MAX, firings: None }),
         )
     }

@@ -10,7 +10,7 @@ pub struct Sequence {
     /// How many firings; 2^128 - 1 stands for that and more.
     pub length: u128,
     /// The transitions; `None` when there are more than
-    /// [`Limits::firings`](super::Limits::firings).
+    /// [`FIRINGS`](super::FIRINGS).
     pub firings: Option<Vec<TransitionId>>,
 }
 

@@ -1,8 +1,6 @@
 //! What an engine may use.
 
-use crate::coverability;
 use crate::explicit::{Limit, Limits, Progress};
-use crate::tpn;
 use std::time::{Duration, Instant};
 
 /// What an engine may use.
@@ -42,24 +40,12 @@ impl Budget<'_> {
             Limit::Time => limits
                 .deadline
                 .is_some_and(|it| self.limits.deadline.is_none_or(|later| it < later)),
-            Limit::Tokens | Limit::Words | Limit::Unbounded => false,
+            Limit::Tokens | Limit::Words | Limit::Unbounded | Limit::Work => false,
         }
     }
 
     /// The same for coverability.
-    pub(crate) fn coverability<'s>(&self, stop: &'s dyn Fn() -> bool) -> coverability::Limits<'s> {
-        let nodes = self.limits.states.min(10_000_000);
-        coverability::Limits {
-            nodes,
-            bytes: self.limits.bytes,
-            stop,
-            ..coverability::Limits::default()
-        }
-    }
-
-    /// The same for state classes.
-    pub(crate) fn classes<'s>(&self, stop: &'s dyn Fn() -> bool) -> tpn::Limits<'s> {
-        let number = |it: u64| usize::try_from(it).unwrap_or(usize::MAX);
-        tpn::Limits { classes: number(self.limits.states), bytes: number(self.limits.bytes), stop }
+    pub(crate) fn coverability(&self) -> Limits {
+        Limits { states: self.limits.states.min(10_000_000), ..self.limits }
     }
 }

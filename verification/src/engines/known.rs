@@ -3,7 +3,7 @@
 use super::budget::Budget;
 use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
 use crate::pt::Pt;
-use crate::structural::{self, Structure};
+use crate::structural::Structure;
 use crate::temporal::Successors;
 use crate::tpn::{self, ClassGraph, Classes, TimeNet};
 use std::cell::{Cell, OnceCell, RefCell, RefMut};
@@ -96,13 +96,12 @@ impl<'n> Known<'n> {
 
     /// What its structure says, within this budget; `None` where it does not allow to look.
     pub fn structure(&self, budget: &Budget<'_>) -> Option<RefMut<'_, Structure<'n>>> {
-        let limits = structural::Limits::within(&budget.limits);
         let mut kept = self.structure.borrow_mut();
-        let known = kept.take().and_then(|it| it.within(limits));
+        let known = kept.take().and_then(|it| it.within(&budget.limits));
         if known.is_none() && (self.size() > budget.limits.bytes || budget.limits.is_over()) {
             return None;
         }
-        *kept = Some(known.unwrap_or_else(|| Structure::new(self.pt, limits)));
+        *kept = Some(known.unwrap_or_else(|| Structure::new(self.pt, &budget.limits)));
         RefMut::filter_map(kept, Option::as_mut).ok()
     }
 
@@ -147,9 +146,10 @@ impl<'n> Known<'n> {
     pub(crate) fn classes(
         &self,
         net: &TimeNet,
-        limits: &tpn::Limits<'_>,
-    ) -> Result<Rc<Classes>, (tpn::Stop, usize)> {
-        if let Some(classes) = self.classes.get().filter(|it| it.classes() <= limits.classes) {
+        limits: &Limits,
+    ) -> Result<Rc<Classes>, (Limit, usize)> {
+        if let Some(classes) = self.classes.get().filter(|it| it.classes() as u64 <= limits.states)
+        {
             return Ok(Rc::clone(classes));
         }
         let classes = Rc::new(tpn::classes(net, limits));
@@ -163,9 +163,9 @@ impl<'n> Known<'n> {
     pub(crate) fn atomic(
         &self,
         net: &TimeNet,
-        limits: &tpn::Limits<'_>,
-    ) -> Result<Rc<ClassGraph>, (tpn::Stop, usize)> {
-        if let Some(classes) = self.atomic.get().filter(|it| it.states() <= limits.classes) {
+        limits: &Limits,
+    ) -> Result<Rc<ClassGraph>, (Limit, usize)> {
+        if let Some(classes) = self.atomic.get().filter(|it| it.states() as u64 <= limits.states) {
             return Ok(Rc::clone(classes));
         }
         // Where the linear ones are no end, these are none.

@@ -43,7 +43,7 @@ impl Reason {
                 "`EF`, `AG` and `bounds(..)` of sums of tokens are answered without a bound"
             }
             Self::Limit(Limit::Tokens | Limit::Words) => "check a smaller net",
-            Self::Undecided => "let all engines be asked",
+            Self::Limit(Limit::Work) | Self::Undecided => "let all engines be asked",
             Self::Automaton => "ask for its parts one by one",
             Self::Unsuited => match question {
                 Question::Response { .. } if !is_timed => "keep the intervals of the net",
@@ -73,6 +73,7 @@ impl fmt::Display for Reason {
             Self::Limit(Limit::Tokens) => "a place can hold more than 4294967295 tokens",
             Self::Limit(Limit::Words) => "markings have come to take more than 128 words",
             Self::Limit(Limit::Unbounded) => "the net is unbounded",
+            Self::Limit(Limit::Work) => "the work for one question is done",
             Self::Undecided => "what the engine looks at allows both answers",
             Self::Automaton => "the automaton of the formula is too large",
             Self::Unsuited => "the engine does not answer such questions",

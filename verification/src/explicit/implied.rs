@@ -1,6 +1,7 @@
 //! Places whose tokens follow from those of others: they need not be stored.
 
-use crate::bounds::{combined, gcd};
+use crate::bounds::combined;
+use crate::integer::gcd;
 use crate::pt::Pt;
 
 /// Numbers that may be looked at: some tenths of a second.

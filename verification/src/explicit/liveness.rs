@@ -1,6 +1,7 @@
 //! What can always happen again.
 
 use super::graph::Graph;
+use crate::components::{Components, components};
 use cotama_core::net::TransitionId;
 
 /// Which transitions can fire once, which always again, and whether the net can always return to
@@ -40,67 +41,10 @@ impl Liveness {
     }
 }
 
-/// The strongly connected components of a [`Graph`]: sets of markings that can all be reached from
-/// each other.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Components {
-    /// For each marking its component. Arcs lead to components with smaller numbers, or stay.
-    pub of: Vec<u32>,
-    /// How many components there are.
-    pub count: u32,
-}
-
 impl Graph {
-    /// Its strongly connected components.
-    ///
-    /// They are those of D. J. Pearce, *A space-efficient algorithm for finding strongly connected
-    /// components*, Information Processing Letters 116 (2016), without recursion.
+    /// Its strongly connected components: sets of markings that can all be reached from each other.
     pub fn components(&self) -> Components {
-        let states = self.states() as u32;
-        // Zero for a marking that was not met; for one that is under way the least that it leads
-        // back to, as numbers in the order in which they were met; for others `states` minus the
-        // number of the component, which is never less.
-        let mut ranks = vec![0_u32; states as usize];
-        let (mut rank, mut count) = (1, 0);
-        // Markings that are left, and wait for the one that they lead back to.
-        let mut waiting: Vec<u32> = Vec::new();
-        let mut visits: Vec<Visit> = Vec::new();
-        // The initial marking leads to all others.
-        ranks[0] = rank;
-        rank += 1;
-        visits.push(Visit { state: 0, next: 0, rank: 1 });
-        while let Some(visit) = visits.last_mut() {
-            let state = visit.state;
-            if let Some(&to) = self.successors(state).get(visit.next as usize) {
-                if ranks[to as usize] == 0 {
-                    ranks[to as usize] = rank;
-                    visits.push(Visit { state: to, next: 0, rank });
-                    rank += 1;
-                    continue;
-                }
-                visit.next += 1;
-                ranks[state as usize] = ranks[state as usize].min(ranks[to as usize]);
-                continue;
-            }
-            if ranks[state as usize] == visit.rank {
-                // It leads back to none before it: those that wait for it are its component.
-                let first = visit.rank;
-                rank -= 1;
-                while let Some(member) = waiting.pop_if(|it| ranks[*it as usize] >= first) {
-                    ranks[member as usize] = states - count;
-                    rank -= 1;
-                }
-                ranks[state as usize] = states - count;
-                count += 1;
-            } else {
-                waiting.push(state);
-            }
-            visits.pop();
-        }
-        for it in &mut ranks {
-            *it = states - *it;
-        }
-        Components { of: ranks, count }
+        components(self.states(), |state, at| self.successors(state).get(at as usize).copied())
     }
 
     /// What can always happen again.
@@ -135,14 +79,4 @@ impl Graph {
             home: if is_home { last.len() as u64 } else { 0 },
         }
     }
-}
-
-/// A marking that is being visited.
-#[derive(Debug)]
-struct Visit {
-    state: u32,
-    /// Its next successor.
-    next: u32,
-    /// When it was met.
-    rank: u32,
 }

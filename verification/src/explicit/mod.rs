@@ -55,75 +55,19 @@ mod view;
 mod wide;
 mod worker;
 
+pub use crate::components::Components;
+pub use crate::limits::{Limit, Limits};
 pub use bits::BitSet;
 pub use engine::{Explicit, Few, Stored};
 pub(crate) use engine::{certified, evidence, reached};
 pub use goal::Goal;
 pub use graph::Graph;
 pub use growth::Growth;
-pub use liveness::{Components, Liveness};
+pub use liveness::Liveness;
 pub(crate) use markings::{Index, Look, Markings, Memory, hash};
 pub(crate) use reach::most;
 pub use reach::{Reached, reach};
 pub use statespace::{StateSpace, statespace};
-
-use std::time::Instant;
-
-/// How much a search may use.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
-    /// The most markings. A level of the search that does not fit as a whole is not counted at all.
-    pub states: u64,
-    /// The most bytes for markings, tables and arcs, before they are taken.
-    pub bytes: u64,
-    /// When to stop.
-    pub deadline: Option<Instant>,
-}
-
-impl Limits {
-    /// Whether the time is over.
-    pub fn is_over(&self) -> bool {
-        self.deadline.is_some_and(|it| Instant::now() >= it)
-    }
-}
-
-impl Default for Limits {
-    /// No limit on markings and time, 4 GiB.
-    fn default() -> Self {
-        Self { states: u64::MAX, bytes: 4 << 30, deadline: None }
-    }
-}
-
-/// Why a search ended before its end.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Limit {
-    /// More markings than [`Limits::states`].
-    States,
-    /// More memory than [`Limits::bytes`].
-    Bytes,
-    /// [`Limits::deadline`] has passed.
-    Time,
-    /// A place with more than 4,294,967,295 tokens.
-    Tokens,
-    /// A marking that no longer fits in 128 words, as places hold more than it seemed. Nets of
-    /// which no marking fits are searched too.
-    Words,
-    /// The net is unbounded: it has no end.
-    Unbounded,
-}
-
-impl Limit {
-    const ALL: [Self; 6] =
-        [Self::States, Self::Bytes, Self::Time, Self::Tokens, Self::Words, Self::Unbounded];
-
-    fn code(self) -> u8 {
-        1 + self as u8
-    }
-
-    fn of(code: u8) -> Option<Self> {
-        Self::ALL.get(usize::from(code).checked_sub(1)?).copied()
-    }
-}
 
 /// A search that ended before its end.
 ///

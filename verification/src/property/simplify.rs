@@ -1,6 +1,7 @@
 //! Shorter formulas that say the same of every net.
 
 use super::{Atom, Formula, Linear};
+use crate::integer::gcd;
 use std::collections::HashSet;
 
 impl Formula {
@@ -269,8 +270,4 @@ impl Linear {
                 .collect(),
         }))
     }
-}
-
-fn gcd(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { gcd(b, a % b) }
 }

@@ -3,11 +3,10 @@
 use super::record::Record;
 use super::supply::Supply;
 use super::trail::{Tokens, Trail};
-use super::{Goal, Limits};
+use super::{Goal, Keep, Limits};
 use crate::pt::{Bounds, Lists, Pt};
 use cotama_core::net::PlaceId;
 use std::collections::BTreeSet;
-use std::time::Instant;
 
 /// Numbers by place or by transition, sorted.
 pub(super) type Row = Vec<(u32, i64)>;
@@ -97,14 +96,14 @@ pub(super) struct Draft {
     pub(super) goal: Goal,
     /// How much more may be looked at.
     work: u64,
-    /// How much was left when the clock was looked at, and when to stop.
+    /// How much was left when the clock was looked at.
     looked: u64,
-    deadline: Option<Instant>,
+    limits: Limits,
     pub(super) record: Record,
 }
 
 impl Draft {
-    pub(super) fn new(pt: &Pt, visible: Vec<bool>, goal: Goal, limits: &Limits) -> Self {
+    pub(super) fn new(pt: &Pt, keep: &Keep, limits: &Limits, work: u64) -> Self {
         let moves: Vec<_> = (0..pt.transitions.len() as u32)
             .map(|it| {
                 let (needs, effects) = (pt.needs.of(it).to_vec(), pt.effects.of(it).to_vec());
@@ -119,14 +118,14 @@ impl Draft {
         Self {
             initial: pt.initial.clone(),
             present: vec![true; pt.places.len()],
-            visible,
+            visible: keep.visible(pt),
             users: (0..pt.places.len() as u32).map(of).collect(),
             arcs,
             most_arcs: 2 * arcs + 100,
-            goal,
-            work: limits.work,
-            looked: limits.work,
-            deadline: limits.deadline,
+            goal: keep.goal,
+            work,
+            looked: work,
+            limits: *limits,
             record: Record::new(moves.len()),
             moves,
         }
@@ -163,7 +162,7 @@ impl Draft {
         self.work = self.work.saturating_sub(work as u64);
         if self.looked - self.work > TICK {
             self.looked = self.work;
-            if self.deadline.is_some_and(|it| Instant::now() >= it) {
+            if self.limits.is_over() {
                 (self.work, self.looked) = (0, 0);
             }
         }

@@ -1,7 +1,7 @@
 //! Places that are filled when they are needed go.
 
-use super::components::components;
 use super::draft::{Draft, Move};
+use crate::components::components;
 use std::collections::BTreeMap;
 
 /// Takes away the places that transitions fill that need nothing.
@@ -47,7 +47,8 @@ pub(super) fn free_cycles(draft: &mut Draft, names: &mut Vec<String>) -> usize {
             moves.push((at as u32, from, to));
         }
     }
-    let component = components(&edges);
+    let component =
+        components(edges.len(), |node, at| edges[node as usize].get(at as usize).copied()).of;
     let mut members: BTreeMap<u32, Vec<u32>> = BTreeMap::new();
     for place in draft.places() {
         members.entry(component[place as usize]).or_default().push(place);

@@ -34,7 +34,6 @@
 //! - Thierry-Mieg, "Structural reductions revisited", 2020.
 
 mod agglomerate;
-mod components;
 mod draft;
 mod filled;
 mod implied;
@@ -47,6 +46,7 @@ mod supply;
 mod trail;
 mod transitions;
 
+pub use crate::limits::Limits;
 pub use lift::LiftError;
 pub use rule::Rule;
 pub use trail::{Tokens, Trail};
@@ -55,7 +55,6 @@ use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 use draft::Draft;
 use std::collections::BTreeMap;
-use std::time::Instant;
 
 /// What is asked of the net, and so must stay the same.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -106,19 +105,17 @@ impl Keep {
 
 /// How much is done.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct Effort {
     /// The rules that may be used; those that do not keep the goal are not.
     pub rules: Vec<Rule>,
     /// How many arcs may be looked at, roughly. When they have been, the net is left as far as it
     /// is reduced.
     pub work: u64,
-    /// When to leave it so.
-    pub deadline: Option<Instant>,
 }
 
-impl Default for Limits {
+impl Default for Effort {
     fn default() -> Self {
-        Self { rules: Rule::ALL.to_vec(), work: 100_000_000, deadline: None }
+        Self { rules: Rule::ALL.to_vec(), work: 100_000_000 }
     }
 }
 
@@ -147,17 +144,18 @@ pub struct Reduced {
 /// assert_eq!((pt.places.len(), reduced.net.places.len()), (25, 20));
 /// ```
 pub fn reduce(pt: &Pt, keep: &Keep) -> Reduced {
-    reduce_within(pt, keep, &Limits::default())
+    reduce_within(pt, keep, &Limits::default(), &Effort::default())
 }
 
-/// Reduces a net within limits.
-pub fn reduce_within(pt: &Pt, keep: &Keep, limits: &Limits) -> Reduced {
-    let mut draft = Draft::new(pt, keep.visible(pt), keep.goal, limits);
+/// Reduces a net with such an effort. When the time is over, the net is left as far as it is
+/// reduced; the other limits matter to what is done with it.
+pub fn reduce_within(pt: &Pt, keep: &Keep, limits: &Limits, effort: &Effort) -> Reduced {
+    let mut draft = Draft::new(pt, keep, limits, effort.work);
     let mut names = pt.transitions.clone();
     let mut counts: BTreeMap<Rule, usize> = BTreeMap::new();
     let usable: Vec<Rule> = Rule::ALL
         .into_iter()
-        .filter(|it| it.keeps(keep.goal) && limits.rules.contains(it))
+        .filter(|it| it.keeps(keep.goal) && effort.rules.contains(it))
         .collect();
     let mut changed = true;
     while std::mem::take(&mut changed) {

@@ -1,14 +1,11 @@
 //! Rules by which places go, each for itself or because of one other.
 
 use super::draft::{Draft, Row};
+use crate::integer::gcd;
 use std::collections::BTreeMap;
 
 /// How many places or transitions of a kind one is compared with.
 pub(super) const COMPARED: usize = 16;
-
-pub(super) fn gcd(a: u64, b: u64) -> u64 {
-    if b == 0 { a } else { gcd(b, a % b) }
-}
 
 /// A row divided by its greatest common divisor, and that; 0 for an empty row.
 pub(super) fn normal(row: &[(u32, i64)]) -> (Row, i64) {

@@ -1,7 +1,7 @@
 //! Rules by which parts of the net go that do not matter to the rest.
 
-use super::components::components;
 use super::draft::Draft;
+use crate::components::components;
 
 /// What matters to places and transitions that matter from the start.
 struct Matter {
@@ -80,7 +80,8 @@ pub(super) fn suffix(draft: &mut Draft) -> usize {
         }
         edges[node as usize].extend(gained.iter().map(|it: &(u32, i64)| it.0));
     }
-    let component = components(&edges);
+    let component =
+        components(edges.len(), |node, at| edges[node as usize].get(at as usize).copied()).of;
     let mut sizes = vec![0; edges.len()];
     for &it in &component {
         sizes[it as usize] += 1;

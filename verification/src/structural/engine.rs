@@ -1,11 +1,10 @@
 //! The engine that looks at the structure of a net.
 
 use super::clauses::clauses;
-use super::{Answer, Limits, Stop, Unknown, commoner, minimal_siphons_within};
+use super::{Answer, Limit, Unknown, commoner, minimal_siphons_within};
 use crate::bounds::bounds_within;
 use crate::certificate::Evidence;
 use crate::engines::{Bid, Budget, Engine, Extent, Finding, Found, Known, Reason, Task};
-use crate::explicit::Limit;
 use crate::property::{Atom, Formula, Linear};
 use crate::temporal::{Rest, Run};
 
@@ -67,7 +66,7 @@ fn deadlock(net: &Known<'_>, budget: &Budget<'_>) -> Found {
 
 fn undecided(why: &Unknown) -> Reason {
     match why {
-        Unknown::Limit(Stop::Time) => Reason::Limit(Limit::Time),
+        Unknown::Limit(Limit::Time) => Reason::Limit(Limit::Time),
         _ => Reason::Undecided,
     }
 }
@@ -87,7 +86,7 @@ fn goal_by_clauses(net: &Known<'_>, goal: &Formula, budget: &Budget<'_>) -> Foun
             match structure.reach(clause) {
                 Answer::Impossible(proof) => parts.push((clause.clone(), proof)),
                 Answer::Reachable(way) => return Found::Way(way),
-                Answer::Unknown(Unknown::Limit(Stop::Time)) => {
+                Answer::Unknown(Unknown::Limit(Limit::Time)) => {
                     return Found::Nothing(Reason::Limit(Limit::Time));
                 }
                 Answer::Unknown(_) => undecided = true,
@@ -167,7 +166,6 @@ fn live(net: &Known<'_>, budget: &Budget<'_>) -> Found {
     if let Found::Way(stem) = deadlock(net, budget) {
         return Found::Holds(false, Some(Run { stem, rest: Rest::Stays }), Evidence::None);
     }
-    let limits = Limits::within(&budget.limits);
-    let siphons = minimal_siphons_within(pt, SIPHONS, limits, budget.limits.bytes);
+    let siphons = minimal_siphons_within(pt, SIPHONS, &budget.limits);
     commoner(pt, &siphons).live.map_or(UNDECIDED, |it| Found::Holds(it, None, Evidence::None))
 }

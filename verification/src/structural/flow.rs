@@ -1,6 +1,6 @@
 //! Invariants of places and transitions: solutions of homogeneous equations, in integers.
 
-use super::Stop;
+use super::Limit;
 use super::row::{Row, at, cancelling, combined};
 use super::work::Work;
 use crate::pt::{Lists, Pt};
@@ -97,7 +97,7 @@ fn flow(row: &Row, width: u32) -> Flow {
 }
 
 /// A basis of what multiplied with the rows of a matrix of this width gives zero.
-pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<Vec<Flow>, Stop> {
+pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<Vec<Flow>, Limit> {
     let mut rows: Vec<Row> = augmented(matrix, width).collect();
     rows.sort_by_key(Vec::len);
     let mut leading: BTreeMap<u32, Row> = BTreeMap::new();
@@ -114,15 +114,15 @@ pub(super) fn basis(matrix: &Lists<i64>, width: u32, work: &mut Work) -> Result<
                 break;
             };
             work.spend(row.len() + pivot.len())?;
-            let (a, b) = cancelling(number, at(pivot, column)).ok_or(Stop::Overflow)?;
-            row = combined(&row, a, pivot, b).ok_or(Stop::Overflow)?;
+            let (a, b) = cancelling(number, at(pivot, column)).ok_or(Limit::Tokens)?;
+            row = combined(&row, a, pivot, b).ok_or(Limit::Tokens)?;
         }
     }
     // Most flows of a net have no negative weights: show them that way round.
     for flow in &mut flows {
         if flow.iter().filter(|it| it.1 < 0).count() * 2 > flow.len() {
             for it in flow.iter_mut() {
-                it.1 = it.1.checked_neg().ok_or(Stop::Overflow)?;
+                it.1 = it.1.checked_neg().ok_or(Limit::Tokens)?;
             }
         }
     }

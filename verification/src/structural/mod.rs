@@ -23,6 +23,7 @@ mod structure;
 mod tableau;
 mod work;
 
+pub use crate::limits::{Limit, Limits};
 pub use class::{Class, class};
 pub use commoner::{Commoner, commoner};
 pub use engine::Structural;
@@ -33,56 +34,30 @@ pub(crate) use siphon::minimal_siphons_within;
 pub use siphon::{Siphon, Siphons, greatest_siphon, greatest_trap, minimal_siphons, never_marked};
 pub use structure::Structure;
 
-use crate::explicit;
 use cotama_core::net::TransitionId;
-use std::time::Instant;
 
-/// What one question may cost. The same limits without a deadline give the same answer on every
-/// machine.
+/// How much is done for one question. The same effort without a deadline gives the same answer on
+/// every machine.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Limits {
+pub struct Effort {
     /// Numbers and arcs that are looked at.
     pub work: u64,
     /// Cases that are told apart.
     pub nodes: u32,
-    /// When to stop.
-    pub deadline: Option<Instant>,
 }
 
-impl Default for Limits {
+impl Default for Effort {
     /// Some tenths of a second.
     fn default() -> Self {
-        Self { work: 20_000_000, nodes: 1_000, deadline: None }
+        Self { work: 20_000_000, nodes: 1_000 }
     }
-}
-
-impl Limits {
-    /// What a question may cost beside other engines. Each number of a row takes 16 bytes, and of
-    /// what is looked at at most a quarter is kept.
-    pub(crate) fn within(limits: &explicit::Limits) -> Self {
-        let usual = Self::default();
-        Self { work: usual.work.min(limits.bytes / 64), deadline: limits.deadline, ..usual }
-    }
-}
-
-/// A limit that was reached.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
-    /// [`Limits::work`]
-    Work,
-    /// [`Limits::nodes`], or how deep cases may be nested.
-    Nodes,
-    /// A number passed 63 bits.
-    Overflow,
-    /// [`Limits::deadline`]
-    Time,
 }
 
 /// Why there is no answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Unknown {
-    /// A limit was reached.
-    Limit(Stop),
+    /// A limit was reached; [`Limit::Work`]: that of the effort, or of how deep cases are nested.
+    Limit(Limit),
     /// The state equation and all traps allow this marking; whether it is reachable was not found
     /// out.
     Candidate(Vec<u32>),

@@ -1,7 +1,7 @@
 //! The state equation of a net as a linear program: the marking is the initial one plus what
 //! firings change.
 
-use super::Stop;
+use super::Limit;
 use super::certificate::{LinearInvariant, Sum, Trap};
 use super::flow::basis;
 use super::row::Row;
@@ -45,7 +45,7 @@ impl Program {
         pt: &Pt,
         can_fire: impl Fn(TransitionId) -> bool,
         work: &mut Work,
-    ) -> Result<Self, Stop> {
+    ) -> Result<Self, Limit> {
         let mut tableau = Tableau::default();
         let mut columns = Vec::new();
         let mut seen = BTreeMap::new();
@@ -81,7 +81,7 @@ impl Program {
         pt: &Pt,
         can_fire: impl Fn(TransitionId) -> bool,
         work: Work,
-    ) -> Result<Self, Stop> {
+    ) -> Result<Self, Limit> {
         let places = 0..pt.places.len() as u32;
         let changers = Lists::new(places.clone().map(|place| {
             pt.changers.of(place).iter().copied().filter(|it| can_fire(TransitionId(it.0)))
@@ -100,7 +100,7 @@ impl Program {
             let total = flow.iter().try_fold(0_i64, |sum, it| sum.checked_add(tokens(it)?));
             // With the marked places as basic variables the point is close to the initial marking.
             let preferred = |place: u32| pt.initial[place as usize] > 0;
-            let total = total.ok_or(Stop::Overflow)?;
+            let total = total.ok_or(Limit::Tokens)?;
             program.tableau.equate(&flow, total, preferred, &mut equating)?;
         }
         program.satisfy(&[], &mut work.clone())?;
@@ -108,14 +108,14 @@ impl Program {
     }
 
     /// A weighted sum of tokens times a factor. Places that the net does not have are empty.
-    fn terms(&self, weights: &[(PlaceId, i64)], factor: i64) -> Result<Row, Stop> {
+    fn terms(&self, weights: &[(PlaceId, i64)], factor: i64) -> Result<Row, Limit> {
         let mut terms = BTreeMap::new();
         for &(place, weight) in weights.iter().filter(|it| it.0.0 < self.count) {
             let sum: &mut i64 = terms.entry(self.places + place.0).or_insert(0);
             *sum = weight
                 .checked_mul(factor)
                 .and_then(|it| sum.checked_add(it))
-                .ok_or(Stop::Overflow)?;
+                .ok_or(Limit::Tokens)?;
         }
         Ok(terms.into_iter().filter(|it| it.1 != 0).collect())
     }
@@ -126,16 +126,16 @@ impl Program {
         at: usize,
         premise: &Linear,
         work: &mut Work,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Limit> {
         let terms = self.terms(&premise.weights, 1)?;
-        let right = premise.constant.checked_neg().ok_or(Stop::Overflow)?;
+        let right = premise.constant.checked_neg().ok_or(Limit::Tokens)?;
         self.tableau.add(&terms, right, work)?;
         self.columns.push(Column::Premise(at));
         Ok(())
     }
 
     /// That a trap is marked.
-    pub(super) fn mark(&mut self, trap: Trap, work: &mut Work) -> Result<(), Stop> {
+    pub(super) fn mark(&mut self, trap: Trap, work: &mut Work) -> Result<(), Limit> {
         let weights: Vec<_> = trap.places.iter().map(|&it| (it, 1)).collect();
         let terms = self.terms(&weights, -1)?;
         self.tableau.add(&terms, -1, work)?;
@@ -148,7 +148,7 @@ impl Program {
         &mut self,
         premises: &[Linear],
         work: &mut Work,
-    ) -> Result<Option<Sum>, Stop> {
+    ) -> Result<Option<Sum>, Limit> {
         while let Some(row) = self.tableau.violated(work)? {
             if self.tableau.raise(row, true, work)? != Raised::Feasible {
                 return self.sum(row, premises).map(Some);
@@ -164,7 +164,7 @@ impl Program {
         &mut self,
         weights: &[(PlaceId, i64)],
         work: &mut Work,
-    ) -> Result<Option<(i64, Sum)>, Stop> {
+    ) -> Result<Option<(i64, Sum)>, Limit> {
         let terms = self.terms(weights, -1)?;
         let row = self.tableau.add(&terms, 0, work)?;
         self.columns.push(Column::Premise(0));
@@ -188,8 +188,8 @@ impl Program {
 
     /// What a row without negative numbers proves: it says that tokens, surpluses and firings add
     /// up to a constant. Surpluses written as tokens, the tokens are what no firing increases.
-    fn sum(&self, row: usize, premises: &[Linear]) -> Result<Sum, Stop> {
-        self.checked_sum(row, premises).ok_or(Stop::Overflow)
+    fn sum(&self, row: usize, premises: &[Linear]) -> Result<Sum, Limit> {
+        self.checked_sum(row, premises).ok_or(Limit::Tokens)
     }
 
     fn checked_sum(&self, row: usize, premises: &[Linear]) -> Option<Sum> {
@@ -231,7 +231,7 @@ impl Program {
     }
 
     /// A copy to go on with.
-    pub(super) fn copied(&self, work: &mut Work) -> Result<Self, Stop> {
+    pub(super) fn copied(&self, work: &mut Work) -> Result<Self, Limit> {
         work.pass(self.tableau.len() + self.columns.len())?;
         Ok(self.clone())
     }

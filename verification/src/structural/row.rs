@@ -1,5 +1,6 @@
 //! Sparse rows of integers.
 
+use crate::integer::gcd;
 use std::cmp::Ordering;
 
 /// Numbers by column, sorted, none of them zero.
@@ -39,15 +40,8 @@ pub(super) fn combined(first: &[(u32, i64)], a: i64, second: &[(u32, i64)], b: i
 fn wide(first: &[(u32, i64)], a: i64, second: &[(u32, i64)], b: i64) -> Option<Row> {
     let sum = |x, y| i128::from(a) * i128::from(x) + i128::from(b) * i128::from(y);
     let all: Vec<_> = aligned(first, second).map(|(column, x, y)| (column, sum(x, y))).collect();
-    let divisor = all.iter().fold(0_u128, |divisor, it| match (divisor, it.1.unsigned_abs()) {
-        (1, _) => 1,
-        (mut x, mut y) => {
-            while y > 0 {
-                (x, y) = (y, x % y);
-            }
-            x
-        }
-    });
+    let common = |divisor, number| if divisor == 1 { 1 } else { gcd(divisor, number) };
+    let divisor = all.iter().fold(0_u128, |divisor, it| common(divisor, it.1.unsigned_abs()));
     let divisor = i128::try_from(divisor.max(1)).ok()?;
     let narrow =
         |&(column, number): &(u32, i128)| Some((column, i64::try_from(number / divisor).ok()?));
@@ -81,11 +75,4 @@ pub(super) fn cancelling(x: i64, y: i64) -> Option<(i64, i64)> {
     let divisor = i64::try_from(gcd(x.unsigned_abs(), y.unsigned_abs())).ok()?;
     let (x, y) = (x / divisor, y / divisor);
     if y > 0 { Some((y, x.checked_neg()?)) } else { Some((y.checked_neg()?, x)) }
-}
-
-pub(super) fn gcd(mut a: u64, mut b: u64) -> u64 {
-    while b > 0 {
-        (a, b) = (b, a % b);
-    }
-    a
 }

@@ -4,8 +4,8 @@
 use super::certificate::{Refutation, at_least, at_most, fewer, holds_at_start};
 use super::program::Program;
 use super::siphon::Graph;
-use super::work::Work;
-use super::{Limits, Stop, Unknown};
+use super::work::{Cost, Work};
+use super::{Limit, Unknown};
 use crate::property::Linear;
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
@@ -37,29 +37,29 @@ pub(super) enum End {
     Unknown(Unknown),
 }
 
-impl From<Stop> for End {
-    fn from(stop: Stop) -> Self {
-        Self::Unknown(Unknown::Limit(stop))
+impl From<Limit> for End {
+    fn from(limit: Limit) -> Self {
+        Self::Unknown(Unknown::Limit(limit))
     }
 }
 
 impl<'s> Search<'s> {
-    pub(super) fn new(graph: &'s Graph<'s>, goal: &[Linear], limits: &Limits) -> Self {
+    pub(super) fn new(graph: &'s Graph<'s>, goal: &[Linear], cost: Cost) -> Self {
         Self {
             graph,
             premises: goal.to_vec(),
             undecided: Vec::new(),
             dead: false,
-            work: (*limits).into(),
-            nodes: limits.nodes,
+            work: cost.into(),
+            nodes: cost.nodes,
             depth: DEPTH,
         }
     }
 
     /// The same question within other limits.
-    pub(super) fn within(&self, limits: Limits) -> Self {
+    pub(super) fn within(&self, cost: Cost) -> Self {
         let undecided = self.undecided.clone();
-        Self { undecided, dead: self.dead, ..Self::new(self.graph, &self.premises, &limits) }
+        Self { undecided, dead: self.dead, ..Self::new(self.graph, &self.premises, cost) }
     }
 
     /// Refutes all that is assumed. The program knows only the state equation and traps.
@@ -76,8 +76,8 @@ impl<'s> Search<'s> {
     }
 
     fn solve(&mut self, mut program: Program) -> Result<Refutation, End> {
-        self.nodes = self.nodes.checked_sub(1).ok_or(Stop::Nodes)?;
-        self.depth = self.depth.checked_sub(1).ok_or(Stop::Nodes)?;
+        self.nodes = self.nodes.checked_sub(1).ok_or(Limit::Work)?;
+        self.depth = self.depth.checked_sub(1).ok_or(Limit::Work)?;
         loop {
             if let Some(sum) = program.satisfy(&self.premises, &mut self.work)? {
                 return Ok(Refutation::Sum(sum));
@@ -109,7 +109,7 @@ impl<'s> Search<'s> {
             (numerator % denominator != 0).then_some((place, numerator / denominator))
         });
         let Some((place, at)) = fraction else { return Err(self.candidate(&program)) };
-        let at = u32::try_from(at).map_err(|_| Stop::Overflow)?;
+        let at = u32::try_from(at).map_err(|_| Limit::Tokens)?;
         let place = PlaceId(place);
         let below = Box::new(self.case(&program, at_most(place, at))?);
         let above = Box::new(self.case(&program, at_least(place, i64::from(at) + 1))?);
@@ -131,7 +131,7 @@ impl<'s> Search<'s> {
         let pt = self.pt();
         let tokens = (0..pt.places.len() as u32).map(|it| u32::try_from(program.tokens(it).0));
         let Ok(marking) = tokens.collect::<Result<Vec<_>, _>>() else {
-            return Stop::Overflow.into();
+            return Limit::Tokens.into();
         };
         let trace = program.firings().and_then(|it| self.fire(it)).filter(|trace| {
             let after = trace.iter().try_fold(pt.initial.clone(), |now, it| pt.fire(&now, it.0));

@@ -1,8 +1,8 @@
 //! Siphons, which stay empty once they are, and traps, which stay marked once they are.
 
 use super::certificate::{DeadTransitions, Trap};
-use super::work::Work;
-use super::{Limits, Stop};
+use super::work::{Cost, Work};
+use super::{Effort, Limit, Limits};
 use crate::pt::{Lists, Pt};
 use cotama_core::net::{PlaceId, TransitionId};
 
@@ -113,7 +113,7 @@ impl<'a> Graph<'a> {
         &self,
         mut places: Places,
         work: &mut Work,
-    ) -> Result<Option<Trap>, Stop> {
+    ) -> Result<Option<Trap>, Limit> {
         work.pass(self.pt.arcs + places.len())?;
         self.greatest_trap(&mut places);
         if !self.marked(&places) {
@@ -128,7 +128,7 @@ impl<'a> Graph<'a> {
             Some(self.marked(fewer))
         });
         match end {
-            Err(Stop::Time) => Err(Stop::Time),
+            Err(Limit::Time) => Err(Limit::Time),
             _ => Ok(Some(Trap { places: ids(&places) })),
         }
     }
@@ -264,20 +264,18 @@ impl Siphons {
 /// assert_eq!(found.controlled(), Some(true));
 /// ```
 pub fn minimal_siphons(pt: &Pt, limit: usize, work: u64) -> Siphons {
-    minimal_siphons_within(pt, limit, Limits { work, ..Limits::default() }, u64::MAX)
+    siphons(pt, limit, Work::new(work, None), u64::MAX)
 }
 
-/// The same within a time, and so many bytes for sets of places that wait.
-pub(crate) fn minimal_siphons_within(
-    pt: &Pt,
-    limit: usize,
-    limits: Limits,
-    mut bytes: u64,
-) -> Siphons {
+/// The same with the usual effort within limits.
+pub(crate) fn minimal_siphons_within(pt: &Pt, limit: usize, limits: &Limits) -> Siphons {
+    siphons(pt, limit, Cost::new(Effort::default(), limits).into(), limits.bytes)
+}
+
+fn siphons(pt: &Pt, limit: usize, mut work: Work, mut bytes: u64) -> Siphons {
     let graph = Graph::new(pt, &DeadTransitions::default());
     let cost = pt.arcs + pt.places.len();
     let mut found = Siphons { siphons: Vec::new(), complete: false };
-    let mut work = Work::from(limits);
     // Siphons within the first places that contain the second ones. Whichever has not all places of
     // a siphon that was found lacks a first one and contains those before it.
     let mut open: Vec<(Places, Vec<usize>)> = vec![(vec![true; pt.places.len()], Vec::new())];

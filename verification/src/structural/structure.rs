@@ -6,8 +6,8 @@ use super::certificate::{
 use super::program::Program;
 use super::search::{End, Search};
 use super::siphon::Graph;
-use super::work::Work;
-use super::{Answer, Limits, Stop, Unknown};
+use super::work::{Cost, Work};
+use super::{Answer, Effort, Limit, Limits, Unknown};
 use crate::property::Linear;
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 
 /// A net, and what is known of its structure so far.
 ///
-/// Each question has its own [`Limits`]. Proofs lean on [`Structure::dead`] as it is when the proof
+/// Each question has its own effort. Proofs lean on [`Structure::dead`] as it is when the proof
 /// is made; it only grows with [`Structure::find_dead_transitions`], and earlier proofs stay valid.
 ///
 /// ```
@@ -44,7 +44,7 @@ use std::sync::Arc;
 ///     .unwrap();
 /// }
 /// let net = Pt::from(&net.view().net());
-/// let mut structure = Structure::new(&net, Limits::default());
+/// let mut structure = Structure::new(&net, &Limits::default());
 /// let both = [(net.place("a busy").unwrap(), 1), (net.place("b busy").unwrap(), 1)];
 /// let bound = structure.upper_bound(&both).unwrap();
 /// assert_eq!(bound.at_most, 1);
@@ -56,51 +56,59 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Structure<'a> {
     pt: &'a Pt,
-    limits: Limits,
+    cost: Cost,
     dead: DeadTransitions,
     /// What place invariants alone say, and what the state equation says.
-    programs: [Result<Program, Stop>; 2],
+    programs: [Result<Program, Limit>; 2],
     graph: Graph<'a>,
     bounds: Option<Vec<Option<Bound>>>,
     /// Which limit ended something that is kept.
-    cut: Option<Stop>,
+    cut: Option<Limit>,
 }
 
 impl<'a> Structure<'a> {
     /// Looks at a net; finds the transitions that can never fire because a place never gets what
     /// they need.
-    pub fn new(pt: &'a Pt, limits: Limits) -> Self {
+    pub fn new(pt: &'a Pt, limits: &Limits) -> Self {
+        Self::with_effort(pt, limits, Effort::default())
+    }
+
+    /// The same with another effort.
+    pub fn with_effort(pt: &'a Pt, limits: &Limits, effort: Effort) -> Self {
+        let cost = Cost::new(effort, limits);
         let dead = DeadTransitions { transitions: starved(pt, &[]), refutations: Vec::new() };
         let graph = Graph::new(pt, &dead);
-        let programs = Self::programs(pt, &dead, limits);
-        let mut structure = Self { pt, limits, dead, programs, graph, bounds: None, cut: None };
+        let programs = Self::programs(pt, &dead, cost);
+        let mut structure = Self { pt, cost, dead, programs, graph, bounds: None, cut: None };
         structure.note_cut();
         structure
     }
 
-    /// The same within other limits; `None` when they allow more than what it owes its gaps to.
-    pub(crate) fn within(self, limits: Limits) -> Option<Self> {
-        let later = match (self.limits.deadline, limits.deadline) {
+    /// The same within other limits, with the usual effort; `None` when that is more than what it
+    /// owes its gaps to.
+    pub(crate) fn within(self, limits: &Limits) -> Option<Self> {
+        let cost = Cost::new(Effort::default(), limits);
+        let later = match (self.cost.deadline, cost.deadline) {
             (Some(before), Some(now)) => now > before,
             (Some(_), None) => true,
             (None, _) => false,
         };
         let is_owed = match self.cut {
-            Some(Stop::Time) => later,
-            Some(Stop::Work) => limits.work > self.limits.work,
+            Some(Limit::Time) => later,
+            Some(Limit::Work) => cost.work > self.cost.work,
             _ => false,
         };
-        (!is_owed).then_some(Self { limits, ..self })
+        (!is_owed).then_some(Self { cost, ..self })
     }
 
     fn note_cut(&mut self) {
         let mut stops = self.programs.iter().filter_map(|it| it.as_ref().err().copied());
-        self.cut = stops.rfind(|it| matches!(it, Stop::Work | Stop::Time)).or(self.cut);
+        self.cut = stops.rfind(|it| matches!(it, Limit::Work | Limit::Time)).or(self.cut);
     }
 
-    fn programs(pt: &Pt, dead: &DeadTransitions, limits: Limits) -> [Result<Program, Stop>; 2] {
-        let small = Program::invariants(pt, |it| dead.can_fire(it), limits.into());
-        [small, Program::new(pt, |it| dead.can_fire(it), &mut limits.into())]
+    fn programs(pt: &Pt, dead: &DeadTransitions, cost: Cost) -> [Result<Program, Limit>; 2] {
+        let small = Program::invariants(pt, |it| dead.can_fire(it), cost.into());
+        [small, Program::new(pt, |it| dead.can_fire(it), &mut cost.into())]
     }
 
     /// The transitions that are known never to fire, with the proof.
@@ -113,7 +121,7 @@ impl<'a> Structure<'a> {
         if certificate::holds_at_start(self.pt, goal) {
             return Answer::Reachable(Vec::new());
         }
-        self.answer(Search::new(&self.graph, goal, &self.limits))
+        self.answer(Search::new(&self.graph, goal, self.cost))
     }
 
     /// Asks the small program, which often suffices, then the large one.
@@ -122,11 +130,11 @@ impl<'a> Structure<'a> {
         if let Ok(small) = small {
             let share = search.work.left / 4;
             let mut first =
-                search.within(Limits { work: share, nodes: search.nodes.min(16), ..self.limits });
+                search.within(Cost { work: share, nodes: search.nodes.min(16), ..self.cost });
             let found = first.run(small);
             search.work.left -= share - first.work.left;
             match found {
-                Err(End::Unknown(Unknown::Limit(Stop::Time))) | Ok(_) => return found,
+                Err(End::Unknown(Unknown::Limit(Limit::Time))) | Ok(_) => return found,
                 Err(_) => {}
             }
         }
@@ -144,22 +152,22 @@ impl<'a> Structure<'a> {
     /// The least number found that a weighted sum of tokens never exceeds; `None` when none was
     /// found.
     pub fn upper_bound(&mut self, weights: &[(PlaceId, i64)]) -> Option<Bound> {
-        let share = self.limits.work / 4;
-        let mut work = Work::from(self.limits).with(2 * share);
+        let share = self.cost.work / 4;
+        let mut work = Work::from(self.cost).with(2 * share);
         let large = self.relaxed_bound(1, weights, &mut work);
         work.left += share;
         let mut bound = large.or_else(|_| self.relaxed_bound(0, weights, &mut work)).ok()??;
-        let mut left = Limits { work: work.left + share, ..self.limits };
+        let mut left = Cost { work: work.left + share, ..self.cost };
         // The bound may be due to fractions of tokens: is it reached in whole ones?
         while let Some(at_most) = bound.at_most.checked_sub(1) {
             let goal: Vec<_> = above(weights, at_most).into_iter().collect();
             if goal.is_empty() || certificate::holds_at_start(self.pt, &goal) {
                 break;
             }
-            let mut search = Search::new(&self.graph, &goal, &left);
+            let mut search = Search::new(&self.graph, &goal, left);
             let Ok(refutation) = self.run(&mut search) else { break };
             bound = Bound { at_most, refutation, ..bound };
-            left = Limits { work: search.work.left, nodes: search.nodes, ..left };
+            left = Cost { work: search.work.left, nodes: search.nodes, ..left };
         }
         Some(bound)
     }
@@ -170,7 +178,7 @@ impl<'a> Structure<'a> {
         program_at: usize,
         weights: &[(PlaceId, i64)],
         work: &mut Work,
-    ) -> Result<Option<Bound>, Stop> {
+    ) -> Result<Option<Bound>, Limit> {
         let mut program = self.programs[program_at].as_ref().map_err(|&it| it)?.copied(work)?;
         loop {
             let Some((at_most, sum)) = program.maximise(weights, work)? else { return Ok(None) };
@@ -196,7 +204,7 @@ impl<'a> Structure<'a> {
 
     fn find_bounds(&mut self) -> Vec<Option<Bound>> {
         let mut bounds: Vec<Option<Bound>> = vec![None; self.pt.places.len()];
-        let all = Work::from(self.limits);
+        let all = Work::from(self.cost);
         let (few, work) = (all.with(all.left / 4), all);
         self.improve(0, &mut bounds, few, |_| true);
         self.improve(1, &mut bounds, work, Option::is_none);
@@ -223,9 +231,9 @@ impl<'a> Structure<'a> {
             let found = match self.relaxed_bound(program, &[(PlaceId(place as u32), 1)], &mut work)
             {
                 Ok(found) => found,
-                Err(Stop::Overflow) => None,
+                Err(Limit::Tokens) => None,
                 Err(stop) => {
-                    if stop == Stop::Time {
+                    if stop == Limit::Time {
                         self.cut = Some(stop);
                     }
                     return;
@@ -258,7 +266,7 @@ impl<'a> Structure<'a> {
         }
         let mut proof = Vec::new();
         let mut unknown = None;
-        let mut left = self.limits;
+        let mut left = self.cost;
         for (bound, place) in self.bounds().to_vec().into_iter().zip(0..) {
             if let Some(bound) = bound.filter(|it| it.at_most <= 1) {
                 proof.push(bound);
@@ -266,14 +274,14 @@ impl<'a> Structure<'a> {
             }
             let weights = vec![(PlaceId(place), 1)];
             let premise = Linear { constant: 2, weights: vec![(PlaceId(place), -1)] };
-            let mut search = Search::new(&self.graph, &[premise], &left);
+            let mut search = Search::new(&self.graph, &[premise], left);
             match self.run(&mut search) {
                 Ok(refutation) => proof.push(Bound { weights, at_most: 1, refutation }),
                 Err(End::Reached(trace)) => return Answer::Reachable(trace),
-                Err(End::Unknown(it @ Unknown::Limit(Stop::Time))) => return Answer::Unknown(it),
+                Err(End::Unknown(it @ Unknown::Limit(Limit::Time))) => return Answer::Unknown(it),
                 Err(End::Unknown(it)) => unknown = unknown.or(Some(it)),
             }
-            left = Limits { work: search.work.left, nodes: search.nodes, ..left };
+            left = Cost { work: search.work.left, nodes: search.nodes, ..left };
         }
         unknown.map_or(Answer::Impossible(proof), Answer::Unknown)
     }
@@ -307,7 +315,7 @@ impl<'a> Structure<'a> {
                 None => undecided.push(transition),
             }
         }
-        let mut search = Search::new(&self.graph, &premises, &self.limits);
+        let mut search = Search::new(&self.graph, &premises, self.cost);
         (search.undecided, search.dead) = (undecided, true);
         self.answer(search).map(|refutation| {
             let used = |place: &PlaceId| {
@@ -357,7 +365,7 @@ impl<'a> Structure<'a> {
     /// Looks for more transitions that can never fire. Those found are in [`Structure::dead`]; the
     /// other questions are answered better afterwards.
     pub fn find_dead_transitions(&mut self) {
-        let mut left = self.limits;
+        let mut left = self.cost;
         let mut found = Vec::new();
         let bounds: Vec<_> =
             self.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
@@ -373,13 +381,13 @@ impl<'a> Structure<'a> {
             if goal.len() == 1 && self.pt.needs.of(transition.0).iter().all(plain) {
                 continue;
             }
-            let mut search = Search::new(&self.graph, &goal, &left);
+            let mut search = Search::new(&self.graph, &goal, left);
             match self.run(&mut search) {
                 Ok(refutation) => found.push((transition, refutation)),
-                Err(End::Unknown(Unknown::Limit(Stop::Work | Stop::Nodes | Stop::Time))) => break,
+                Err(End::Unknown(Unknown::Limit(Limit::Work | Limit::Time))) => break,
                 Err(_) => {}
             }
-            left = Limits { work: search.work.left, nodes: search.nodes, ..left };
+            left = Cost { work: search.work.left, nodes: search.nodes, ..left };
         }
         if found.is_empty() {
             return;
@@ -389,7 +397,7 @@ impl<'a> Structure<'a> {
         self.dead.transitions = starved(self.pt, &unable);
         self.dead.refutations.extend(found);
         self.dead.refutations.sort_by_key(|it| it.0);
-        self.programs = Self::programs(self.pt, &self.dead, self.limits);
+        self.programs = Self::programs(self.pt, &self.dead, self.cost);
         self.note_cut();
         self.graph = Graph::new(self.pt, &self.dead);
         self.bounds = None;

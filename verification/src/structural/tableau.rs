@@ -1,6 +1,6 @@
 //! Linear programs in exact integers: the simplex method on rows without fractions.
 
-use super::Stop;
+use super::Limit;
 use super::row::{Row, at, cancelling, combined};
 use super::work::Work;
 use std::sync::Arc;
@@ -51,7 +51,7 @@ impl Tableau {
         terms: &[(u32, i64)],
         right: i64,
         work: &mut Work,
-    ) -> Result<usize, Stop> {
+    ) -> Result<usize, Limit> {
         let variable = self.variable();
         let mut row: Row = terms.to_vec();
         row.push((variable, 1));
@@ -74,7 +74,7 @@ impl Tableau {
         right: i64,
         preferred: impl Fn(u32) -> bool,
         work: &mut Work,
-    ) -> Result<(), Stop> {
+    ) -> Result<(), Limit> {
         let mut row: Row = terms.to_vec();
         if right != 0 {
             row.push((RIGHT, right));
@@ -91,14 +91,13 @@ impl Tableau {
         self.pivot(self.rows.len() - 1, column, work)
     }
 
-    fn without_basic(&self, mut row: Row, work: &mut Work) -> Result<Row, Stop> {
+    fn without_basic(&self, mut row: Row, work: &mut Work) -> Result<Row, Limit> {
         for (column, _) in row.clone() {
             if let Some(&Some(home)) = self.home.get(column as usize) {
                 let home = &self.rows[home as usize];
                 work.spend(row.len() + home.len())?;
-                let (a, b) =
-                    cancelling(at(&row, column), at(home, column)).ok_or(Stop::Overflow)?;
-                row = combined(&row, a, home, b).ok_or(Stop::Overflow)?;
+                let (a, b) = cancelling(at(&row, column), at(home, column)).ok_or(Limit::Tokens)?;
+                row = combined(&row, a, home, b).ok_or(Limit::Tokens)?;
             }
         }
         Ok(row)
@@ -127,7 +126,7 @@ impl Tableau {
     }
 
     /// The first violated row.
-    pub(super) fn violated(&self, work: &mut Work) -> Result<Option<usize>, Stop> {
+    pub(super) fn violated(&self, work: &mut Work) -> Result<Option<usize>, Limit> {
         work.pass(self.rows.len())?;
         Ok((0..self.rows.len()).find(|&it| self.row(it).1 < 0))
     }
@@ -151,7 +150,7 @@ impl Tableau {
         row: usize,
         feasible: bool,
         work: &mut Work,
-    ) -> Result<Raised, Stop> {
+    ) -> Result<Raised, Limit> {
         let mut wasted = 0;
         loop {
             let (terms, right) = self.row(row);
@@ -198,12 +197,12 @@ impl Tableau {
         rank(one) < rank(other)
     }
 
-    fn pivot(&mut self, row: usize, column: u32, work: &mut Work) -> Result<(), Stop> {
+    fn pivot(&mut self, row: usize, column: u32, work: &mut Work) -> Result<(), Limit> {
         if at(&self.rows[row], column) < 0 {
             let negated = self.rows[row]
                 .iter()
                 .map(|&(column, number)| Some((column, number.checked_neg()?)));
-            self.rows[row] = Arc::new(negated.collect::<Option<_>>().ok_or(Stop::Overflow)?);
+            self.rows[row] = Arc::new(negated.collect::<Option<_>>().ok_or(Limit::Tokens)?);
         }
         let pivot = Arc::clone(&self.rows[row]);
         let number = at(&pivot, column);
@@ -215,8 +214,8 @@ impl Tableau {
             let theirs = at(other, column);
             if theirs != 0 {
                 work.spend(other.len() + pivot.len())?;
-                let (a, b) = cancelling(theirs, number).ok_or(Stop::Overflow)?;
-                *other = Arc::new(combined(other, a, &pivot, b).ok_or(Stop::Overflow)?);
+                let (a, b) = cancelling(theirs, number).ok_or(Limit::Tokens)?;
+                *other = Arc::new(combined(other, a, &pivot, b).ok_or(Limit::Tokens)?);
                 *mask_of_other = mask(other);
             }
         }

@@ -1,6 +1,6 @@
 //! What a question has cost so far.
 
-use super::{Limits, Stop};
+use super::{Effort, Limit, Limits};
 use std::time::Instant;
 
 /// Between two looks at the clock: some milliseconds.
@@ -31,29 +31,47 @@ impl Work {
     }
 
     /// Counts numbers that are computed.
-    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), Stop> {
-        self.left = self.left.checked_sub(numbers as u64).ok_or(Stop::Work)?;
+    pub(super) fn spend(&mut self, numbers: usize) -> Result<(), Limit> {
+        self.left = self.left.checked_sub(numbers as u64).ok_or(Limit::Work)?;
         self.look(numbers as u64)
     }
 
     /// Counts what is only copied or passed over: a sixteenth.
-    pub(super) fn pass(&mut self, items: usize) -> Result<(), Stop> {
-        self.left = self.left.checked_sub(items as u64 / 16).ok_or(Stop::Work)?;
+    pub(super) fn pass(&mut self, items: usize) -> Result<(), Limit> {
+        self.left = self.left.checked_sub(items as u64 / 16).ok_or(Limit::Work)?;
         self.look(items as u64)
     }
 
-    fn look(&mut self, done: u64) -> Result<(), Stop> {
+    fn look(&mut self, done: u64) -> Result<(), Limit> {
         self.done += done;
         if self.done < TICK {
             return Ok(());
         }
         self.done = 0;
-        if self.deadline.is_some_and(|it| Instant::now() >= it) { Err(Stop::Time) } else { Ok(()) }
+        if self.deadline.is_some_and(|it| Instant::now() >= it) { Err(Limit::Time) } else { Ok(()) }
     }
 }
 
-impl From<Limits> for Work {
-    fn from(limits: Limits) -> Self {
-        Self::new(limits.work, limits.deadline)
+/// What a question may cost.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Cost {
+    pub(super) work: u64,
+    /// Cases that are told apart.
+    pub(super) nodes: u32,
+    pub(super) deadline: Option<Instant>,
+}
+
+impl Cost {
+    /// This effort within limits. Each number of a row takes 16 bytes, and of what is looked at at
+    /// most a quarter is kept.
+    pub(super) fn new(effort: Effort, limits: &Limits) -> Self {
+        let work = effort.work.min(limits.bytes / 64);
+        Self { work, nodes: effort.nodes, deadline: limits.deadline }
+    }
+}
+
+impl From<Cost> for Work {
+    fn from(cost: Cost) -> Self {
+        Self::new(cost.work, cost.deadline)
     }
 }

@@ -1,9 +1,11 @@
 //! Sets of transitions that what is outside does not disturb.
 
+use crate::components::{Digraph, Search};
 use crate::explicit::Look;
 use crate::property::Marking;
 use crate::pt::Pt;
 use cotama_core::net::PlaceId;
+use std::ops::ControlFlow;
 
 /// What must be in a stubborn set because something else is: a graph whose nodes are transitions,
 /// and for each place those that need it, those that take from it, and those that add to it.
@@ -11,29 +13,14 @@ pub(crate) struct Closure<'n> {
     pt: &'n Pt,
     takers: Vec<Vec<u32>>,
     givers: Vec<Vec<u32>>,
-    /// For each node when it was met; 0 if it was not.
-    met: Vec<u32>,
-    /// For each node that was met the first one under way that it leads to; [`DONE`] when its
-    /// component is complete.
-    low: Vec<u32>,
+    met: Vec<bool>,
+    /// For each node that was met whether it is known to lead to a transition that is enabled, in a
+    /// complete component.
+    live: Vec<bool>,
     /// Nodes that were met, in their order.
     order: Vec<u32>,
     links: Vec<u32>,
-}
-
-/// Its component is complete, and leads to no transition that is enabled.
-const DONE: u32 = u32::MAX - 1;
-/// Its component is complete, and leads to a transition that is enabled.
-const LIVE: u32 = u32::MAX;
-
-/// A node that is being visited.
-struct Visit {
-    node: u32,
-    /// Where its links begin, and the next one.
-    start: usize,
-    next: usize,
-    /// Whether it leads to a complete component with a transition that is enabled.
-    live: bool,
+    search: Search,
 }
 
 impl<'n> Closure<'n> {
@@ -47,10 +34,11 @@ impl<'n> Closure<'n> {
             pt,
             takers: (0..pt.places.len()).map(|it| changers(it, -1)).collect(),
             givers: (0..pt.places.len()).map(|it| changers(it, 1)).collect(),
-            met: vec![0; nodes],
-            low: vec![0; nodes],
+            met: vec![false; nodes],
+            live: vec![false; nodes],
             order: Vec::new(),
             links: Vec::new(),
+            search: Search::new(nodes),
         }
     }
 
@@ -103,10 +91,8 @@ impl<'n> Closure<'n> {
                 let missed =
                     needs.filter(|it| look.tokens(PlaceId(it.0)) < it.1.into()).map(|it| it.0);
                 // A place whose givers are in already costs nothing.
-                let cost = |it: &u32| match self.met[self.givers_of(*it) as usize] {
-                    0 => self.givers[*it as usize].len(),
-                    _ => 0,
-                };
+                let is_in = |it: u32| self.met[self.givers_of(it) as usize];
+                let cost = |it: &u32| if is_in(*it) { 0 } else { self.givers[*it as usize].len() };
                 let link = missed.min_by_key(cost).map(|it| self.givers_of(it));
                 self.links.extend(link);
             }
@@ -121,7 +107,7 @@ impl<'n> Closure<'n> {
 
     fn forget(&mut self) {
         for node in self.order.drain(..) {
-            self.met[node as usize] = 0;
+            self.met[node as usize] = false;
         }
         self.links.clear();
     }
@@ -156,9 +142,8 @@ impl<'n> Closure<'n> {
     }
 
     fn meet(&mut self, node: u32) {
-        if self.met[node as usize] == 0 {
+        if !std::mem::replace(&mut self.met[node as usize], true) {
             self.order.push(node);
-            self.met[node as usize] = self.order.len() as u32;
         }
     }
 
@@ -174,71 +159,17 @@ impl<'n> Closure<'n> {
         fine: impl Fn(u32) -> bool,
     ) -> Option<Vec<u32>> {
         self.forget();
-        let mut best: Option<Vec<u32>> = None;
-        let (mut visits, mut waiting): (Vec<Visit>, Vec<u32>) = (Vec::new(), Vec::new());
+        let mut search = std::mem::take(&mut self.search);
+        let mut sets = Sets { closure: self, look, fine, starts: Vec::new(), best: None };
         for root in look.transitions() {
-            if self.met[root as usize] != 0 {
-                continue;
-            }
-            self.visit(look, root, &mut visits, &mut waiting);
-            while let Some(visit) = visits.last_mut() {
-                let node = visit.node as usize;
-                if visit.next < self.links.len() {
-                    let to = self.links[visit.next] as usize;
-                    visit.next += 1;
-                    match (self.met[to], self.low[to]) {
-                        (0, _) => self.visit(look, to as u32, &mut visits, &mut waiting),
-                        (_, DONE) => {}
-                        (_, LIVE) => visit.live = true,
-                        (_, low) => self.low[node] = self.low[node].min(low),
-                    }
-                    continue;
-                }
-                self.links.truncate(visit.start);
-                let (mut live, low) = (visit.live, self.low[node]);
-                visits.pop();
-                if low == self.met[node] {
-                    let from = waiting.iter().rposition(|it| *it as usize == node).unwrap_or(0);
-                    let enabled = self.enabled(look, &waiting[from..]);
-                    if !live && !enabled.is_empty() && enabled.iter().all(|it| fine(*it)) {
-                        let single = enabled.len() == 1;
-                        if best.as_ref().is_none_or(|best| enabled.len() < best.len()) {
-                            best = Some(enabled.clone());
-                        }
-                        if single {
-                            return best;
-                        }
-                    }
-                    live |= !enabled.is_empty();
-                    for member in waiting.drain(from..) {
-                        self.low[member as usize] = if live { LIVE } else { DONE };
-                    }
-                }
-                if let Some(before) = visits.last_mut() {
-                    before.live |= live;
-                    if low != self.met[node] {
-                        let low_before = &mut self.low[before.node as usize];
-                        *low_before = low.min(*low_before);
-                    }
-                }
+            if search.pass(&mut sets, root).is_break() {
+                break;
             }
         }
+        let best = sets.best;
+        search.forget(&self.order);
+        self.search = search;
         best
-    }
-
-    fn visit(
-        &mut self,
-        look: Look<'_>,
-        node: u32,
-        visits: &mut Vec<Visit>,
-        waiting: &mut Vec<u32>,
-    ) {
-        self.meet(node);
-        self.low[node as usize] = self.met[node as usize];
-        let start = self.links.len();
-        self.link(look, node, true);
-        visits.push(Visit { node, start, next: start, live: false });
-        waiting.push(node);
     }
 
     fn enabled(&self, look: Look<'_>, nodes: &[u32]) -> Vec<u32> {
@@ -247,5 +178,51 @@ impl<'n> Closure<'n> {
             nodes.iter().copied().filter(|it| *it < transitions && look.enables(*it)).collect();
         enabled.sort_unstable();
         enabled
+    }
+}
+
+/// The search for the smallest persistent set.
+struct Sets<'c, 'n, F> {
+    closure: &'c mut Closure<'n>,
+    look: Look<'c>,
+    fine: F,
+    /// For each node under way where its links begin.
+    starts: Vec<usize>,
+    best: Option<Vec<u32>>,
+}
+
+impl<F: Fn(u32) -> bool> Digraph for Sets<'_, '_, F> {
+    fn meet(&mut self, node: u32) {
+        self.closure.meet(node);
+        self.closure.live[node as usize] = false;
+        self.starts.push(self.closure.links.len());
+        self.closure.link(self.look, node, true);
+    }
+
+    fn successor(&mut self, _node: u32, at: u32) -> Option<u32> {
+        self.closure.links.get(self.starts.last()? + at as usize).copied()
+    }
+
+    fn leave(&mut self, node: u32) {
+        let Closure { links, live, .. } = &mut *self.closure;
+        let start = self.starts.pop().unwrap_or(links.len());
+        live[node as usize] = links[start..].iter().any(|it| live[*it as usize]);
+        links.truncate(start);
+    }
+
+    fn component(&mut self, members: &[u32]) -> ControlFlow<()> {
+        let enabled = self.closure.enabled(self.look, members);
+        let live = &mut self.closure.live;
+        let leads = members.iter().any(|it| live[*it as usize]);
+        let is_live = leads || !enabled.is_empty();
+        members.iter().for_each(|it| live[*it as usize] = is_live);
+        if leads || enabled.is_empty() || !enabled.iter().all(|it| (self.fine)(*it)) {
+            return ControlFlow::Continue(());
+        }
+        let is_single = enabled.len() == 1;
+        if self.best.as_ref().is_none_or(|best| enabled.len() < best.len()) {
+            self.best = Some(enabled);
+        }
+        if is_single { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     }
 }

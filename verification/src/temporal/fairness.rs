@@ -2,10 +2,12 @@
 
 use super::run::Rest;
 use super::successors::Successors;
+use crate::components::{Digraph, Search};
 use crate::explicit::{BitSet, Goal, Limit, Memory};
 use crate::property::{Assumptions, Atom, Formula};
 use cotama_core::net::TransitionId;
 use std::collections::VecDeque;
+use std::ops::ControlFlow;
 
 /// What is asked of runs; one that does not meet all of it is left out. A run that ends in a
 /// deadlock stays there for ever.
@@ -121,9 +123,9 @@ impl<'g, S: Successors> Fair<'g, S> {
         let mut part: Vec<u32> = region.iter().map(|it| if it { 0 } else { NONE }).collect();
         let first: Vec<u32> = region.ones().collect();
         let (mut work, mut parts, mut sets) = (vec![first], 1, 0);
-        let mut low = vec![0; region.len()];
+        let mut search = Search::new(region.len());
         while let Some(states) = work.pop() {
-            for component in components(self.graph, &states, &part, &mut low) {
+            for component in Part::components(self.graph, &states, &part, &mut search) {
                 for state in &component {
                     part[*state as usize] = parts;
                 }
@@ -265,60 +267,43 @@ impl<'g, S: Successors> Fair<'g, S> {
     }
 }
 
-/// The strongly connected components of some states, by arcs inside of their part. `low` is room
-/// for numbers.
-fn components(
-    graph: &impl Successors,
-    states: &[u32],
-    part: &[u32],
-    low: &mut [u32],
-) -> Vec<Vec<u32>> {
-    // Numbers in the order in which states are met; NONE for those that are left.
-    for it in states {
-        low[*it as usize] = 0;
-    }
-    let (mut found, mut waiting, mut met) = (Vec::new(), Vec::new(), 0);
-    let mut visits: Vec<(u32, usize, u32)> = Vec::new();
-    for &root in states {
-        if low[root as usize] != 0 {
-            continue;
-        }
-        met += 1;
-        low[root as usize] = met;
-        waiting.push(root);
-        visits.push((root, 0, met));
-        let mine = part[root as usize];
-        while let Some((state, next, number)) = visits.last_mut() {
-            let (state, number) = (*state, *number);
-            if let Some(&to) = graph.successors(state).get(*next) {
-                *next += 1;
-                // Parts that were numbered anew are components that are left.
-                if part[to as usize] != mine {
-                    continue;
-                }
-                if low[to as usize] == 0 {
-                    met += 1;
-                    low[to as usize] = met;
-                    waiting.push(to);
-                    visits.push((to, 0, met));
-                } else if low[to as usize] != NONE {
-                    low[state as usize] = low[state as usize].min(low[to as usize]);
-                }
-                continue;
-            }
-            visits.pop();
-            let lowest = low[state as usize];
-            if lowest == number {
-                let from = waiting.iter().rposition(|it| *it == state).unwrap_or(0);
-                let component: Vec<u32> = waiting.drain(from..).collect();
-                for it in &component {
-                    low[*it as usize] = NONE;
-                }
-                found.push(component);
-            } else if let Some((before, ..)) = visits.last() {
-                low[*before as usize] = low[*before as usize].min(lowest);
+/// A part of a graph, and its strongly connected components so far.
+struct Part<'p, S> {
+    graph: &'p S,
+    of: &'p [u32],
+    number: u32,
+    components: Vec<Vec<u32>>,
+}
+
+impl<'p, S: Successors> Part<'p, S> {
+    /// The components of the states of one part.
+    fn components(
+        graph: &'p S,
+        states: &[u32],
+        of: &'p [u32],
+        search: &mut Search,
+    ) -> Vec<Vec<u32>> {
+        let number = states.first().map_or(NONE, |it| of[*it as usize]);
+        let mut part = Self { graph, of, number, components: Vec::new() };
+        search.forget(states);
+        for state in states {
+            if search.pass(&mut part, *state).is_break() {
+                break;
             }
         }
+        part.components
     }
-    found
+}
+
+impl<S: Successors> Digraph for Part<'_, S> {
+    fn successor(&mut self, state: u32, at: u32) -> Option<u32> {
+        let to = *self.graph.successors(state).get(at as usize)?;
+        // An arc that leaves the part counts as one to the state itself, which joins nothing.
+        Some(if self.of[to as usize] == self.number { to } else { state })
+    }
+
+    fn component(&mut self, members: &[u32]) -> ControlFlow<()> {
+        self.components.push(members.to_vec());
+        ControlFlow::Continue(())
+    }
 }

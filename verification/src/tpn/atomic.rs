@@ -13,7 +13,7 @@ use super::graph::ClassGraph;
 use super::markings::{Markings, Rules, Step};
 use super::net::TimeNet;
 use super::zone::Zone;
-use super::{Limits, Stop};
+use super::{Limit, Limits};
 use cotama_core::net::TransitionId;
 use std::collections::{HashMap, VecDeque};
 
@@ -22,10 +22,10 @@ use std::collections::{HashMap, VecDeque};
 ///
 /// # Errors
 /// Why it is not complete, and how many classes there were.
-pub(crate) fn atomic(net: &TimeNet, limits: &Limits<'_>) -> Result<ClassGraph, (Stop, usize)> {
+pub(crate) fn atomic(net: &TimeNet, limits: &Limits) -> Result<ClassGraph, (Limit, usize)> {
     let mut classes = Atomic::new(net);
     let made = classes.explore(limits).and_then(|()| classes.split_all(limits));
-    made.map_err(|stop| (stop, classes.list.len()))?;
+    made.map_err(|limit| (limit, classes.list.len()))?;
     Ok(classes.graph())
 }
 
@@ -57,10 +57,10 @@ impl Atomic {
         }
     }
 
-    fn check(&mut self, limits: &Limits<'_>) -> Result<(), Stop> {
+    fn check(&mut self, limits: &Limits) -> Result<(), Limit> {
         self.steps = self.steps.wrapping_add(1);
-        if self.list.len() > limits.classes {
-            return Err(Stop::Classes);
+        if self.list.len() as u64 > limits.states {
+            return Err(Limit::States);
         }
         limits.check(self.steps, || self.bytes + self.markings.bytes())
     }
@@ -111,7 +111,7 @@ impl Atomic {
     }
 
     /// Strong classes; one that lies in another one is not kept.
-    fn explore(&mut self, limits: &Limits<'_>) -> Result<(), Stop> {
+    fn explore(&mut self, limits: &Limits) -> Result<(), Limit> {
         let start = Zone::zero(self.markings.enabled(0).len());
         for zone in self.parted(start, 0) {
             self.push(0, zone);
@@ -140,8 +140,8 @@ impl Atomic {
         Ok(())
     }
 
-    fn step(&mut self, marking: u32, position: usize) -> Result<Step, Stop> {
-        self.markings.step(&self.rules, marking, position).ok_or(Stop::Overflow)
+    fn step(&mut self, marking: u32, position: usize) -> Result<Step, Limit> {
+        self.markings.step(&self.rules, marking, position).ok_or(Limit::Tokens)
     }
 
     fn connect(&mut self, from: ClassId, position: u32, to: ClassId) {
@@ -153,7 +153,7 @@ impl Atomic {
     }
 
     /// The states of a class from which this firing leads to some state of another class.
-    fn leading(&mut self, from: ClassId, (position, to): Edge) -> Result<Option<Zone>, Stop> {
+    fn leading(&mut self, from: ClassId, (position, to): Edge) -> Result<Option<Zone>, Limit> {
         let marking = self.list[from as usize].0;
         let step = self.step(marking, position as usize)?;
         let enabled = self.markings.enabled(marking);
@@ -166,7 +166,7 @@ impl Atomic {
     }
 
     /// Splits classes until all are atomic.
-    fn split_all(&mut self, limits: &Limits<'_>) -> Result<(), Stop> {
+    fn split_all(&mut self, limits: &Limits) -> Result<(), Limit> {
         let mut open: VecDeque<ClassId> = (0..self.list.len() as ClassId).collect();
         let mut is_open = vec![true; self.list.len()];
         while let Some(class) = open.pop_front() {
@@ -191,7 +191,7 @@ impl Atomic {
     }
 
     /// Splits a class into a part of it and the rest; the classes that are to be looked at again.
-    fn split(&mut self, class: ClassId, part: Zone) -> Result<Vec<ClassId>, Stop> {
+    fn split(&mut self, class: ClassId, part: Zone) -> Result<Vec<ClassId>, Limit> {
         let (marking, whole) = self.list[class as usize].clone();
         let mut parts = vec![class];
         for zone in whole.without(&part) {

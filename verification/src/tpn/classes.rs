@@ -1,6 +1,6 @@
 //! The state class graph.
 
-use super::Stop;
+use super::Limit;
 use super::domain::Domains;
 use super::markings::{Markings, Rules};
 use super::net::TimeNet;
@@ -40,7 +40,7 @@ pub struct Classes {
     /// looked at have none.
     pub(super) starts: Vec<usize>,
     pub(super) edges: Vec<(TransitionId, ClassId)>,
-    pub(super) stopped: Option<Stop>,
+    pub(super) stopped: Option<Limit>,
     pub(super) bounded: Option<bool>,
 }
 
@@ -95,7 +95,7 @@ impl Classes {
     }
 
     /// Why the graph is not complete; `None` when it is.
-    pub fn stopped(&self) -> Option<Stop> {
+    pub fn stopped(&self) -> Option<Limit> {
         self.stopped
     }
 

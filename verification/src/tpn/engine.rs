@@ -1,11 +1,10 @@
 //! The engine of time nets.
 
 use super::in_time::InTime;
-use super::{ClassGraph, Classes, Limits, Reach, Response, Stop, Time, TimeNet};
+use super::{ClassGraph, Classes, Limit, Limits, Reach, Response, Time, TimeNet};
 use super::{deadlock, longest, measured, reach};
 use crate::certificate::Evidence;
 use crate::engines::{Bid, Budget, Engine, Extent, Finding, Found, Known, Task};
-use crate::explicit::{self, Limit};
 use crate::property::{Assumptions, Atom, Condition, Ctl, Formula, Linear};
 use crate::temporal::{Fairness, Successors, branching, of_runs, stored_runs, verdict};
 use cotama_core::net::TransitionId;
@@ -27,12 +26,11 @@ impl Engine for StateClasses {
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {
         let Some(time) = net.time() else { return Finding::unsuited() };
-        let stop = || budget.limits.is_over();
-        let asked = Asked { net, time, limits: budget.classes(&stop), budget };
+        let asked = Asked { net, time, budget };
         let found = match task {
             Task::Reach(goal) => return asked.reach(goal),
             Task::Response(from, to) => {
-                return response(measured(time, Some(from), to, &asked.limits));
+                return response(measured(time, Some(from), to, &budget.limits));
             }
             Task::Holds(formula, assumed) => asked.holds(formula, assumed),
             Task::Bound(sum) => {
@@ -46,7 +44,7 @@ impl Engine for StateClasses {
                     Found::Dead(dead.map(TransitionId).collect())
                 })
             }
-            Task::Live => net.atomic(time, &asked.limits).map(|graph| {
+            Task::Live => net.atomic(time, &budget.limits).map(|graph| {
                 let found = Found::Holds(graph.is_live(), None, Evidence::None);
                 Finding { found, states: graph.states() as u64 }
             }),
@@ -60,19 +58,18 @@ impl Engine for StateClasses {
 struct Asked<'a, 'n> {
     net: &'a Known<'n>,
     time: &'n TimeNet,
-    limits: Limits<'a>,
     budget: &'a Budget<'a>,
 }
 
 /// A finding, or what ended the work after how many classes.
-type Result = std::result::Result<Finding, (Stop, usize)>;
+type Result = std::result::Result<Finding, (Limit, usize)>;
 
 impl Asked<'_, '_> {
     fn reach(&self, goal: &Formula) -> Finding {
         let reached = match goal {
-            Formula::Atom(Atom::Deadlock) => deadlock(self.time, &self.limits),
+            Formula::Atom(Atom::Deadlock) => deadlock(self.time, &self.budget.limits),
             goal => match Condition::new(goal, self.net.pt()) {
-                Some(goal) => reach(self.time, |marking| goal.holds(marking), &self.limits),
+                Some(goal) => reach(self.time, |marking| goal.holds(marking), &self.budget.limits),
                 None => return Finding::unsuited(),
             },
         };
@@ -84,7 +81,7 @@ impl Asked<'_, '_> {
             Reach::Unreachable { classes } => {
                 Finding { found: Found::Never(Evidence::None), states: classes as u64 }
             }
-            Reach::Unknown { stop, classes } => stopped((stop, classes)),
+            Reach::Unknown { limit, classes } => stopped((limit, classes)),
         }
     }
 
@@ -94,8 +91,8 @@ impl Asked<'_, '_> {
         Ok(Finding { found: found(&classes), states: classes.classes() as u64 })
     }
 
-    fn classes(&self) -> std::result::Result<Rc<Classes>, (Stop, usize)> {
-        self.net.classes(self.time, &self.limits)
+    fn classes(&self) -> std::result::Result<Rc<Classes>, (Limit, usize)> {
+        self.net.classes(self.time, &self.budget.limits)
     }
 
     /// A formula about single runs by linear classes, which have the firing sequences of the net;
@@ -113,15 +110,15 @@ impl Asked<'_, '_> {
         }
         let fairness = Fairness::of(assumed).filter(|_| Ctl::new(formula).is_some());
         let Some(fairness) = fairness else { return Ok(Finding::unsuited()) };
-        let graph = self.net.atomic(self.time, &self.limits)?;
+        let graph = self.net.atomic(self.time, &self.budget.limits)?;
         let (bytes, jobs) = (self.left(&graph).bytes, self.budget.jobs);
         Ok(verdict(branching(&*graph, formula, &fairness, bytes, jobs)))
     }
 
     /// What may be used beside a graph.
-    fn left(&self, graph: &ClassGraph) -> explicit::Limits {
+    fn left(&self, graph: &ClassGraph) -> Limits {
         let limits = self.budget.limits;
-        explicit::Limits { bytes: limits.bytes.saturating_sub(graph.bytes()), ..limits }
+        Limits { bytes: limits.bytes.saturating_sub(graph.bytes()), ..limits }
     }
 
     fn responds(&self, asked: &InTime) -> Result {
@@ -131,8 +128,8 @@ impl Asked<'_, '_> {
         let classes = self.classes()?;
         let states = classes.classes();
         let [cause, effect] = [cause, effect].map(|it| move |at: &[u32]| it.holds(at));
-        let most = longest(&classes, cause, effect, asked.at_start, &self.limits)
-            .map_err(|stop| (stop, states))?;
+        let most = longest(&classes, cause, effect, asked.at_start, &self.budget.limits)
+            .map_err(|limit| (limit, states))?;
         let found = Found::Holds(most <= Time::Finite(asked.limit), None, Evidence::None);
         Ok(Finding { found, states: states as u64 })
     }
@@ -153,19 +150,12 @@ fn response((response, classes): (Response, usize)) -> Finding {
     let found = match response {
         Response::NeverFires => Found::Response(None),
         Response::Between { min, max } => Found::Response(Some((min, max))),
-        Response::Unknown { stop, .. } => return stopped((stop, classes)),
+        Response::Unknown { limit, .. } => return stopped((limit, classes)),
     };
     Finding { found, states: classes as u64 }
 }
 
 /// Classes that are not all known.
-fn stopped((stop, classes): (Stop, usize)) -> Finding {
-    let limit = match stop {
-        Stop::Unbounded => Limit::Unbounded,
-        Stop::Classes => Limit::States,
-        Stop::Bytes => Limit::Bytes,
-        Stop::Interrupt => Limit::Time,
-        Stop::Overflow => Limit::Tokens,
-    };
+fn stopped((limit, classes): (Limit, usize)) -> Finding {
     Finding::stopped(limit, classes as u64)
 }

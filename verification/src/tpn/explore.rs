@@ -7,7 +7,7 @@ use super::growth;
 use super::index::{Index, hash};
 use super::net::TimeNet;
 use super::untimed;
-use super::{Limits, Stop};
+use super::{Limit, Limits};
 use cotama_core::net::TransitionId;
 
 /// Builds the state class graph of a net.
@@ -25,12 +25,12 @@ use cotama_core::net::TransitionId;
 /// assert_eq!((classes.classes(), classes.edges(), classes.markings()), (2, 1, 2));
 /// assert_eq!((classes.bounded(), classes.dead_markings()), (Some(true), 1));
 /// ```
-pub fn classes(net: &TimeNet, limits: &Limits<'_>) -> Classes {
+pub fn classes(net: &TimeNet, limits: &Limits) -> Classes {
     let mut classes = Classes::none(net);
     classes.stopped = classes.explore(limits, true, |_| false).err();
     classes.bounded = match classes.stopped {
         None => Some(true),
-        Some(Stop::Unbounded) => Some(false),
+        Some(Limit::Unbounded) => Some(false),
         // Finitely many markings without time are finitely many with it.
         Some(_) => untimed::markings(&classes.rules.pt, limits).bounded().filter(|&it| it),
     };
@@ -42,19 +42,19 @@ impl Classes {
     /// returned. With `growth` it also stops when the net is unbounded.
     pub(super) fn explore(
         &mut self,
-        limits: &Limits<'_>,
+        limits: &Limits,
         growth: bool,
         mut sought: impl FnMut(&[u32]) -> bool,
-    ) -> Result<Option<ClassId>, Stop> {
-        let most = limits.classes.min(u32::MAX as usize - 1);
+    ) -> Result<Option<ClassId>, Limit> {
+        let most = limits.states.min(u64::from(u32::MAX) - 1);
         let fits = |transitions: usize| {
-            Domain::bytes(transitions).is_some_and(|bytes| bytes <= limits.bytes)
+            Domain::bytes(transitions).is_some_and(|bytes| bytes as u64 <= limits.bytes)
         };
         if most == 0 {
-            return Err(Stop::Classes);
+            return Err(Limit::States);
         }
         if !fits(self.markings.enabled(0).len()) {
-            return Err(Stop::Bytes);
+            return Err(Limit::Bytes);
         }
         let mut domain = Domain::of_new(&self.rules, self.markings.enabled(0));
         self.list.push((0, self.domains.number(&domain)));
@@ -79,10 +79,10 @@ impl Classes {
                 let known = self.markings.len();
                 let fired = TransitionId(self.markings.enabled(marking)[position]);
                 let step =
-                    self.markings.step(&self.rules, marking, position).ok_or(Stop::Overflow)?;
+                    self.markings.step(&self.rules, marking, position).ok_or(Limit::Tokens)?;
                 let kept = (self.markings.kept(step), self.markings.enabled(step.target));
                 if !fits(kept.1.len()) {
-                    return Err(Stop::Bytes);
+                    return Err(Limit::Bytes);
                 }
                 domain.fire(&self.rules, (position + 1, &first), kept, &mut bounds, &mut after);
                 let pair = (step.target, self.domains.number(&after));
@@ -90,8 +90,8 @@ impl Classes {
                 let found =
                     index.find_or_insert(key(pair), next, |it| self.list[it as usize] == pair);
                 if found.is_none() {
-                    if self.list.len() >= most {
-                        return Err(Stop::Classes);
+                    if self.list.len() as u64 >= most {
+                        return Err(Limit::States);
                     }
                     self.list.push(pair);
                     self.parents.push((class, fired));
@@ -102,7 +102,7 @@ impl Classes {
                         return Ok(Some(next));
                     }
                     if growth && growth::repeats(self, next) {
-                        return Err(Stop::Unbounded);
+                        return Err(Limit::Unbounded);
                     }
                 }
             }

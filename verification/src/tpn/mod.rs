@@ -31,6 +31,7 @@ mod schedule;
 mod untimed;
 mod zone;
 
+pub use crate::limits::{Limit, Limits};
 pub(crate) use atomic::atomic;
 pub use classes::{ClassId, Classes};
 pub use convert::{Converted, Difference, NotANet, exported, from_net, to_net};
@@ -42,63 +43,3 @@ pub use response::{Response, Time, bound, bound_from_start};
 pub(crate) use response::{longest, measured};
 pub use schedule::{Date, NoSchedule, Reach, Schedule, Step, deadlock, reach, schedule};
 pub use untimed::{Untimed, markings as untimed};
-
-use std::fmt;
-
-/// How far to go.
-#[derive(Clone, Copy)]
-pub struct Limits<'s> {
-    /// The most classes.
-    pub classes: usize,
-    /// About how many bytes they may take.
-    pub bytes: usize,
-    /// Asked now and then whether to stop.
-    pub stop: &'s dyn Fn() -> bool,
-}
-
-impl Default for Limits<'_> {
-    /// 100,000,000 classes, 4 GiB.
-    fn default() -> Self {
-        Self { classes: 100_000_000, bytes: 4 << 30, stop: &|| false }
-    }
-}
-
-impl Limits<'_> {
-    /// Looks at memory and interruption, at every 256th step.
-    fn check(&self, step: u32, bytes: impl Fn() -> usize) -> Result<(), Stop> {
-        if !step.is_multiple_of(256) {
-            return Ok(());
-        }
-        if (self.stop)() {
-            return Err(Stop::Interrupt);
-        }
-        if bytes() > self.bytes { Err(Stop::Bytes) } else { Ok(()) }
-    }
-}
-
-/// Why an answer is not complete.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stop {
-    /// The net is unbounded, so there is no end; this is a proof.
-    Unbounded,
-    /// [`Limits::classes`] was reached.
-    Classes,
-    /// [`Limits::bytes`] was reached.
-    Bytes,
-    /// [`Limits::stop`] said so.
-    Interrupt,
-    /// A place would hold more than 4,294,967,295 tokens, or a time is longer than 2⁶⁰.
-    Overflow,
-}
-
-impl fmt::Display for Stop {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::Unbounded => "the net is unbounded",
-            Self::Classes => "the limit of classes was reached",
-            Self::Bytes => "the limit of memory was reached",
-            Self::Interrupt => "it was interrupted",
-            Self::Overflow => "a number of tokens or a time is too large",
-        })
-    }
-}

@@ -5,7 +5,7 @@ use super::classes::{ClassId, Classes};
 use super::domain::Domain;
 use super::markings::ANEW;
 use super::net::TimeNet;
-use super::{Limits, Stop};
+use super::{Limit, Limits};
 use cotama_core::net::{PlaceId, TransitionId};
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap, HashSet};
@@ -47,7 +47,7 @@ pub enum Response {
     /// The work was cut short.
     Unknown {
         /// By what.
-        stop: Stop,
+        limit: Limit,
         /// How many classes, and times to reach them, were met.
         explored: usize,
     },
@@ -70,7 +70,7 @@ pub enum Response {
 /// let known = Response::Between { min: Time::Finite(3), max: Time::Finite(7) };
 /// assert_eq!(bound(&net, ask, idle, &Limits::default()), known);
 /// ```
-pub fn bound(net: &TimeNet, from: TransitionId, to: PlaceId, limits: &Limits<'_>) -> Response {
+pub fn bound(net: &TimeNet, from: TransitionId, to: PlaceId, limits: &Limits) -> Response {
     measured(net, Some(from), to, limits).0
 }
 
@@ -85,7 +85,7 @@ pub fn bound(net: &TimeNet, from: TransitionId, to: PlaceId, limits: &Limits<'_>
 /// let within = bound_from_start(&net, net.place("r").unwrap(), &Limits::default());
 /// assert_eq!(within, Response::Between { min: Time::Finite(4), max: Time::Finite(6) });
 /// ```
-pub fn bound_from_start(net: &TimeNet, to: PlaceId, limits: &Limits<'_>) -> Response {
+pub fn bound_from_start(net: &TimeNet, to: PlaceId, limits: &Limits) -> Response {
     measured(net, None, to, limits).0
 }
 
@@ -94,14 +94,14 @@ pub(crate) fn measured(
     net: &TimeNet,
     from: Option<TransitionId>,
     to: PlaceId,
-    limits: &Limits<'_>,
+    limits: &Limits,
 ) -> (Response, usize) {
     let mut classes = Classes::none(net);
     let ended = classes.explore(limits, true, |_| false);
     let explored = classes.classes();
     let response = match ended {
         Ok(_) => response(&classes, from, to, limits),
-        Err(stop) => Response::Unknown { stop, explored },
+        Err(limit) => Response::Unknown { limit, explored },
     };
     (response, explored)
 }
@@ -110,7 +110,7 @@ fn response(
     classes: &Classes,
     from: Option<TransitionId>,
     to: PlaceId,
-    limits: &Limits<'_>,
+    limits: &Limits,
 ) -> Response {
     let mut entered = HashSet::new();
     let entries: Vec<ClassId> = match from {
@@ -127,7 +127,7 @@ fn response(
     let mut search = Search::new(classes, |tokens| tokens[to.0 as usize] > 0, limits);
     match search.min(&entries).and_then(|min| Ok((min, search.max(&entries)?))) {
         Ok((min, max)) => Response::Between { min, max },
-        Err(stop) => Response::Unknown { stop, explored: search.met },
+        Err(limit) => Response::Unknown { limit, explored: search.met },
     }
 }
 
@@ -143,8 +143,8 @@ pub(crate) fn longest(
     cause: impl Fn(&[u32]) -> bool,
     effect: impl Fn(&[u32]) -> bool,
     at_start: bool,
-    limits: &Limits<'_>,
-) -> Result<Time, Stop> {
+    limits: &Limits,
+) -> Result<Time, Limit> {
     let mut search = Search::new(classes, effect, limits);
     let all = 0..classes.classes() as ClassId;
     let waits: Vec<bool> =
@@ -168,7 +168,7 @@ struct Search<'c> {
     classes: &'c Classes,
     /// For each class whether what is waited for is there.
     is_over: Vec<bool>,
-    limits: &'c Limits<'c>,
+    limits: &'c Limits,
     /// Classes and rows of y that were met.
     met: usize,
     bytes: usize,
@@ -189,7 +189,7 @@ struct Firing<'c> {
 }
 
 impl<'c> Search<'c> {
-    fn new(classes: &'c Classes, is_over: impl Fn(&[u32]) -> bool, limits: &'c Limits<'c>) -> Self {
+    fn new(classes: &'c Classes, is_over: impl Fn(&[u32]) -> bool, limits: &'c Limits) -> Self {
         let all = 0..classes.classes() as ClassId;
         let is_over = all.map(|it| is_over(classes.marking(it))).collect();
         Self { classes, is_over, limits, met: classes.classes(), bytes: classes.bytes() }
@@ -216,11 +216,11 @@ impl<'c> Search<'c> {
     }
 
     /// Counts a row that is kept.
-    fn count(&mut self, row: &Row) -> Result<(), Stop> {
+    fn count(&mut self, row: &Row) -> Result<(), Limit> {
         self.met += 1;
         self.bytes += size_of::<Row>() + size_of_val(&**row);
-        if self.met > self.limits.classes {
-            return Err(Stop::Classes);
+        if self.met as u64 > self.limits.states {
+            return Err(Limit::States);
         }
         self.limits.check(self.met as u32, || self.bytes)
     }
@@ -229,7 +229,7 @@ impl<'c> Search<'c> {
     ///
     /// A row bounds y - xᵢ, which bounds the time from below; a larger bound allows more. Firing f
     /// makes f the new zero, and a shortest path from y may go through f to any other transition.
-    fn min(&mut self, entries: &[ClassId]) -> Result<Time, Stop> {
+    fn min(&mut self, entries: &[ClassId]) -> Result<Time, Limit> {
         let useful = self.leading();
         let mut rows: HashMap<ClassId, Vec<Row>> = HashMap::new();
         let mut queue = BinaryHeap::new();
@@ -320,7 +320,7 @@ impl<'c> Search<'c> {
     ///
     /// A row bounds xᵢ - y, which bounds the time from above; a larger bound allows more. Firing f
     /// makes f the new zero, and its shortest path to y may go through any other transition.
-    fn max(&mut self, entries: &[ClassId]) -> Result<Time, Stop> {
+    fn max(&mut self, entries: &[ClassId]) -> Result<Time, Limit> {
         let Some(order) = self.order(entries) else { return Ok(Time::Infinite) };
         let mut rows: HashMap<ClassId, Vec<Row>> = HashMap::new();
         let mut domain = Domain::default();
@@ -407,8 +407,8 @@ impl<'c> Search<'c> {
     }
 }
 
-fn sum(a: Bound, b: Bound) -> Result<Bound, Stop> {
-    a.closed().checked_plus(b.closed()).ok_or(Stop::Overflow)
+fn sum(a: Bound, b: Bound) -> Result<Bound, Limit> {
+    a.closed().checked_plus(b.closed()).ok_or(Limit::Tokens)
 }
 
 /// Whether no bound of a row is larger than that of another one.

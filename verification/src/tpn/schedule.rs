@@ -5,7 +5,7 @@ use super::classes::Classes;
 use super::domain::Domain;
 use super::markings::{ANEW, Rules};
 use super::net::{Interval, TimeNet};
-use super::{Limits, Stop};
+use super::{Limit, Limits};
 use cotama_core::net::TransitionId;
 use std::fmt;
 
@@ -113,7 +113,7 @@ pub enum Reach {
     /// The work was cut short.
     Unknown {
         /// By what.
-        stop: Stop,
+        limit: Limit,
         /// How many classes were met.
         classes: usize,
     },
@@ -134,16 +134,16 @@ pub enum Reach {
 /// let reach = tpn::reach(&net, |tokens| tokens[lost] > 0, &tpn::Limits::default());
 /// assert_eq!(reach, tpn::Reach::Unreachable { classes: 2 }); // without time it can
 /// ```
-pub fn reach(net: &TimeNet, mut goal: impl FnMut(&[u32]) -> bool, limits: &Limits<'_>) -> Reach {
+pub fn reach(net: &TimeNet, mut goal: impl FnMut(&[u32]) -> bool, limits: &Limits) -> Reach {
     let mut classes = Classes::none(net);
     let found = match classes.explore(limits, false, |tokens| goal(tokens)) {
         Ok(Some(found)) => found,
         Ok(None) => return Reach::Unreachable { classes: classes.classes() },
-        Err(stop) => return Reach::Unknown { stop, classes: classes.classes() },
+        Err(limit) => return Reach::Unknown { limit, classes: classes.classes() },
     };
     // The path is one of the net, so only an overflow can keep it from having dates.
     schedule(net, &classes.path(found))
-        .map_or(Reach::Unknown { stop: Stop::Overflow, classes: classes.classes() }, Reach::Reached)
+        .map_or(Reach::Unknown { limit: Limit::Tokens, classes: classes.classes() }, Reach::Reached)
 }
 
 /// Whether a marking can be reached that enables nothing.
@@ -155,7 +155,7 @@ pub fn reach(net: &TimeNet, mut goal: impl FnMut(&[u32]) -> bool, limits: &Limit
 /// let Reach::Reached(schedule) = deadlock(&net, &Limits::default()) else { panic!("it ends") };
 /// assert_eq!(schedule.steps[0].date.to_string(), "300");
 /// ```
-pub fn deadlock(net: &TimeNet, limits: &Limits<'_>) -> Reach {
+pub fn deadlock(net: &TimeNet, limits: &Limits) -> Reach {
     let pt = net.untimed();
     let transitions = pt.transitions.len() as u32;
     reach(net, |tokens| (0..transitions).all(|it| !pt.enabled(tokens, it)), limits)

@@ -1,7 +1,7 @@
 //! The markings of a net without time.
 
 use super::index::{Index, hash};
-use super::{Limits, Stop};
+use super::{Limit, Limits};
 use crate::pt::Pt;
 
 /// How many firings back a smaller marking is looked for. Growth that takes longer goes unnoticed,
@@ -14,7 +14,7 @@ pub struct Untimed {
     /// How many there are, or were met.
     pub markings: usize,
     /// Why counting stopped; `None`: there are no more.
-    pub stopped: Option<Stop>,
+    pub stopped: Option<Limit>,
 }
 
 impl Untimed {
@@ -22,17 +22,17 @@ impl Untimed {
     pub fn bounded(&self) -> Option<bool> {
         match self.stopped {
             None => Some(true),
-            Some(Stop::Unbounded) => Some(false),
+            Some(Limit::Unbounded) => Some(false),
             Some(_) => None,
         }
     }
 }
 
-/// Counts the markings of a net without time; [`Limits::classes`] is the most that are counted.
+/// Counts the markings of a net without time; [`Limits::states`] is the most that are counted.
 ///
 /// A firing sequence that adds tokens and takes none away in sum can be repeated: the net is
 /// unbounded.
-pub fn markings(pt: &Pt, limits: &Limits<'_>) -> Untimed {
+pub fn markings(pt: &Pt, limits: &Limits) -> Untimed {
     let width = pt.initial.len();
     let mut tokens = pt.initial.clone();
     let mut parents = vec![0_u32];
@@ -54,14 +54,14 @@ pub fn markings(pt: &Pt, limits: &Limits<'_>) -> Untimed {
         let stop = (0..pt.transitions.len() as u32)
             .filter(|&it| pt.enabled(&marking, it))
             .find_map(|fired| {
-                let Some(after) = pt.fire(&marking, fired) else { return Some(Stop::Overflow) };
+                let Some(after) = pt.fire(&marking, fired) else { return Some(Limit::Tokens) };
                 let number = parents.len() as u32;
                 let is = |it: u32| tokens[it as usize * width..][..width] == after;
                 if index.find_or_insert(key(&after), number, is).is_some() {
                     return None;
                 }
-                if parents.len() >= limits.classes.min(u32::MAX as usize - 1) {
-                    return Some(Stop::Classes);
+                if parents.len() as u64 >= limits.states.min(u64::from(u32::MAX) - 1) {
+                    return Some(Limit::States);
                 }
                 let mut before = next;
                 for _ in 0..BACK {
@@ -70,7 +70,7 @@ pub fn markings(pt: &Pt, limits: &Limits<'_>) -> Untimed {
                         .zip(&after)
                         .all(|(a, b)| a <= b);
                     if smaller {
-                        return Some(Stop::Unbounded);
+                        return Some(Limit::Unbounded);
                     }
                     if before == 0 {
                         break;

@@ -41,7 +41,7 @@ fn is_shown(certificate: &Certificate) -> String {
 /// What the structure of a net says, as certificates: whether it stops, is safe, and the most
 /// tokens of each place.
 fn structural(pt: &Pt) -> Vec<Certificate> {
-    let mut structure = Structure::new(pt, Limits::default());
+    let mut structure = Structure::new(pt, &Limits::default());
     let mut found = Vec::new();
     match structure.deadlock() {
         Answer::Impossible(proof) => {
@@ -124,7 +124,7 @@ fn neighbours_never_eat_at_the_same_time() {
     let both = |one: usize, other: usize| {
         [one, other].map(|it| Linear { constant: 1, weights: vec![(PlaceId(it as u32), -1)] })
     };
-    let structure = Structure::new(&pt, Limits::default());
+    let structure = Structure::new(&pt, &Limits::default());
     let pairs: Vec<_> = (0..5).map(|it| both(eats[it], eats[(it + 1) % 5]).to_vec()).collect();
     let proofs: Vec<_> = pairs
         .iter()
@@ -147,7 +147,7 @@ fn neighbours_never_eat_at_the_same_time() {
 #[test]
 fn two_thousand_cards_never_stop_and_two_hundred_philosophers_do() {
     let kanban = pt(&kanban(2_000).unwrap());
-    let mut structure = Structure::new(&kanban, Limits::default());
+    let mut structure = Structure::new(&kanban, &Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     let evidence = Evidence::deadlock_free(&kanban, structure.dead(), &proof).unwrap();
     let certificate = Certificate::of(&kanban, "", never_dead(), true, evidence);
@@ -254,7 +254,7 @@ fn what_the_structure_of_random_nets_says_is_shown() {
 #[test]
 fn a_part_without_a_proof_is_no_evidence() {
     let track = crate::certificates::stories::track();
-    let structure = Structure::new(&track, Limits::default());
+    let structure = Structure::new(&track, &Limits::default());
     assert!(Evidence::never(&track, structure.dead(), &property::Formula::FALSE, &[]).is_some());
     assert_eq!(Evidence::never(&track, structure.dead(), &property::Formula::TRUE, &[]), None);
     assert_eq!(Evidence::one_safe(&track, &DeadTransitions::default(), &[]), None);

@@ -124,7 +124,7 @@ fn what_is_said_of_twenty_unbounded_nets_is_not_at_odds_with_their_markings() {
     let (mut random, mut counts, mut compared) = (Random(7), Counts::default(), 0);
     while compared < 20 {
         let pt = nets::any(&mut random);
-        let limits = coverability::Limits { nodes: 2_000, ..coverability::Limits::default() };
+        let limits = Limits { states: 2_000, ..Limits::default() };
         if !matches!(coverability::bounded(&pt, &limits), Bounded::No(_)) {
             continue;
         }

@@ -20,8 +20,8 @@ fn public_nets_are_bounded_or_not_as_published() {
         let model = fact["model"];
         let bytes = std::fs::read(folder.join(format!("{model}.pnml"))).unwrap();
         let pt = Pt::from(&pnml::read(model, &bytes).unwrap().view().net());
-        let limits = Limits { nodes: 20_000, ..Limits::default() };
-        match bounded(&pt, &Limits { nodes: 100_000, ..limits }) {
+        let limits = Limits { states: 20_000, ..Limits::default() };
+        match bounded(&pt, &Limits { states: 100_000, ..limits }) {
             Bounded::Yes => {
                 assert_ne!(fact["max_place"], "+inf", "{model}");
                 yes += 1;

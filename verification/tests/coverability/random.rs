@@ -7,8 +7,7 @@ use cotama_verification::coverability::{
     Bounded, CoverabilitySet, Coverable, Limits, Tokens, bounded, coverable,
 };
 
-const LIMITS: Limits<'static> =
-    Limits { nodes: 3_000, bytes: 1 << 30, firings: 100_000, stop: &|| false };
+const LIMITS: Limits = Limits { states: 3_000, bytes: 1 << 30, deadline: None };
 
 #[test]
 fn the_set_covers_all_that_is_reachable_and_nothing_else() {

@@ -10,7 +10,7 @@ use cotama_verification::reductions::Goal::{
     Bounds, Ctl, Deadlock, Reachability, StutterInvariantLtl,
 };
 use cotama_verification::reductions::{
-    Goal, Keep, LiftError, Limits, Reduced, Rule, Tokens, reduce, reduce_within,
+    Effort, Goal, Keep, LiftError, Limits, Reduced, Rule, Tokens, reduce, reduce_within,
 };
 
 /// Reduces by one rule and compares the net.
@@ -295,8 +295,8 @@ fn more_transitions_than_before_are_not_made() {
 #[test]
 fn without_more_work_the_net_is_left_as_far_as_it_is() {
     let before = net("a:1 p b | h: a -> p; f: p -> b");
-    let limits = Limits { work: 0, ..Limits::default() };
-    let after = reduce_within(&before, &Keep::new(Deadlock), &limits);
+    let none = Effort { work: 0, ..Effort::default() };
+    let after = reduce_within(&before, &Keep::new(Deadlock), &Limits::default(), &none);
     assert_eq!((after.net, after.counts), (before, vec![]));
 }
 

@@ -3,7 +3,7 @@
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;
-use cotama_verification::reductions::{Goal, Keep, Limits, Reduced, Rule, reduce_within};
+use cotama_verification::reductions::{Effort, Goal, Keep, Limits, Reduced, Rule, reduce_within};
 
 pub(crate) fn net(text: &str) -> Pt {
     let (places, transitions) = text.split_once('|').unwrap_or((text, ""));
@@ -71,5 +71,6 @@ pub(crate) fn keep(pt: &Pt, goal: Goal, visible: &[&str]) -> Keep {
 
 /// Reduced by these rules alone.
 pub(crate) fn reduced(pt: &Pt, rules: &[Rule], keep: &Keep) -> Reduced {
-    reduce_within(pt, keep, &Limits { rules: rules.to_vec(), ..Limits::default() })
+    let effort = Effort { rules: rules.to_vec(), ..Effort::default() };
+    reduce_within(pt, keep, &Limits::default(), &effort)
 }

@@ -32,7 +32,7 @@ fn bounds_are_never_below_the_published_ones_and_mostly_equal() {
     for row in facts(&folder, &["model", "max_place", "bounded"]) {
         let [model, most, bounded] = &row[..] else { panic!("a short row") };
         let pt = net(&folder, model);
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         let bounds = structure.bounds().to_vec();
         assert!(bounds.iter().flatten().all(|it| it.holds(&pt, structure.dead())), "{model}");
         match bounds.iter().map(|it| it.as_ref().map(|it| it.at_most)).collect::<Option<Vec<_>>>() {
@@ -54,7 +54,7 @@ fn one_safety_is_never_contradicted() {
     for row in facts(&folder, &["model", "safe"]) {
         let [model, safe] = &row[..] else { panic!("a short row") };
         let pt = net(&folder, model);
-        match Structure::new(&pt, Limits::default()).one_safe() {
+        match Structure::new(&pt, &Limits::default()).one_safe() {
             Answer::Impossible(_) => assert_eq!(safe, "yes", "{model}"),
             Answer::Reachable(trace) => {
                 assert_eq!(safe, "no", "{model}");
@@ -73,7 +73,7 @@ fn deadlocks_are_never_contradicted() {
     for row in facts(&folder, &["model", "deadlock"]) {
         let [model, deadlock] = &row[..] else { panic!("a short row") };
         let pt = net(&folder, model);
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         match structure.deadlock() {
             Answer::Impossible(proof) => {
                 assert_eq!(deadlock, "no", "{model}");
@@ -107,7 +107,7 @@ fn siphons_and_dead_transitions_are_never_contradicted() {
         assert!(found.deadlock_free != Some(true) || deadlock == "no", "{model}");
         assert!(found.live != Some(true) || live == "yes", "{model}");
         assert!(found.live != Some(false) || live.starts_with("no"), "{model}");
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         structure.find_dead_transitions();
         assert!(structure.dead().holds(&pt), "{model}");
         let dead = structure.dead().transitions.len();

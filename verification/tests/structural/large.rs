@@ -7,7 +7,7 @@ use cotama_verification::structural::{Answer, Limits, Structure};
 #[test]
 fn a_kanban_system_of_2000_cards_is_bounded_and_never_stops() {
     let pt = kanban(2_000);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let bounds: Vec<_> =
         structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     assert_eq!(bounds, [Some(2_000); 16]);
@@ -20,7 +20,7 @@ fn a_kanban_system_of_2000_cards_is_bounded_and_never_stops() {
 #[test]
 fn two_hundred_philosophers_are_1_safe_and_can_starve() {
     let pt = philosophers(200, false);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let Answer::Impossible(bounds) = structure.one_safe() else { panic!("not proved") };
     assert!(bounds.iter().step_by(50).all(|it| it.holds(&pt, structure.dead())));
     let Answer::Reachable(trace) = structure.deadlock() else { panic!("not found") };
@@ -31,6 +31,6 @@ fn two_hundred_philosophers_are_1_safe_and_can_starve() {
 #[test]
 fn two_hundred_philosophers_who_keep_an_order_never_starve() {
     let pt = philosophers(200, true);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     assert!(matches!(structure.deadlock(), Answer::Impossible(_)));
 }

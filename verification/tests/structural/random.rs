@@ -5,7 +5,7 @@ use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::property::Linear;
 use cotama_verification::pt::Pt;
 use cotama_verification::structural::certificate::unreachable;
-use cotama_verification::structural::{Answer, Limits, Structure};
+use cotama_verification::structural::{Answer, Effort, Limits, Structure};
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -36,7 +36,7 @@ proptest! {
 
     #[test]
     fn what_is_called_unreachable_is_and_what_is_reached_is_there((pt, goal) in with_goal()) {
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         let (markings, _) = explore(&pt, 500);
         let there = |marking: &Vec<u32>| goal.iter().all(|it| holds(it, marking));
         for _ in 0..2 {
@@ -54,7 +54,7 @@ proptest! {
 
     #[test]
     fn no_marking_passes_a_bound(pt in any_net(), weights in vec(-2..=2_i64, 5)) {
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         let (markings, _) = explore(&pt, 500);
         let bounds = structure.bounds().to_vec();
         for (place, bound) in bounds.iter().enumerate() {
@@ -85,7 +85,7 @@ proptest! {
 
     #[test]
     fn deadlocks_are_not_missed_and_not_made_up(pt in any_net()) {
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         let (markings, _) = explore(&pt, 500);
         match structure.deadlock() {
             Answer::Impossible(proof) => {
@@ -101,7 +101,7 @@ proptest! {
 
     #[test]
     fn dead_transitions_never_fire(pt in any_net()) {
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         structure.find_dead_transitions();
         prop_assert!(structure.dead().holds(&pt));
         for marking in explore(&pt, 500).0 {
@@ -117,7 +117,7 @@ proptest! {
         work in 0..200_u64,
         nodes in 0..4_u32,
     ) {
-        let mut structure = Structure::new(&pt, Limits { work, nodes, ..Limits::default() });
+        let mut structure = Structure::with_effort(&pt, &Limits::default(), Effort { work, nodes });
         let (markings, _) = explore(&pt, 500);
         if let Answer::Impossible(proof) = structure.reach(&goal) {
             prop_assert!(!markings.iter().any(|marking| goal.iter().all(|it| holds(it, marking))));

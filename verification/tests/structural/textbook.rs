@@ -8,8 +8,8 @@ use cotama_verification::structural::certificate::{
     Bound, DeadTransitions, LinearInvariant, Refutation, Sum, unreachable,
 };
 use cotama_verification::structural::{
-    Answer, Limits, Stop, Structure, Unknown, class, commoner, minimal_siphons, place_invariants,
-    place_semiflows,
+    Answer, Effort, Limit, Limits, Structure, Unknown, class, commoner, minimal_siphons,
+    place_invariants, place_semiflows,
 };
 use std::sync::Arc;
 
@@ -24,7 +24,7 @@ fn tokens_at_least(place: u32, least: i64) -> Linear {
 #[test]
 fn three_philosophers_starve_after_three_steps() {
     let pt = philosophers(3, false);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let Answer::Reachable(trace) = structure.deadlock() else { panic!("not found") };
     assert_eq!(trace.len(), 3);
     assert!(super::nets::enabled(&pt, &replay(&pt, &trace)).next().is_none());
@@ -34,7 +34,7 @@ fn three_philosophers_starve_after_three_steps() {
 fn philosophers_who_keep_an_order_never_starve() {
     for count in 2..8 {
         let pt = philosophers(count, true);
-        let mut structure = Structure::new(&pt, Limits::default());
+        let mut structure = Structure::new(&pt, &Limits::default());
         let Answer::Impossible(proof) = structure.deadlock() else {
             panic!("not proved for {count}")
         };
@@ -48,7 +48,7 @@ fn philosophers_who_keep_an_order_never_starve() {
 #[test]
 fn at_most_every_other_philosopher_eats() {
     let pt = philosophers(7, false);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let eat: Vec<_> = (0..7).map(|at| (PlaceId(4 * at + 3), 1)).collect();
     let bound = structure.upper_bound(&eat).unwrap();
     assert_eq!(bound.at_most, 3);
@@ -79,7 +79,7 @@ fn the_kanban_system_has_its_published_invariants() {
 #[test]
 fn a_proof_with_a_wrong_number_is_refused() {
     let pt = kanban(2);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let bound = structure.upper_bound(&[(PlaceId(0), 1)]).unwrap();
     assert_eq!(bound.at_most, 2);
     assert!(bound.holds(&pt, structure.dead()));
@@ -95,7 +95,7 @@ fn a_proof_with_a_wrong_number_is_refused() {
 fn the_last_token_of_a_trap_stays() {
     // Two tokens become one: the state equation alone would let the last one go.
     let pt = net(&[3], &[[&[(0, 2)], &[], &[(0, 1)]]]);
-    let structure = Structure::new(&pt, Limits::default());
+    let structure = Structure::new(&pt, &Limits::default());
     let goal = [tokens_at_most(0, 0)];
     let Answer::Impossible(proof) = structure.reach(&goal) else { panic!("not proved") };
     assert!(unreachable(&pt, structure.dead(), &goal, &proof));
@@ -107,7 +107,7 @@ fn the_last_token_of_a_trap_stays() {
 #[test]
 fn half_a_token_is_no_token() {
     let pt = net(&[3, 0], &[[&[(0, 1)], &[], &[(1, 1)]]]);
-    let structure = Structure::new(&pt, Limits::default());
+    let structure = Structure::new(&pt, &Limits::default());
     let goal = [
         Linear { constant: -3, weights: vec![(PlaceId(1), 2)] },
         Linear { constant: 3, weights: vec![(PlaceId(1), -2)] },
@@ -115,9 +115,9 @@ fn half_a_token_is_no_token() {
     let Answer::Impossible(proof) = structure.reach(&goal) else { panic!("not proved") };
     assert!(matches!(proof, Refutation::Tokens { place: PlaceId(0), at: 1, .. }));
     assert!(unreachable(&pt, structure.dead(), &goal, &proof));
-    let few = Limits { nodes: 1, ..Limits::default() };
-    let answer = Structure::new(&pt, few).reach(&goal);
-    assert_eq!(answer, Answer::Unknown(Unknown::Limit(Stop::Nodes)));
+    let few = Effort { nodes: 1, ..Effort::default() };
+    let answer = Structure::with_effort(&pt, &Limits::default(), few).reach(&goal);
+    assert_eq!(answer, Answer::Unknown(Unknown::Limit(Limit::Work)));
 }
 
 #[test]
@@ -133,7 +133,7 @@ fn what_never_gets_its_tokens_is_dead() {
             [&[(4, 1)], &[], &[]],
         ],
     );
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     assert_eq!(structure.dead().transitions, [TransitionId(0), TransitionId(1)]);
     structure.find_dead_transitions();
     assert_eq!(structure.dead().transitions, [0, 1, 3, 4].map(TransitionId));
@@ -146,7 +146,7 @@ fn what_never_gets_its_tokens_is_dead() {
 #[test]
 fn a_place_that_grows_without_limit_has_no_bound() {
     let pt = net(&[1, 0], &[[&[], &[(0, 1)], &[(1, 1)]]]);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let bounds: Vec<_> =
         structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
     assert_eq!(bounds, [Some(1), None]);
@@ -159,11 +159,11 @@ fn a_place_that_grows_without_limit_has_no_bound() {
 #[test]
 fn a_net_without_transitions_is_dead_and_one_without_places_is_not() {
     assert_eq!(
-        Structure::new(&net::<2>(&[1], &[]), Limits::default()).deadlock(),
+        Structure::new(&net::<2>(&[1], &[]), &Limits::default()).deadlock(),
         Answer::Reachable(Vec::new())
     );
     let free = net(&[], &[[&[], &[], &[]]]);
-    let mut structure = Structure::new(&free, Limits::default());
+    let mut structure = Structure::new(&free, &Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     assert!(proof.holds(&free, structure.dead()));
 }
@@ -177,7 +177,7 @@ fn numbers_that_pass_63_bits_are_no_answer() {
     let pt = net(&[most; 9], &transitions);
     assert_eq!(place_invariants(&pt), None);
     assert!(!place_semiflows(&pt, 100).complete);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let found: Vec<_> = structure.bounds().to_vec();
     assert!(found.iter().flatten().all(|it| it.holds(&pt, structure.dead())));
 }
@@ -220,7 +220,7 @@ fn a_free_choice_net_with_a_siphon_that_runs_dry_is_not_live() {
 #[test]
 fn three_tokens_make_one_pair_and_not_one_and_a_half() {
     let pt = net(&[3, 0], &[[&[(0, 2)], &[], &[(1, 1)]]]);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let most: Vec<_> = structure.bounds().iter().flatten().map(|it| it.at_most).collect();
     assert_eq!(most, [3, 1]);
 }
@@ -259,7 +259,7 @@ fn a_forged_proof_is_refused() {
 fn a_transition_that_needs_less_is_not_disabled_with_one_that_needs_more() {
     // The first one fires once, the other one for ever.
     let pt = net(&[2, 0], &[[&[(0, 2)], &[], &[(0, 1), (1, 1)]], [&[(0, 1)], &[], &[(0, 1)]]]);
-    let mut structure = Structure::new(&pt, Limits::default());
+    let mut structure = Structure::new(&pt, &Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     assert!(proof.holds(&pt, structure.dead()));
 }

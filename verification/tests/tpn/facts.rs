@@ -1,7 +1,7 @@
 //! Published and confirmed answers.
 
 use crate::tpn::{bound, discrete, folder, net};
-use cotama_verification::tpn::{self, Limits, Stop, TimeNet};
+use cotama_verification::tpn::{self, Limit, Limits, TimeNet};
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -21,7 +21,7 @@ fn rows(table: &str) -> Vec<BTreeMap<&str, &str>> {
 fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
     let Some(folder) = folder("their known answers") else { return };
     let table = fs::read_to_string(folder.join("facts.tsv")).unwrap();
-    let limits = Limits { classes: 1_000_000, ..Limits::default() };
+    let limits = Limits { states: 1_000_000, ..Limits::default() };
     let rows = rows(&table);
     for row in &rows {
         let name = row["net"];
@@ -55,7 +55,7 @@ fn every_net_has_the_classes_and_markings_that_are_known_of_it() {
         );
         assert_eq!(
             classes.stopped(),
-            if row["bounded"] == "yes" { None } else { Some(Stop::Unbounded) }
+            if row["bounded"] == "yes" { None } else { Some(Limit::Unbounded) }
         );
         if row["bounded"] == "yes" {
             let reached = matches!(tpn::deadlock(&net, &limits), tpn::Reach::Reached(_));

@@ -1,9 +1,10 @@
 //! Nets with and without a limit to their tokens.
 
 use crate::tpn::net;
-use cotama_verification::tpn::{self, Limits, Stop};
+use cotama_verification::tpn::{self, Limit, Limits};
+use std::time::Instant;
 
-const LIMITS: Limits<'_> = Limits { classes: 2_000, bytes: 1 << 26, stop: &|| false };
+const LIMITS: Limits = Limits { states: 2_000, bytes: 1 << 26, deadline: None };
 
 /// Whether it is bounded, as far as that is known; and without time.
 fn bounded(text: &str) -> (Option<bool>, Option<bool>) {
@@ -49,9 +50,9 @@ fn what_is_not_proved_is_not_known() {
     let laps = "tr go [1,1] p a -> p b*2  tr turn [0,0] p b*1000000 -> q  tr back [1,1] p b -> p \
         a  pl p (1)  pl a (1)";
     let net = net(laps);
-    let limits = Limits { classes: 200, ..LIMITS };
+    let limits = Limits { states: 200, ..LIMITS };
     let classes = tpn::classes(&net, &limits);
-    assert_eq!((classes.bounded(), classes.stopped()), (None, Some(Stop::Classes)));
+    assert_eq!((classes.bounded(), classes.stopped()), (None, Some(Limit::States)));
     assert_eq!(classes.classes(), 200);
 }
 
@@ -61,10 +62,10 @@ fn a_net_that_is_bounded_without_time_is_bounded_whatever_the_limit() {
         "tr t [1,2] a -> b  tr u [3,4] a' -> b'  tr v [2,9] b -> a  tr w [1,7] b' -> a'  pl a (1)  \
          pl a' (1)",
     );
-    let classes = tpn::classes(&net, &Limits { classes: 5, ..LIMITS });
+    let classes = tpn::classes(&net, &Limits { states: 5, ..LIMITS });
     assert_eq!(
         (classes.bounded(), classes.stopped(), classes.classes()),
-        (Some(true), Some(Stop::Classes), 5)
+        (Some(true), Some(Limit::States), 5)
     );
     let whole = tpn::classes(&net, &LIMITS);
     assert_eq!((whole.bounded(), whole.stopped(), whole.markings()), (Some(true), None, 4));
@@ -74,9 +75,9 @@ fn a_net_that_is_bounded_without_time_is_bounded_whatever_the_limit() {
 fn limits_end_the_work_with_an_answer() {
     let net = net("tr t [1,2] a -> b c  tr u [3,4] b ->  tr v [2,9] c -> a  pl a (3)");
     let stopped = |limits| tpn::classes(&net, &limits).stopped();
-    assert_eq!(stopped(Limits { classes: 0, ..LIMITS }), Some(Stop::Classes));
-    assert_eq!(stopped(Limits { bytes: 100, ..LIMITS }), Some(Stop::Bytes));
-    assert_eq!(stopped(Limits { stop: &|| true, ..LIMITS }), Some(Stop::Interrupt));
+    assert_eq!(stopped(Limits { states: 0, ..LIMITS }), Some(Limit::States));
+    assert_eq!(stopped(Limits { bytes: 100, ..LIMITS }), Some(Limit::Bytes));
+    assert_eq!(stopped(Limits { deadline: Some(Instant::now()), ..LIMITS }), Some(Limit::Time));
 }
 
 #[test]
@@ -84,5 +85,5 @@ fn a_place_that_holds_all_it_can_ends_the_work() {
     let net =
         net("tr t [1,2] a -> a b*3  tr u [0,0] b*4294967295 a -> c  pl a (1)  pl b (4294967293)");
     let classes = tpn::classes(&net, &LIMITS);
-    assert_eq!((classes.bounded(), classes.stopped()), (None, Some(Stop::Overflow)));
+    assert_eq!((classes.bounded(), classes.stopped()), (None, Some(Limit::Tokens)));
 }

@@ -42,7 +42,7 @@ fn shown(response: Response) -> String {
     match response {
         Response::NeverFires => "never fires".to_owned(),
         Response::Between { min, max } => format!("{min}..{max}"),
-        Response::Unknown { stop, explored } => format!("unknown after {explored}: {stop}"),
+        Response::Unknown { limit, explored } => format!("unknown after {explored}: {limit:?}"),
     }
 }
 

@@ -128,7 +128,7 @@ fn agrees_on_markings(net: &TimeNet, markings: &BTreeSet<Vec<u32>>, dead: &BTree
             assert!(dead.is_empty(), "{text}");
             assert_eq!(all, classes.classes());
         }
-        Reach::Unknown { stop, .. } => panic!("{stop}: {text}"),
+        Reach::Unknown { limit, .. } => panic!("{limit:?}: {text}"),
     }
     let last = markings.iter().max_by_key(|it| it.iter().sum::<u32>()).unwrap();
     let Reach::Reached(run) = tpn::reach(net, |tokens| tokens == last, &limits) else {

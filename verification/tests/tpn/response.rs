@@ -1,7 +1,7 @@
 //! How long a place takes to be marked after a firing.
 
 use crate::tpn::{bound, finite, net, shown};
-use cotama_verification::tpn::{self, Interval, Limits, Response, Stop, Time};
+use cotama_verification::tpn::{self, Interval, Limit, Limits, Response, Time};
 
 #[test]
 fn times_in_a_row_add_up() {
@@ -110,16 +110,16 @@ fn what_never_fires_has_no_response() {
 #[test]
 fn limits_end_the_work_with_an_answer() {
     let net = net("tr a [1,2] p -> q  tr b [1,2] q -> r  tr c [3,3] r -> p  pl p (1)");
-    let limits = Limits { classes: 2, ..Limits::default() };
+    let limits = Limits { states: 2, ..Limits::default() };
     let (a, p) = (net.transition("a").unwrap(), net.place("p").unwrap());
     assert_eq!(
         tpn::bound(&net, a, p, &limits),
-        Response::Unknown { stop: Stop::Classes, explored: 2 }
+        Response::Unknown { limit: Limit::States, explored: 2 }
     );
     let unbounded = crate::tpn::net("tr a -> p");
     let (a, p) = (unbounded.transition("a").unwrap(), unbounded.place("p").unwrap());
     let unknown = tpn::bound(&unbounded, a, p, &Limits::default());
-    assert!(matches!(unknown, Response::Unknown { stop: Stop::Unbounded, .. }), "{unknown:?}");
+    assert!(matches!(unknown, Response::Unknown { limit: Limit::Unbounded, .. }), "{unknown:?}");
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn the_largest_bounds_are_exact_and_larger_sums_are_not_guessed() {
         from_start(3),
         Response::Between { min: finite(3 * (large - 1)), max: finite(3 * large) }
     );
-    assert!(matches!(from_start(5), Response::Unknown { stop: Stop::Overflow, .. }));
+    assert!(matches!(from_start(5), Response::Unknown { limit: Limit::Tokens, .. }));
     assert!(Time::Finite(u64::MAX) < Time::Infinite);
 }
 

@@ -3,7 +3,7 @@
 use crate::tpn::net;
 use crate::tpn::replay::replay;
 use cotama_verification::tpn::{
-    Date, Limits, NoSchedule, Reach, Schedule, TimeNet, deadlock, reach, schedule,
+    Date, Limit, Limits, NoSchedule, Reach, Schedule, TimeNet, deadlock, reach, schedule,
 };
 
 /// The dates of a sequence of names, after a replay of them; or why there are none.
@@ -110,8 +110,8 @@ fn what_cannot_be_reached_was_looked_for_in_all_classes() {
     let failed = net.place("failed").unwrap().0 as usize;
     let limits = Limits::default();
     assert_eq!(reach(&net, |it| it[failed] > 0, &limits), Reach::Unreachable { classes: 3 });
-    let few = Limits { classes: 2, ..limits };
-    let cut = Reach::Unknown { stop: cotama_verification::tpn::Stop::Classes, classes: 2 };
+    let few = Limits { states: 2, ..limits };
+    let cut = Reach::Unknown { limit: Limit::States, classes: 2 };
     assert_eq!(reach(&net, |it| it[failed] > 0, &few), cut);
     assert_eq!(reach(&net, |_| true, &few), Reach::Reached(Schedule::default()));
 }
