@@ -76,8 +76,6 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     let plain = Checker::new(&subject.model);
     for (position, property) in asked.properties.iter().enumerate() {
         let watched = asked.watched.get(position).and_then(Option::as_ref);
-        let own = watched.map(|it| Checker::new(&it.model));
-        let (subject, checker) = (watched.unwrap_or(&subject), own.as_ref().unwrap_or(&plain));
         let requirement = asked.requirements.get(position);
         let budget = budget.share(asked.properties.len() - position);
         progress.begin(position + 1, asked.properties.len(), &property.name);
@@ -90,6 +88,11 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
             progress: &show,
         };
         let begun = Instant::now();
+        let own = watched.map(|it| match &it.rounds {
+            Some(rounds) => plain.watched(&it.model, rounds.watching(), &options),
+            None => Checker::new(&it.model),
+        });
+        let (subject, checker) = (watched.unwrap_or(&subject), own.as_ref().unwrap_or(&plain));
         let answer = checker.answer(property, &options);
         let seconds = begun.elapsed().as_secs_f64();
         progress.clear();

@@ -6,20 +6,53 @@ use super::budget::Budget;
 use super::clauses::clauses;
 use super::engine::{Engine, Finding, Found, Task};
 use super::engines::{Explicit, Temporal};
+use super::known::Known;
+use super::{Checker, Model, Options};
 use crate::certificate::{Evidence, most_markings};
-use crate::explicit::{Goal, Graph, Limits};
+use crate::explicit::{Goal, Graph, Limits, Watching};
 use crate::property::{Ctl, Formula};
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// The most markings of a graph that is made because evidence asks for it.
 const STORED: u64 = 2_000_000;
 
+/// The same of a net with watches, where that of the net without is there: its markings are pairs
+/// of numbers, and take little time.
+const WATCHED: u64 = 20_000_000;
+
 /// The most clauses that the structure is asked of where there is a graph.
 const CLAUSES: usize = 8;
 
+impl Checker<'_> {
+    /// A checker of the same net with watches. Where evidence asks for graphs, that of the net with
+    /// watches is made of that of the net without, so that what the net does is explored once.
+    pub fn watched<'w>(
+        &self,
+        model: &'w Model,
+        watching: Watching,
+        options: &Options<'_>,
+    ) -> Checker<'w> {
+        let budget = Budget::from(options);
+        let limits = Limits { states: budget.limits.states.min(STORED), ..budget.limits };
+        let budget = Budget { limits, ..budget };
+        if options.engine == Choice::Auto && options.evidence {
+            let _ = self.known.graph(&budget);
+        }
+        let known = match self.known.made().filter(|_| options.engine == Choice::Auto) {
+            Some(graph) => Known::watched(model.pt(), graph, watching),
+            None => Known::new(model.pt()),
+        };
+        if known.is_watched() {
+            let limits = Limits { states: options.limits.states.min(WATCHED), ..budget.limits };
+            let _ = known.graph(&Budget { limits, ..budget });
+        }
+        Checker { model, known }
+    }
+}
+
 impl Asked<'_, '_> {
     /// The graph of the whole net: if it is there already, or if evidence asks for it.
-    pub(super) fn graph(&self) -> Option<Rc<Graph>> {
+    pub(super) fn graph(&self) -> Option<Arc<Graph>> {
         let limits = self.budget.limits;
         if self.engine != Choice::Auto {
             return None;
@@ -32,10 +65,11 @@ impl Asked<'_, '_> {
         self.net.made().filter(|it| it.states() as u64 <= limits.states)
     }
 
-    /// Whether there is a graph, and more is asked than the structure shows in a moment.
+    /// Whether there is a graph, and more is asked than the structure shows in a moment. Of a net
+    /// with watches the structure is not known yet.
     pub(super) fn is_seen_sooner(&self, goal: &Formula) -> bool {
         let many = || clauses(goal, self.net.pt()).is_none_or(|it| it.len() > CLAUSES);
-        self.net.made().is_some() && many()
+        self.net.made().is_some() && (self.net.is_watched() || many())
     }
 
     /// What the graph says of a formula about runs, if there is one for it. Where a run may show

@@ -1,8 +1,8 @@
 //! The reachable markings with the arcs between them.
 
-use super::bits::BitSet;
 use super::goal::Goal;
 use super::kept::{Kept, Packed};
+use super::labels::Labels;
 use super::layout::Width;
 use super::markings::Look;
 use super::space::{Search, Space, TooNarrow, search};
@@ -10,7 +10,7 @@ use super::table::hash;
 use super::{Limit, Limits, Progress, Unfinished, wide};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
-use std::sync::Mutex;
+use std::sync::{Mutex, OnceLock};
 use std::time::Instant;
 
 /// Successors whose places in the index are looked up at once: their loads overlap.
@@ -20,14 +20,16 @@ const BATCH: usize = 256;
 /// that fires transitions in their order; and for each marking those that follow it.
 #[derive(Debug)]
 pub struct Graph {
-    markings: Kept,
+    pub(super) markings: Kept,
     /// For each marking where its successors begin.
-    starts: Vec<usize>,
-    successors: Vec<u32>,
+    pub(super) starts: Vec<usize>,
+    pub(super) successors: Vec<u32>,
     /// How many transitions the net has.
-    transitions: u32,
-    /// A bit for each transition that some marking enables.
-    fired: Vec<u64>,
+    pub(super) transitions: u32,
+    /// A bit for each transition that some marking enables, once it is known.
+    pub(super) fired: OnceLock<Vec<u64>>,
+    /// Where atoms of formulas hold.
+    pub(super) labels: Labels,
 }
 
 impl Graph {
@@ -65,7 +67,8 @@ impl Graph {
                     starts: arcs.starts,
                     successors: arcs.successors,
                     transitions: pt.transitions.len() as u32,
-                    fired: arcs.fired,
+                    fired: arcs.fired.into(),
+                    labels: Labels::default(),
                 })
             }
             found => found.map_err(none)?,
@@ -85,6 +88,7 @@ impl Graph {
     /// About how much memory it takes.
     pub fn bytes(&self) -> u64 {
         self.markings.bytes()
+            + self.labels.bytes(self.states())
             + (size_of_val(&self.starts[..]) + size_of_val(&self.successors[..])) as u64
     }
 
@@ -118,6 +122,12 @@ impl Graph {
         self.markings.marking(state)
     }
 
+    /// The tokens of a place in a marking, of which nothing else is asked.
+    #[inline]
+    pub(super) fn held(&self, state: u32, place: PlaceId) -> u64 {
+        self.markings.held(state, place)
+    }
+
     /// The tokens of a place in each marking.
     ///
     /// # Panics
@@ -126,14 +136,9 @@ impl Graph {
         self.markings.tokens(place, self.states() as u32)
     }
 
-    /// The markings in which the goal holds, looked at by so many threads.
-    pub fn satisfying(&self, goal: Goal<'_>, jobs: usize) -> BitSet {
-        self.markings.satisfying(goal, self.states(), jobs)
-    }
-
     /// The first marking in which the goal holds, which is one with a shortest way to it.
     pub fn first(&self, goal: Goal<'_>) -> Option<u32> {
-        self.markings.first(goal, self.states())
+        self.satisfying(goal, 1).ones().next()
     }
 
     /// A shortest way from the initial marking to another one.
@@ -170,13 +175,14 @@ impl Graph {
 
     /// Transitions that some marking enables, or that none does.
     pub(super) fn fired(&self, ever: bool) -> impl Iterator<Item = u32> {
+        let fired = self.fired.get_or_init(|| self.enabled(0..self.states() as u32));
         (0..self.transitions)
-            .filter(move |it| (self.fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
+            .filter(move |it| (fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
     }
 
     /// Transitions that some of these markings enable: a bit for each, 64 to a word.
     pub(super) fn enabled(&self, states: impl Iterator<Item = u32>) -> Vec<u64> {
-        let mut all = vec![0; self.fired.len()];
+        let mut all = vec![0; (self.transitions as usize).div_ceil(64)];
         self.markings.each(states, |look| {
             all.iter_mut().zip(&*look.view.enabled).for_each(|(all, it)| *all |= it);
         });
@@ -201,17 +207,19 @@ impl Search for Construction<'_> {
         if let Some(limit) = space.check(&parts.union)? {
             return Ok(Err(Unfinished { limit, states }));
         }
-        let Parts { markings, mut starts, successors, fired, .. } = parts;
+        let Parts { markings, mut starts, successors, fired, bytes, .. } = parts;
         let transitions = self.pt.transitions.len() as u32;
         Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
             starts.push(successors.len());
-            let markings = Packed { space, words: S, markings: markings.into_flattened() };
+            let needs = self.pt.needs.clone();
+            let markings = Packed { space, words: S, markings: markings.into_flattened(), needs };
             Graph {
                 markings: Kept::Packed(Box::new(markings)),
                 starts,
                 successors,
                 transitions,
-                fired,
+                fired: fired.into(),
+                labels: Labels::new(bytes, self.limits.bytes.saturating_sub(bytes)),
             }
         }))
     }

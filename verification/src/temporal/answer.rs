@@ -12,7 +12,7 @@ use crate::property::{Assumptions, Condition, Ctl, Formula, Reachability};
 use crate::pt::Pt;
 use crate::stubborn::reach_reduced;
 use std::cell::OnceCell;
-use std::rc::Rc;
+use std::sync::Arc;
 
 /// Whether a formula holds in the initial marking.
 ///
@@ -41,12 +41,12 @@ use std::rc::Rc;
 /// ```
 pub fn answer(pt: &Pt, formula: &Formula, limits: &Limits, progress: &dyn Fn(Progress)) -> Verdict {
     let made = OnceCell::new();
-    let graph = || made.get_or_init(|| Graph::new(pt, limits, progress).map(Rc::new)).clone();
+    let graph = || made.get_or_init(|| Graph::new(pt, limits, progress).map(Arc::new)).clone();
     answer_with(pt, formula, (limits, 1), progress, (&graph, None))
 }
 
 /// Gives the graph of the net, which is made when it is asked for first.
-pub(crate) type Graphs<'a> = &'a dyn Fn() -> Result<Rc<Graph>, Unfinished>;
+pub(crate) type Graphs<'a> = &'a dyn Fn() -> Result<Arc<Graph>, Unfinished>;
 
 /// The same as [`answer`] with a graph that others use too, and all of it by that graph if it is
 /// there already.
