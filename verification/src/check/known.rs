@@ -102,7 +102,8 @@ impl<'n> Known<'n> {
         let watched = self.watched.as_ref().and_then(|(graph, watching)| {
             Graph::watched(graph, (self.pt, watching), limits, progress)
         });
-        let graph = watched.unwrap_or_else(|| Graph::new(self.pt, limits, progress)).map(Arc::new);
+        let alone = || Graph::on(self.pt, limits, budget.jobs, progress);
+        let graph = watched.unwrap_or_else(alone).map(Arc::new);
         // What is kept takes room that the next engine may need.
         let is_small = |it: &Arc<Graph>| it.bytes() <= budget.limits.bytes / KEPT;
         if graph.as_ref().map_or(true, is_small) {

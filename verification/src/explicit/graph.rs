@@ -1,5 +1,6 @@
 //! The reachable markings with the arcs between them.
 
+use super::ahead::{Ahead, Following};
 use super::goal::Goal;
 use super::kept::{Kept, Packed};
 use super::labels::Labels;
@@ -11,10 +12,7 @@ use super::{Limit, Limits, Progress, Unfinished, wide};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
 use std::sync::{Mutex, OnceLock};
-use std::time::Instant;
-
-/// Successors whose places in the index are looked up at once: their loads overlap.
-const BATCH: usize = 256;
+use std::thread;
 
 /// The reachable markings, numbered from 0, the initial one, in the order of a breadth first search
 /// that fires transitions in their order; and for each marking those that follow it.
@@ -57,9 +55,33 @@ impl Graph {
     /// assert_eq!(graph.transitions(1), [TransitionId(1)]);
     /// ```
     pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Unfinished> {
+        Self::on(pt, limits, 1, progress)
+    }
+
+    /// The same graph, with the same numbers, made on so many threads: all but one of them look at
+    /// markings, and one gives the numbers.
+    ///
+    /// # Errors
+    /// As those of [`Graph::new`].
+    ///
+    /// ```
+    /// use cotama_models::nets::families::kanban;
+    /// use cotama_verification::explicit::{Graph, Limits};
+    /// use cotama_verification::pt::Pt;
+    /// let net = Pt::from(&kanban(2).unwrap().view().net());
+    /// let limits = Limits::default();
+    /// let [one, two] = [1, 2].map(|jobs| Graph::on(&net, &limits, jobs, &|_| ()).unwrap());
+    /// assert!((0..4_600).all(|it| one.successors(it) == two.successors(it)));
+    /// ```
+    pub fn on(
+        pt: &Pt,
+        limits: &Limits,
+        jobs: usize,
+        progress: &dyn Fn(Progress),
+    ) -> Result<Self, Unfinished> {
         let none = |limit| Unfinished { limit, states: 0 };
         let widths = Width::of(pt, limits).map_err(none)?;
-        match search(pt, widths, &mut Construction { pt, limits, progress }) {
+        match search(pt, widths, &mut Construction { pt, limits, jobs, progress }) {
             Err(Limit::Words) => {
                 let (markings, cursor, arcs) = wide::graph(pt, limits, progress)?;
                 Ok(Self {
@@ -194,6 +216,7 @@ impl Graph {
 struct Construction<'c> {
     pt: &'c Pt,
     limits: &'c Limits,
+    jobs: usize,
     progress: &'c dyn Fn(Progress),
 }
 
@@ -202,15 +225,16 @@ impl Search for Construction<'_> {
 
     fn search<const S: usize>(&mut self, space: Space) -> Result<Self::Found, TooNarrow> {
         let mut parts = Parts::<S>::new(&space, self.limits);
-        let ended = parts.explore(&space, self.progress);
+        let ended = thread::scope(|scope| {
+            parts.explore(&space, Ahead::new(&space, self.jobs, scope), self.progress)
+        });
         let states = (parts.markings.len() as u64).min(self.limits.states);
         if let Some(limit) = space.check(&parts.union)? {
             return Ok(Err(Unfinished { limit, states }));
         }
-        let Parts { markings, mut starts, successors, fired, bytes, .. } = parts;
+        let Parts { markings, starts, successors, fired, bytes, .. } = parts;
         let transitions = self.pt.transitions.len() as u32;
         Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
-            starts.push(successors.len());
             let needs = self.pt.needs.clone();
             let markings = Packed { space, words: S, markings: markings.into_flattened(), needs };
             Graph {
@@ -250,7 +274,7 @@ impl<'p, const S: usize> Parts<'p, S> {
             limits,
             bytes: 0,
             markings: Vec::new(),
-            starts: Vec::new(),
+            starts: vec![0],
             successors: Vec::new(),
             fired: vec![0; space.enabling.view().enabled.len()],
             index: Vec::new(),
@@ -259,37 +283,31 @@ impl<'p, const S: usize> Parts<'p, S> {
     }
 
     /// Adds all markings, or as many as there are before a limit or a guess that is too small.
-    fn explore(&mut self, space: &Space, progress: &dyn Fn(Progress)) -> Result<(), Limit> {
-        let deltas = space.deltas::<S>();
-        let (mut view, mut seen) = (space.enabling.view(), space.enabling.unseen());
-        let mut following: Vec<[u64; S]> = Vec::new();
+    fn explore(
+        &mut self,
+        space: &Space,
+        mut ahead: Ahead<'_, S>,
+        progress: &dyn Fn(Progress),
+    ) -> Result<(), Limit> {
         self.connect(&[space.initial()])?;
         self.successors.clear();
-        let (mut state, mut depth, mut level) = (0, 0, 1);
-        while state < level && !space.is_too_narrow(&self.union) {
-            if self.limits.deadline.is_some_and(|it| Instant::now() >= it) {
+        let (mut depth, mut level) = (0, 1);
+        while let Some(Following { markings, ends, fired }) = ahead.follow(&self.markings) {
+            if self.limits.is_over() {
                 return Err(Limit::Time);
             }
-            following.clear();
-            while state < level && following.len() < BATCH {
-                let marking = self.markings[state];
-                space.enabling.look(&marking, &mut view, &mut seen);
-                self.fired.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
-                self.bytes += make_room(&mut self.starts, 1, self.limits.bytes - self.bytes)?;
-                self.starts.push(self.successors.len() + following.len());
-                let fire = |it: u32| {
-                    let delta = &deltas[it as usize];
-                    std::array::from_fn(|at| marking[at].wrapping_add(delta[at]))
-                };
-                following.extend(view.transitions().map(fire));
-                state += 1;
+            self.fired.iter_mut().zip(fired).for_each(|(all, it)| *all |= it);
+            self.bytes += make_room(&mut self.starts, ends.len(), self.limits.bytes - self.bytes)?;
+            let before = self.successors.len();
+            self.starts.extend(ends.iter().map(|end| before + end));
+            self.connect(&markings)?;
+            let (states, done) = (self.markings.len(), self.starts.len() - 1);
+            progress(Progress { states: states as u64, depth, waiting: (states - done) as u64 });
+            if done >= level {
+                (level, depth) = (states, depth + 1);
             }
-            self.connect(&following)?;
-            let (states, waiting) =
-                (self.markings.len() as u64, (self.markings.len() - state) as u64);
-            progress(Progress { states, depth, waiting });
-            if state == level {
-                (level, depth) = (self.markings.len(), depth + 1);
+            if space.is_too_narrow(&self.union) {
+                break;
             }
         }
         Ok(())

@@ -28,6 +28,7 @@
 //! assert_eq!((space.states, space.arcs, space.dead_markings, space.limit), (2, 2, 0, None));
 //! ```
 
+mod ahead;
 mod apart;
 mod bits;
 mod block;
