@@ -36,6 +36,7 @@ mod boxes;
 mod crew;
 mod diamonds;
 mod enabling;
+mod engine;
 mod explore;
 mod goal;
 mod graph;
@@ -60,6 +61,8 @@ mod wide;
 mod worker;
 
 pub use bits::BitSet;
+pub use engine::{Explicit, Few, Stored};
+pub(crate) use engine::{certified, evidence, reached};
 pub use goal::Goal;
 pub use graph::Graph;
 pub use growth::Growth;

@@ -215,7 +215,7 @@ fn one_graph_answers_what_watches_ask() {
             runs += usize::from(two.run.is_some());
         }
     }
-    assert_eq!((asked, runs), (40, 15));
+    assert_eq!((asked, runs), (40, 14));
 }
 
 /// By which engine, with which evidence, of which the small checker is convinced, and with how many
