@@ -15,6 +15,7 @@ use crate::args::{CheckArgs, EngineName};
 use crate::budget::Budget;
 use crate::catalogue::{self, Entry, Kind};
 use crate::exit::{Exit, Failure};
+use crate::last_word::LastWord;
 use crate::output::{self, Screen};
 use crate::progress::Progress;
 use crate::render::style::NAME;
@@ -67,6 +68,18 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     files.of = asked.properties.len();
     let progress = Progress::new();
     let (mut results, mut texts) = (Vec::new(), Vec::new());
+    let mut answer = CheckAnswer {
+        schema: "cotama/check/1",
+        model: subject.name.clone(),
+        timed: subject.is_timed(),
+        time_unit: subject.time_unit(),
+        semantics: subject.semantics,
+        notes: subject.notes.clone(),
+        left_out: asked.left_out.clone(),
+        results: Vec::new(),
+        otherwise: otherwise(&asked, &subject.name),
+    };
+    let mut last_word = None;
     // A person sees each verdict when it is known.
     let shows = !args.json.json && !args.mcc;
     if shows {
@@ -76,8 +89,6 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
     let plain = Checker::new(&subject.model);
     for (position, property) in asked.properties.iter().enumerate() {
         let watched = asked.watched.get(position).and_then(Option::as_ref);
-        let own = watched.map(|it| Checker::new(&it.model));
-        let (subject, checker) = (watched.unwrap_or(&subject), own.as_ref().unwrap_or(&plain));
         let requirement = asked.requirements.get(position);
         let budget = budget.share(asked.properties.len() - position);
         progress.begin(position + 1, asked.properties.len(), &property.name);
@@ -91,22 +102,27 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
             progress: &show,
         };
         let begun = Instant::now();
-        let answer = checker.answer(property, &options);
+        let own = watched.map(|it| match &it.rounds {
+            Some(rounds) => plain.watched(&it.model, rounds.watching(), &options),
+            None => Checker::new(&it.model),
+        });
+        let (subject, checker) = (watched.unwrap_or(&subject), own.as_ref().unwrap_or(&plain));
+        let found = checker.answer(property, &options);
         let seconds = begun.elapsed().as_secs_f64();
         progress.clear();
         if args.mcc {
-            Screen::raw((line(property, &answer, budget.jobs) + "\n").as_bytes())?;
+            Screen::raw((line(property, &found, budget.jobs) + "\n").as_bytes())?;
         }
-        let mut row = row(subject, property, &answer, engine, seconds);
+        let mut row = row(subject, property, &found, engine, seconds);
         (row.id, row.sentence) = (requirement.map(|it| it.id), requirement.map(|it| it.sentence));
-        row.certificate = files.certificate(position, subject, property, &answer, screen)?;
+        row.certificate = files.certificate(position, subject, property, &found, screen)?;
         let mut text = None;
-        match explained::diagnosis(subject, property, &answer) {
+        match explained::diagnosis(subject, property, &found) {
             Some(Ok(diagnosis)) => {
                 files.trace(position, &diagnosis, screen)?;
-                row.explained_by(subject, &diagnosis, &answer);
+                row.explained_by(subject, &diagnosis, &found);
                 text = Some(match &subject.rounds {
-                    Some(rounds) => explained::in_rounds(rounds, &diagnosis, &answer),
+                    Some(rounds) => explained::in_rounds(rounds, &diagnosis, &found),
                     // It is indented by two.
                     None => {
                         format!("{diagnosis:.width$}", width = screen.width().saturating_sub(2))
@@ -119,7 +135,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
                     visible(&property.name)
                 ));
             }
-            None => match explained::unused(checker, property, &answer, &options) {
+            None => match explained::unused(checker, property, &found, &options) {
                 Some(unused) => {
                     files.unused(position, subject, &unused, screen)?;
                     row.unused = Some(explained::unused_row(&unused));
@@ -130,7 +146,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         }
         // Requirements name cells that are never reached on purpose.
         if !args.mcc && requirement.is_none() {
-            row.vacuous = explained::vacuity(checker, subject, property, &answer, &options);
+            row.vacuous = explained::vacuity(checker, subject, property, &found, &options);
             progress.clear();
         }
         if shows {
@@ -138,20 +154,14 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
             screen.print(&render::check::result(&row, asked.is_usual, unit, width))?;
         }
         texts.push(text.filter(|_| !asked.is_usual || row.verdict == VerdictName::False));
+        if args.json.json && position + 1 < asked.properties.len() {
+            last_word = last_word.or_else(|| LastWord::new(&answer));
+            last_word.iter_mut().for_each(|it| it.add(&row));
+        }
         results.push(row);
     }
-    let otherwise = otherwise(&asked, &subject.name);
-    let answer = CheckAnswer {
-        schema: "cotama/check/1",
-        model: subject.name.clone(),
-        timed: subject.is_timed(),
-        time_unit: subject.time_unit(),
-        semantics: subject.semantics,
-        notes: subject.notes,
-        left_out: asked.left_out,
-        results,
-        otherwise,
-    };
+    drop(last_word);
+    answer.results = results;
     for (file, text) in [(&args.junit, junit::text(&answer)), (&args.sarif, sarif::text(&answer))] {
         if let Some(path) = file {
             output::file(path, text.as_bytes())?;

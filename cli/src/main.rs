@@ -20,6 +20,7 @@ mod fmeca;
 mod infeasible;
 mod input;
 mod kind;
+mod last_word;
 mod list;
 mod mission;
 mod model;
@@ -50,6 +51,9 @@ use std::ffi::OsString;
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
+    if let Some(code) = last_word::printed() {
+        return code;
+    }
     let words: Vec<_> = std::env::args_os().collect();
     // A command line that cannot be understood may say, too, that a program reads the answer.
     let is_json = words.iter().take_while(|it| *it != "--").any(|it| it == "--json");

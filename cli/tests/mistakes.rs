@@ -205,3 +205,54 @@ fn who_interrupts_a_long_check_finds_no_file() {
     assert_eq!(stdout.lines().count(), 0);
     assert_eq!(folder.files(""), [""; 0]);
 }
+
+#[cfg(unix)]
+#[test]
+fn who_interrupts_a_check_in_json_reads_what_is_decided() {
+    use std::os::unix::process::ExitStatusExt;
+    if interruptions_are_ignored() {
+        eprintln!("SKIPPED: interruptions do not reach this process");
+        return;
+    }
+    let folder = Folder::new("mistakes_interrupted_json");
+    let line = [
+        "check",
+        "philosophers:500",
+        "--property",
+        "eat_1 = 0",
+        "--property",
+        "eat_1 > 0",
+        "--property",
+        "AG eat_1 <= 1 & AG eat_2 <= 1",
+        "--initial",
+        "--engine",
+        "explicit",
+        "--max-seconds",
+        "60",
+        "--certificate",
+        "it.json",
+        "--json",
+    ];
+    let child = Command::new(env!("CARGO_BIN_EXE_cotama"))
+        .args(line)
+        .current_dir(folder.path())
+        .stdin(Stdio::null())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    while !folder.path().join("it-2.json").exists() {
+        sleep(Duration::from_millis(10));
+    }
+    sleep(Duration::from_millis(200));
+    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    assert!(kill.unwrap().success());
+    // Until the end of the output: the command has ended before.
+    let ended = child.wait_with_output().unwrap();
+    assert_eq!(ended.status.signal(), Some(2), "{ended:?}");
+    let answer: serde_json::Value = serde_json::from_slice(&ended.stdout).unwrap();
+    crate::schemas::validate("check", &answer);
+    let verdicts: Vec<_> =
+        answer["results"].as_array().unwrap().iter().map(|it| &it["verdict"]).collect();
+    assert_eq!(verdicts, ["true", "false"]);
+}

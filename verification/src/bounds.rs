@@ -389,23 +389,25 @@ pub(crate) fn combined(
     b: i64,
 ) -> Option<Vec<(u32, i64)>> {
     let mut all = Vec::with_capacity(first.len() + second.len());
-    let (mut first, mut second) = (first.iter().peekable(), second.iter().peekable());
-    loop {
-        let order = match (first.peek(), second.peek()) {
-            (Some((x, _)), Some((y, _))) => x.cmp(y),
-            (Some(_), None) => Ordering::Less,
-            (None, Some(_)) => Ordering::Greater,
-            (None, None) => return Some(all),
+    let (mut i, mut j) = (0, 0);
+    while let (Some(&(x, one)), Some(&(y, two))) = (first.get(i), second.get(j)) {
+        let sum = match x.cmp(&y) {
+            Ordering::Less => a.checked_mul(one)?,
+            Ordering::Greater => b.checked_mul(two)?,
+            Ordering::Equal => a.checked_mul(one)?.checked_add(b.checked_mul(two)?)?,
         };
-        let one = if order == Ordering::Greater { None } else { first.next() };
-        let two = if order == Ordering::Less { None } else { second.next() };
-        let id = one.or(two)?.0;
-        let scaled = |it: Option<&(u32, i64)>, by| it.map_or(Some(0), |it| it.1.checked_mul(by));
-        match scaled(one, a)?.checked_add(scaled(two, b)?)? {
-            0 => {}
-            sum => all.push((id, sum)),
+        i += usize::from(x <= y);
+        j += usize::from(y <= x);
+        if sum != 0 {
+            all.push((x.min(y), sum));
         }
     }
+    for (rest, by) in [(&first[i..], a), (&second[j..], b)] {
+        for &(id, it) in rest.iter().filter(|_| by != 0) {
+            all.push((id, it.checked_mul(by)?));
+        }
+    }
+    Some(all)
 }
 
 impl Sum {

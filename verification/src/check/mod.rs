@@ -31,6 +31,7 @@ mod reduced;
 mod report;
 mod strategy;
 mod unused;
+mod watched;
 
 pub use crate::engines::{Extent, Reason};
 pub use laws::{laws, question};

@@ -1,19 +1,20 @@
 //! A net with what was found of it.
 
 use super::budget::Budget;
-use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, statespace};
+use crate::explicit::{Graph, Limit, Limits, StateSpace, Unfinished, Watching, statespace};
 use crate::pt::Pt;
 use crate::structural::Structure;
 use crate::temporal::Successors;
 use crate::tpn::{self, ClassGraph, Classes, TimeNet};
 use std::cell::{Cell, OnceCell, RefCell, RefMut};
 use std::rc::Rc;
+use std::sync::Arc;
 
 /// Of the memory that may be used, a graph that is kept takes at most one of so many parts.
 const KEPT: u64 = 4;
 
 /// A graph, or why there is none.
-pub type Made = Result<Rc<Graph>, Unfinished>;
+pub type Made = Result<Arc<Graph>, Unfinished>;
 
 /// A net, and what engines found of it, kept for the next question.
 #[derive(Debug)]
@@ -28,6 +29,8 @@ pub struct Known<'n> {
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
     classes: OnceCell<Rc<Classes>>,
     atomic: OnceCell<Rc<ClassGraph>>,
+    /// Of a net with watches the graph of the net without, and how it follows from it.
+    watched: Option<(Arc<Graph>, Watching)>,
 }
 
 impl<'n> Known<'n> {
@@ -43,7 +46,18 @@ impl<'n> Known<'n> {
             space: RefCell::new(None),
             classes: OnceCell::new(),
             atomic: OnceCell::new(),
+            watched: None,
         }
+    }
+
+    /// Of a net with watches, where the graph of the net without is known.
+    pub(crate) fn watched(pt: &'n Pt, graph: Arc<Graph>, watching: Watching) -> Self {
+        Self { watched: Some((graph, watching)), ..Self::new(pt) }
+    }
+
+    /// Whether its graph follows from another one.
+    pub(crate) fn is_watched(&self) -> bool {
+        self.watched.is_some()
     }
 
     /// The same of a net whose transitions fire within intervals.
@@ -116,7 +130,7 @@ impl<'n> Known<'n> {
                 let (states, limit) = (graph.states() as u64, Limit::States);
                 let most = budget.limits.states;
                 return if states <= most {
-                    Ok(Rc::clone(graph))
+                    Ok(Arc::clone(graph))
                 } else {
                     Err(Unfinished { limit, states: most })
                 };
@@ -124,9 +138,14 @@ impl<'n> Known<'n> {
             Some((limits, Err(it))) if !budget.has_more(limits, it.limit) => return Err(*it),
             _ => {}
         }
-        let graph = Graph::new(self.pt, &budget.limits, budget.progress).map(Rc::new);
+        let (limits, progress) = (&budget.limits, budget.progress);
+        let watched = self.watched.as_ref().and_then(|(graph, watching)| {
+            Graph::watched(graph, (self.pt, watching), limits, progress)
+        });
+        let alone = || Graph::on(self.pt, limits, budget.jobs, progress);
+        let graph = watched.unwrap_or_else(alone).map(Arc::new);
         // What is kept takes room that the next engine may need.
-        let is_small = |it: &Rc<Graph>| it.bytes() <= budget.limits.bytes / KEPT;
+        let is_small = |it: &Arc<Graph>| it.bytes() <= budget.limits.bytes / KEPT;
         if graph.as_ref().map_or(true, is_small) {
             *kept = Some((budget.limits, graph.clone()));
         }
@@ -134,9 +153,9 @@ impl<'n> Known<'n> {
     }
 
     /// The graph of its markings if it is there already.
-    pub fn made(&self) -> Option<Rc<Graph>> {
+    pub fn made(&self) -> Option<Arc<Graph>> {
         match &*self.graph.borrow() {
-            Some((_, Ok(graph))) => Some(Rc::clone(graph)),
+            Some((_, Ok(graph))) => Some(Arc::clone(graph)),
             _ => None,
         }
     }

@@ -25,6 +25,14 @@ impl BitSet {
         set
     }
 
+    /// So many states, with these bits of those in the set.
+    pub(super) fn from_words(words: Vec<u64>, len: usize) -> Self {
+        let mut set = Self { words, len };
+        set.words.resize(len.div_ceil(64), 0);
+        set.trim();
+        set
+    }
+
     /// How many bytes a set of so many states takes.
     pub const fn bytes(len: usize) -> u64 {
         8 * len.div_ceil(64) as u64

@@ -277,10 +277,14 @@ impl Enabling {
         view.enabled.copy_from_slice(&self.start.enabled);
         view.computed.copy_from_slice(&self.start.computed);
         view.sum = self.start.sum;
-        for chunk in &self.chunks[..chunks] {
-            let row = self.allow(chunk, marking[chunk.word], view, seen);
-            view.sum = view.sum.wrapping_add(row[0]);
-            add(&mut view.computed, &row[1..], 1);
+        if self.listed.is_some() {
+            self.add_up(marking, view, seen);
+        } else {
+            for chunk in &self.chunks[..chunks] {
+                let row = self.allow(chunk, marking[chunk.word], view, seen);
+                view.sum = view.sum.wrapping_add(row[0]);
+                add(&mut view.computed, &row[1..], 1);
+            }
         }
         for (at, it) in self.wide[..wide].iter().enumerate() {
             let tokens = it.allow(marking[it.field.word], at, view, seen);
@@ -296,6 +300,23 @@ impl Enabling {
         if let Some(listed) = &self.listed {
             self.enable(listed, marking, view);
         }
+    }
+
+    /// Adds up what the rows of stored chunks add, where they forbid no transition.
+    fn add_up(&self, marking: &[u64], view: &mut View, seen: &mut Seen) {
+        let (stride, computed, rows) =
+            (1 + self.start.computed.len(), &mut *view.computed, &mut *seen.rows);
+        let mut sum = view.sum;
+        for chunk in &self.chunks[..self.in_stored.0] {
+            let row = chunk.row + ((marking[chunk.word] >> chunk.shift) & chunk.mask) as usize;
+            rows[row] = true;
+            let adds = &self.rows[row * stride..][..stride];
+            sum = sum.wrapping_add(adds[0]);
+            for (it, add) in computed.iter_mut().zip(&adds[1..]) {
+                *it = it.wrapping_add(*add);
+            }
+        }
+        view.sum = sum;
     }
 
     /// Lets a chunk forbid transitions; returns what its row adds.

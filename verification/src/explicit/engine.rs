@@ -94,8 +94,11 @@ impl Engine for Stored {
 
     fn suits(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Option<Bid> {
         let does = matches!(task, Task::Reach(_)) && net.is_whole() && net.time().is_none();
-        let is_worth = || budget.evidence || net.made().is_some();
-        (does && is_worth()).then(|| Bid::few(Bid::STORED, budget, STORED))
+        let made = net.made();
+        // What is there already takes no more time, however many they are.
+        let most = made.as_ref().map_or(STORED, |_| u64::MAX);
+        let is_worth = budget.evidence || made.is_some();
+        (does && is_worth).then(|| Bid::few(Bid::STORED, budget, most))
     }
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {

@@ -82,9 +82,9 @@ impl Packed<'_> {
 }
 
 /// A marking of which only some places are asked: those that are implied are worked out one by one.
-struct Few<'m> {
-    space: &'m Space,
-    packed: &'m [u64],
+pub(super) struct Few<'m> {
+    pub(super) space: &'m Space,
+    pub(super) packed: &'m [u64],
 }
 
 impl Marking for Few<'_> {

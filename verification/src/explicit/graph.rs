@@ -1,8 +1,9 @@
 //! The reachable markings with the arcs between them.
 
-use super::bits::BitSet;
+use super::ahead::{Ahead, Following};
 use super::goal::Goal;
 use super::kept::{Kept, Packed};
+use super::labels::Labels;
 use super::layout::Width;
 use super::markings::Look;
 use super::space::{Search, Space, TooNarrow, search};
@@ -10,24 +11,23 @@ use super::table::hash;
 use super::{Limit, Limits, Progress, Unfinished, wide};
 use crate::pt::Pt;
 use cotama_core::net::{PlaceId, TransitionId};
-use std::sync::Mutex;
-use std::time::Instant;
-
-/// Successors whose places in the index are looked up at once: their loads overlap.
-const BATCH: usize = 256;
+use std::sync::{Mutex, OnceLock};
+use std::thread;
 
 /// The reachable markings, numbered from 0, the initial one, in the order of a breadth first search
 /// that fires transitions in their order; and for each marking those that follow it.
 #[derive(Debug)]
 pub struct Graph {
-    markings: Kept,
+    pub(super) markings: Kept,
     /// For each marking where its successors begin.
-    starts: Vec<usize>,
-    successors: Vec<u32>,
+    pub(super) starts: Vec<usize>,
+    pub(super) successors: Vec<u32>,
     /// How many transitions the net has.
-    transitions: u32,
-    /// A bit for each transition that some marking enables.
-    fired: Vec<u64>,
+    pub(super) transitions: u32,
+    /// A bit for each transition that some marking enables, once it is known.
+    pub(super) fired: OnceLock<Vec<u64>>,
+    /// Where atoms of formulas hold.
+    pub(super) labels: Labels,
 }
 
 impl Graph {
@@ -55,9 +55,33 @@ impl Graph {
     /// assert_eq!(graph.transitions(1), [TransitionId(1)]);
     /// ```
     pub fn new(pt: &Pt, limits: &Limits, progress: &dyn Fn(Progress)) -> Result<Self, Unfinished> {
+        Self::on(pt, limits, 1, progress)
+    }
+
+    /// The same graph, with the same numbers, made on so many threads: all but one of them look at
+    /// markings, and one gives the numbers.
+    ///
+    /// # Errors
+    /// As those of [`Graph::new`].
+    ///
+    /// ```
+    /// use cotama_models::nets::families::kanban;
+    /// use cotama_verification::explicit::{Graph, Limits};
+    /// use cotama_verification::pt::Pt;
+    /// let net = Pt::from(&kanban(2).unwrap().view().net());
+    /// let limits = Limits::default();
+    /// let [one, two] = [1, 2].map(|jobs| Graph::on(&net, &limits, jobs, &|_| ()).unwrap());
+    /// assert!((0..4_600).all(|it| one.successors(it) == two.successors(it)));
+    /// ```
+    pub fn on(
+        pt: &Pt,
+        limits: &Limits,
+        jobs: usize,
+        progress: &dyn Fn(Progress),
+    ) -> Result<Self, Unfinished> {
         let none = |limit| Unfinished { limit, states: 0 };
         let widths = Width::of(pt, limits).map_err(none)?;
-        match search(pt, widths, &mut Construction { pt, limits, progress }) {
+        match search(pt, widths, &mut Construction { pt, limits, jobs, progress }) {
             Err(Limit::Words) => {
                 let (markings, cursor, arcs) = wide::graph(pt, limits, progress)?;
                 Ok(Self {
@@ -65,7 +89,8 @@ impl Graph {
                     starts: arcs.starts,
                     successors: arcs.successors,
                     transitions: pt.transitions.len() as u32,
-                    fired: arcs.fired,
+                    fired: arcs.fired.into(),
+                    labels: Labels::default(),
                 })
             }
             found => found.map_err(none)?,
@@ -85,6 +110,7 @@ impl Graph {
     /// About how much memory it takes.
     pub fn bytes(&self) -> u64 {
         self.markings.bytes()
+            + self.labels.bytes(self.states())
             + (size_of_val(&self.starts[..]) + size_of_val(&self.successors[..])) as u64
     }
 
@@ -118,6 +144,12 @@ impl Graph {
         self.markings.marking(state)
     }
 
+    /// The tokens of a place in a marking, of which nothing else is asked.
+    #[inline]
+    pub(super) fn held(&self, state: u32, place: PlaceId) -> u64 {
+        self.markings.held(state, place)
+    }
+
     /// The tokens of a place in each marking.
     ///
     /// # Panics
@@ -126,14 +158,9 @@ impl Graph {
         self.markings.tokens(place, self.states() as u32)
     }
 
-    /// The markings in which the goal holds, looked at by so many threads.
-    pub fn satisfying(&self, goal: Goal<'_>, jobs: usize) -> BitSet {
-        self.markings.satisfying(goal, self.states(), jobs)
-    }
-
     /// The first marking in which the goal holds, which is one with a shortest way to it.
     pub fn first(&self, goal: Goal<'_>) -> Option<u32> {
-        self.markings.first(goal, self.states())
+        self.satisfying(goal, 1).ones().next()
     }
 
     /// A shortest way from the initial marking to another one.
@@ -170,13 +197,14 @@ impl Graph {
 
     /// Transitions that some marking enables, or that none does.
     pub(super) fn fired(&self, ever: bool) -> impl Iterator<Item = u32> {
+        let fired = self.fired.get_or_init(|| self.enabled(0..self.states() as u32));
         (0..self.transitions)
-            .filter(move |it| (self.fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
+            .filter(move |it| (fired[*it as usize / 64] >> (it % 64) & 1 == 1) == ever)
     }
 
     /// Transitions that some of these markings enable: a bit for each, 64 to a word.
     pub(super) fn enabled(&self, states: impl Iterator<Item = u32>) -> Vec<u64> {
-        let mut all = vec![0; self.fired.len()];
+        let mut all = vec![0; (self.transitions as usize).div_ceil(64)];
         self.markings.each(states, |look| {
             all.iter_mut().zip(&*look.view.enabled).for_each(|(all, it)| *all |= it);
         });
@@ -188,6 +216,7 @@ impl Graph {
 struct Construction<'c> {
     pt: &'c Pt,
     limits: &'c Limits,
+    jobs: usize,
     progress: &'c dyn Fn(Progress),
 }
 
@@ -196,22 +225,25 @@ impl Search for Construction<'_> {
 
     fn search<const S: usize>(&mut self, space: Space) -> Result<Self::Found, TooNarrow> {
         let mut parts = Parts::<S>::new(&space, self.limits);
-        let ended = parts.explore(&space, self.progress);
+        let ended = thread::scope(|scope| {
+            parts.explore(&space, Ahead::new(&space, self.jobs, scope), self.progress)
+        });
         let states = (parts.markings.len() as u64).min(self.limits.states);
         if let Some(limit) = space.check(&parts.union)? {
             return Ok(Err(Unfinished { limit, states }));
         }
-        let Parts { markings, mut starts, successors, fired, .. } = parts;
+        let Parts { markings, starts, successors, fired, bytes, .. } = parts;
         let transitions = self.pt.transitions.len() as u32;
         Ok(ended.map_err(|limit| Unfinished { limit, states }).map(|()| {
-            starts.push(successors.len());
-            let markings = Packed { space, words: S, markings: markings.into_flattened() };
+            let needs = self.pt.needs.clone();
+            let markings = Packed { space, words: S, markings: markings.into_flattened(), needs };
             Graph {
                 markings: Kept::Packed(Box::new(markings)),
                 starts,
                 successors,
                 transitions,
-                fired,
+                fired: fired.into(),
+                labels: Labels::new(bytes, self.limits.bytes.saturating_sub(bytes)),
             }
         }))
     }
@@ -242,7 +274,7 @@ impl<'p, const S: usize> Parts<'p, S> {
             limits,
             bytes: 0,
             markings: Vec::new(),
-            starts: Vec::new(),
+            starts: vec![0],
             successors: Vec::new(),
             fired: vec![0; space.enabling.view().enabled.len()],
             index: Vec::new(),
@@ -251,37 +283,31 @@ impl<'p, const S: usize> Parts<'p, S> {
     }
 
     /// Adds all markings, or as many as there are before a limit or a guess that is too small.
-    fn explore(&mut self, space: &Space, progress: &dyn Fn(Progress)) -> Result<(), Limit> {
-        let deltas = space.deltas::<S>();
-        let (mut view, mut seen) = (space.enabling.view(), space.enabling.unseen());
-        let mut following: Vec<[u64; S]> = Vec::new();
+    fn explore(
+        &mut self,
+        space: &Space,
+        mut ahead: Ahead<'_, S>,
+        progress: &dyn Fn(Progress),
+    ) -> Result<(), Limit> {
         self.connect(&[space.initial()])?;
         self.successors.clear();
-        let (mut state, mut depth, mut level) = (0, 0, 1);
-        while state < level && !space.is_too_narrow(&self.union) {
-            if self.limits.deadline.is_some_and(|it| Instant::now() >= it) {
+        let (mut depth, mut level) = (0, 1);
+        while let Some(Following { markings, ends, fired }) = ahead.follow(&self.markings) {
+            if self.limits.is_over() {
                 return Err(Limit::Time);
             }
-            following.clear();
-            while state < level && following.len() < BATCH {
-                let marking = self.markings[state];
-                space.enabling.look(&marking, &mut view, &mut seen);
-                self.fired.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
-                self.bytes += make_room(&mut self.starts, 1, self.limits.bytes - self.bytes)?;
-                self.starts.push(self.successors.len() + following.len());
-                let fire = |it: u32| {
-                    let delta = &deltas[it as usize];
-                    std::array::from_fn(|at| marking[at].wrapping_add(delta[at]))
-                };
-                following.extend(view.transitions().map(fire));
-                state += 1;
+            self.fired.iter_mut().zip(fired).for_each(|(all, it)| *all |= it);
+            self.bytes += make_room(&mut self.starts, ends.len(), self.limits.bytes - self.bytes)?;
+            let before = self.successors.len();
+            self.starts.extend(ends.iter().map(|end| before + end));
+            self.connect(&markings)?;
+            let (states, done) = (self.markings.len(), self.starts.len() - 1);
+            progress(Progress { states: states as u64, depth, waiting: (states - done) as u64 });
+            if done >= level {
+                (level, depth) = (states, depth + 1);
             }
-            self.connect(&following)?;
-            let (states, waiting) =
-                (self.markings.len() as u64, (self.markings.len() - state) as u64);
-            progress(Progress { states, depth, waiting });
-            if state == level {
-                (level, depth) = (self.markings.len(), depth + 1);
+            if space.is_too_narrow(&self.union) {
+                break;
             }
         }
         Ok(())

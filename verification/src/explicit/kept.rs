@@ -1,23 +1,27 @@
 //! The markings of a graph, packed or as what differs from the start.
 
 use super::bits::BitSet;
-use super::goal::Goal;
+use super::goal::{Few, Goal};
 use super::markings::Look;
 use super::space::Space;
 use super::sparse::{Cursor, Sparse};
 use super::view::View;
+use super::watched::Watched;
+use crate::property::Marking;
+use crate::pt::Lists;
 use cotama_core::net::PlaceId;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
 /// Markings that are worth a thread of their own.
-const WORTH: usize = 1 << 14;
+pub(super) const WORTH: usize = 1 << 14;
 
 /// How markings are kept.
 #[derive(Debug)]
 pub(super) enum Kept {
     Packed(Box<Packed>),
     Sparse(Box<Sparse>, Box<Mutex<Cursor>>),
+    Watched(Box<Watched>),
 }
 
 /// Markings of so many words each.
@@ -26,6 +30,8 @@ pub(super) struct Packed {
     pub(super) space: Space,
     pub(super) words: usize,
     pub(super) markings: Vec<u64>,
+    /// What transitions need.
+    pub(super) needs: Lists<u32>,
 }
 
 impl Packed {
@@ -54,6 +60,7 @@ impl Kept {
                 let mut cursor = cursor.lock().unwrap_or_else(PoisonError::into_inner);
                 states.for_each(|state| look(&it.look(&mut cursor, state)));
             }
+            Self::Watched(it) => it.each(states, look),
         }
     }
 
@@ -62,6 +69,7 @@ impl Kept {
         match self {
             Self::Packed(it) => size_of_val(&it.markings[..]) as u64,
             Self::Sparse(it, _) => it.bytes(),
+            Self::Watched(it) => it.bytes(),
         }
     }
 
@@ -69,6 +77,7 @@ impl Kept {
         let it = match self {
             Kept::Packed(it) => it,
             Kept::Sparse(it, _) => return it.marking(state),
+            Kept::Watched(it) => return it.marking(state),
         };
         let mut tokens = Vec::new();
         it.each(std::iter::once(state), |marking, view| {
@@ -81,14 +90,20 @@ impl Kept {
         tokens
     }
 
+    /// The tokens of a place in a marking.
+    #[inline]
+    pub(super) fn held(&self, state: u32, place: PlaceId) -> u64 {
+        match self {
+            Self::Packed(it) => Few { space: &it.space, packed: it.of(state) }.tokens(place),
+            Self::Sparse(it, _) => it.tokens(state, place.0).into(),
+            Self::Watched(it) => it.tokens(state, place),
+        }
+    }
+
     /// The tokens of a place in each of so many markings.
     pub(super) fn tokens(&self, place: PlaceId, states: u32) -> impl Iterator<Item = u32> {
-        let it = match self {
-            Kept::Packed(it) => it,
-            Kept::Sparse(it, _) => {
-                let tokens = (0..states).map(move |state| it.tokens(state, place.0));
-                return Either::Sparse(tokens);
-            }
+        let Kept::Packed(it) = self else {
+            return Either::Other((0..states).map(move |state| self.held(state, place) as u32));
         };
         let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
         let field = &it.space.layout.fields[place.0 as usize];
@@ -103,6 +118,11 @@ impl Kept {
 
     /// Those of so many markings in which the goal holds, looked at by so many threads.
     pub(super) fn satisfying(&self, goal: Goal<'_>, states: usize, jobs: usize) -> BitSet {
+        if let Self::Watched(it) = self
+            && let Some(set) = it.satisfying(goal, jobs)
+        {
+            return set;
+        }
         let mut set = BitSet::new(states, false);
         let Self::Packed(it) = self else {
             let mut state = 0;
@@ -138,23 +158,12 @@ impl Kept {
         });
         set
     }
-
-    /// The first of so many markings in which the goal holds.
-    pub(super) fn first(&self, goal: Goal<'_>, states: usize) -> Option<u32> {
-        let Self::Packed(it) = self else {
-            return self.satisfying(goal, states, 1).ones().next();
-        };
-        let goal = goal.packed();
-        let (mut view, mut seen) = (it.space.enabling.view(), it.space.enabling.unseen());
-        let holds = |marking: &[u64]| goal.holds(&it.space, marking, &mut view, &mut seen);
-        it.markings.chunks_exact(it.words).position(holds).map(|it| it as u32)
-    }
 }
 
 /// One of two iterators.
 enum Either<A, B> {
     Packed(A),
-    Sparse(B),
+    Other(B),
 }
 
 impl<T, A: Iterator<Item = T>, B: Iterator<Item = T>> Iterator for Either<A, B> {
@@ -163,7 +172,7 @@ impl<T, A: Iterator<Item = T>, B: Iterator<Item = T>> Iterator for Either<A, B> 
     fn next(&mut self) -> Option<T> {
         match self {
             Self::Packed(it) => it.next(),
-            Self::Sparse(it) => it.next(),
+            Self::Other(it) => it.next(),
         }
     }
 }

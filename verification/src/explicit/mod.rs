@@ -5,6 +5,7 @@
 //! | [`statespace`] | how many markings are reachable, and what is counted of them |
 //! | [`reach`] | whether a marking with a property is reachable, and a shortest way to one |
 //! | [`Graph`] | the markings and the arcs between them, to be passed through again |
+//! | [`Watching`] | how the graph of a net with watches follows from that of the net |
 //! | [`Liveness`] | liveness and reversibility, from strongly connected components |
 //!
 //! Markings are packed into machine words by bounds that [`bounds`](crate::bounds::bounds) proves,
@@ -27,6 +28,7 @@
 //! assert_eq!((space.states, space.arcs, space.dead_markings, space.limit), (2, 2, 0, None));
 //! ```
 
+mod ahead;
 mod apart;
 mod bits;
 mod block;
@@ -41,6 +43,7 @@ mod graph;
 mod growth;
 mod implied;
 mod kept;
+mod labels;
 mod layout;
 mod liveness;
 mod markings;
@@ -52,6 +55,8 @@ mod sparse;
 mod statespace;
 mod table;
 mod view;
+mod watched;
+mod watching;
 mod wide;
 mod worker;
 
@@ -68,6 +73,8 @@ pub(crate) use markings::{Index, Look, Markings, Memory, hash};
 pub(crate) use reach::most;
 pub use reach::{Reached, reach};
 pub use statespace::{StateSpace, statespace};
+pub use watching::Watching;
+pub(crate) use watching::{Of, Tokens, Watch};
 
 /// A search that ended before its end.
 ///

@@ -16,11 +16,7 @@ impl Rounds {
     pub fn net(&self) -> Result<OwnedNet, FlatError> {
         let (mut net, mut absent) = (self.draft.clone(), self.absent.clone());
         let bound = |place: PlaceId| self.draft.places[place.0 as usize].bound;
-        let held = self.paths.iter().flat_map(|it| &it.held);
-        let from_above = held.filter(|it| it.1.1 < self.known.bound(*it.0)).map(|it| *it.0);
-        let wanted: BTreeSet<PlaceId> =
-            from_above.filter(|it| !self.absent.contains_key(it)).collect();
-        for place in wanted {
+        for place in self.wanted() {
             let of = &self.draft.places[place.0 as usize];
             if of.bound == Place::UNBOUNDED {
                 return Err(FlatError::Unbounded { place: of.name.clone() });
@@ -55,6 +51,13 @@ impl Rounds {
             net.transition(it).map_err(|_| FlatError::TooMany)?;
         }
         Ok(net)
+    }
+
+    /// The places that need a complement which is not there, in the order of the complements.
+    pub(super) fn wanted(&self) -> BTreeSet<PlaceId> {
+        let held = self.paths.iter().flat_map(|it| &it.held);
+        let from_above = held.filter(|it| it.1.1 < self.known.bound(*it.0)).map(|it| *it.0);
+        from_above.filter(|it| !self.absent.contains_key(it)).collect()
     }
 }
 

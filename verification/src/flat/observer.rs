@@ -4,8 +4,10 @@ use super::FlatError;
 use super::branch::{Branch, Held, NO_BOUND, branches};
 use super::path::{Part, Path};
 use super::rounds::Rounds;
+use crate::explicit::{Of, Tokens, Watch, Watching};
 use crate::property::{self, Atom, Formula, Linear, PropertyError, Question};
 use crate::pt::Pt;
+use cotama_core::net::PlaceId;
 
 /// When an [`Observer`] looks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +58,16 @@ impl Observer {
     pub fn in_a_row(name: &str, looks: Looks, what: &Formula, most: u32) -> Self {
         Self::lasting(name, looks, what, &Formula::Not(Box::new(what.clone())), most)
     }
+}
+
+/// An observer that was added, and its places.
+#[derive(Clone, Debug)]
+pub(super) struct Seen {
+    observer: Observer,
+    looks: PlaceId,
+    counts: PlaceId,
+    /// What is marked afterwards, and was without it.
+    then: PlaceId,
 }
 
 impl Rounds {
@@ -147,7 +159,32 @@ impl Rounds {
                 self.push(Path::new(Part::Between, name, looks, then, &branch))?;
             }
         }
+        self.watches.push(Seen { observer: observer.clone(), looks, counts: place, then });
         Ok(())
+    }
+
+    /// How the net follows from the net without observers.
+    pub fn watching(&self) -> Watching {
+        let of = |place: PlaceId| {
+            let at = |of: fn(&Seen) -> PlaceId| self.watches.iter().position(|it| of(it) == place);
+            match (at(|it| it.looks), at(|it| it.counts), at(|it| it.then)) {
+                (Some(watch), ..) => Of::Looks(watch),
+                (_, Some(watch), _) => Of::Counts(watch),
+                (.., Some(_)) => Of::Turn(place),
+                _ => Of::Place(place),
+            }
+        };
+        let own = (0..self.draft.places.len() as u32)
+            .map(|it| Tokens { of: of(PlaceId(it)), lacks: None });
+        let complement = |place: PlaceId| {
+            let lacks = Some(self.draft.places[place.0 as usize].bound);
+            Tokens { of: of(place), lacks }
+        };
+        let watch = |it: &Seen| Watch { then: it.then, steps: it.observer.steps.clone() };
+        Watching {
+            places: own.chain(self.wanted().into_iter().map(complement)).collect(),
+            watches: self.watches.iter().map(watch).collect(),
+        }
     }
 
     /// Whether it is about one marking and compares sums of tokens of bounded places.
@@ -191,6 +228,102 @@ fn at_most(branch: &mut Branch<'_>, sum: &Linear) -> bool {
                 branch.holds(place, tokens);
             }
             _ => return most <= 0,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::explicit::{Goal, Graph, Limits};
+    use crate::flat::rounds;
+    use cotama_core::{net, system};
+    use std::sync::Arc;
+
+    net! {
+        mod guest {
+            places { Out: 1, In }
+            events { come, opened, leave }
+            outputs { ring }
+            transitions {
+                ring on come: Out => Out emit ring;
+                enter on opened: Out => In;
+                leave on leave: In => Out;
+            }
+            ignore { come in In; opened in In; leave in Out; }
+        }
+    }
+    net! {
+        mod door {
+            places { Shut: 1, Open }
+            events { bell, wind }
+            outputs { click }
+            transitions {
+                open on bell: Shut => Open emit click;
+                shut on wind: Open => Shut;
+            }
+            ignore { bell in Open; wind in Shut; }
+        }
+    }
+    system! {
+        mod house {
+            nets { guest: guest, door: door }
+            links { guest.ring => door.bell mail 2; door.click => guest.opened mail 1; }
+        }
+    }
+
+    /// Observers that look at marks of the round, at what is not there, and at each other.
+    const WATCHES: [(&str, Looks, (&str, &str), u32); 5] = [
+        ("open", Looks::AtEnd, ("door.Open", "!door.Open"), 3),
+        ("rung", Looks::BeforeOutside, ("door.bell.waiting >= 1", "guest.In"), 2),
+        ("both", Looks::AtEnd, ("open >= 2 & rung <= 1", "open = 0 | round"), 4),
+        ("turn", Looks::BeforeOutside, ("!turn.outside & !(guest.In & door.Open)", "both = 4"), 1),
+        ("mail", Looks::AtEnd, ("door.bell.waiting <= 1 & both.looks = 0", "rung = 2"), 2),
+    ];
+
+    /// Each property, of the graph that follows from the other one and of the graph by itself.
+    #[test]
+    fn the_graph_with_watches_follows_from_the_graph_without() {
+        let plain = rounds(&house::SYSTEM).unwrap();
+        let base = Pt::from(&plain.net().unwrap().view().net());
+        let base = Arc::new(Graph::new(&base, &Limits::default(), &|_| ()).unwrap());
+        for few in 0..=WATCHES.len() {
+            let mut watched = plain.clone();
+            for &(name, looks, (begins, ends), most) in &WATCHES[..few] {
+                watched.watch(name, looks, (begins, ends), most).unwrap();
+            }
+            let pt = Pt::from(&watched.net().unwrap().view().net());
+            let watching = watched.watching();
+            let made = Graph::watched(&base, (&pt, &watching), &Limits::default(), &|_| ());
+            let (made, alone) =
+                (made.unwrap().unwrap(), Graph::new(&pt, &Limits::default(), &|_| ()).unwrap());
+            assert_eq!((made.states(), made.arcs()), (alone.states(), alone.arcs()));
+            assert_eq!(made.liveness(), alone.liveness());
+            for state in 0..alone.states() as u32 {
+                assert_eq!(made.successors(state), alone.successors(state));
+                assert_eq!(made.marking(state), alone.marking(state));
+                assert_eq!(made.transitions(state), alone.transitions(state));
+            }
+            for place in (0..pt.places.len() as u32).map(PlaceId) {
+                let tokens = [&made, &alone].map(|it| it.tokens(place).collect::<Vec<_>>());
+                assert_eq!(tokens[0], tokens[1]);
+            }
+            let atoms = (0..pt.transitions.len() as u32)
+                .map(|it| Atom::Fireable(vec![cotama_core::net::TransitionId(it)]))
+                .chain(
+                    (0..pt.places.len() as u32).map(|it| Atom::AtMost(Linear::marked(PlaceId(it)))),
+                )
+                .chain([Atom::Deadlock])
+                .chain((1..pt.places.len() as u32).map(|it| {
+                    let weights = vec![(PlaceId(it - 1), 2), (PlaceId(it), -1)];
+                    Atom::AtMost(Linear { constant: 0, weights })
+                }));
+            for atom in atoms {
+                let formula = Formula::Not(Formula::Atom(atom).into());
+                let goal = Goal::new(&formula).unwrap();
+                assert_eq!(made.satisfying(goal, 1), alone.satisfying(goal, 1), "{formula:?}");
+                assert_eq!(made.first(goal), alone.first(goal));
+            }
         }
     }
 }

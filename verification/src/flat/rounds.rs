@@ -22,6 +22,7 @@
 use super::branch::{Branch, Held, Known, branches};
 use super::interleaving::Flat;
 use super::moves::Moves;
+use super::observer::Seen;
 use super::path::{Part, Path};
 use super::turn::{Answer, Disturbed, Play};
 use super::{FlatError, MOST_TRANSITIONS};
@@ -42,6 +43,7 @@ pub struct Rounds {
     /// Marked between two rounds.
     pub(super) round: PlaceId,
     pub(super) outside: PlaceId,
+    pub(super) watches: Vec<Seen>,
 }
 
 /// What takes its turn, in order.
@@ -169,6 +171,7 @@ impl Rounds {
             paths: Vec::new(),
             round: PlaceId(0),
             outside: PlaceId(0),
+            watches: Vec::new(),
         };
         for (place, change) in change {
             for (place, change) in rounds

@@ -20,6 +20,8 @@ impl Engine for Structural {
     /// What is never reached without intervals of time is never reached with them.
     fn suits(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Option<Bid> {
         match task {
+            // The structure of a net with watches is not known, and its markings are.
+            Task::Reach(_) if net.is_watched() && net.made().is_some() => None,
             Task::Reach(_) | Task::OneSafe => Some(Bid::new(Bid::STRUCTURE, budget)),
             _ if net.time().is_some() => None,
             Task::Bound(_) => Some(Bid::new(Bid::STRUCTURE, budget)),

@@ -1,5 +1,6 @@
 //! Sparse rows of integers.
 
+use crate::bounds;
 use crate::integer::gcd;
 use std::cmp::Ordering;
 
@@ -14,17 +15,14 @@ pub(super) fn at(row: &[(u32, i64)], column: u32) -> i64 {
 /// `a` times the first row plus `b` times the second, divided by the greatest common divisor of its
 /// numbers; `None` when a number is beyond 64 bits.
 pub(super) fn combined(first: &[(u32, i64)], a: i64, second: &[(u32, i64)], b: i64) -> Option<Row> {
-    let mut all: Row = Vec::with_capacity(first.len() + second.len());
+    let Some(mut all) = bounds::combined(first, a, second, b) else {
+        return wide(first, a, second, b);
+    };
     let mut divisor = 0;
-    for (column, x, y) in aligned(first, second) {
-        let Some(number) =
-            a.checked_mul(x).zip(b.checked_mul(y)).and_then(|(x, y)| x.checked_add(y))
-        else {
-            return wide(first, a, second, b);
-        };
-        if number != 0 {
-            all.push((column, number));
-            divisor = if divisor == 1 { 1 } else { gcd(divisor, number.unsigned_abs()) };
+    for (_, number) in &all {
+        divisor = gcd(number.unsigned_abs(), divisor);
+        if divisor == 1 {
+            return Some(all);
         }
     }
     if let Ok(divisor @ 2..) = i64::try_from(divisor) {

@@ -5,6 +5,9 @@ use super::state_sets::StateSets;
 use super::successors::Successors;
 use crate::explicit::{BitSet, Goal, Limit, Memory};
 use crate::property::Formula;
+use std::panic::resume_unwind;
+use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
+use std::thread;
 
 /// Sets of states of a graph as bit vectors, with the fair runs in it.
 pub struct BitSets<'g, S> {
@@ -65,25 +68,30 @@ impl<'g, S: Successors> BitSets<'g, S> {
         if self.before.is_none() {
             self.memory.take(Predecessors::bytes(graph))?;
         }
-        let before = self.before.get_or_insert_with(|| Predecessors::new(graph));
-        let mut ranks = vec![u32::MAX; graph.states()];
+        let before = &*self.before.get_or_insert_with(|| Predecessors::new(graph));
+        let rank_of = |it: u32| AtomicU32::new(if goal.has(it) { 0 } else { u32::MAX });
+        let ranks: Vec<AtomicU32> = (0..graph.states() as u32).map(rank_of).collect();
         let mut level: Vec<u32> = goal.ones().collect();
-        level.iter().for_each(|it| ranks[*it as usize] = 0);
         let mut rank = 0;
         while !level.is_empty() {
             rank += 1;
-            let mut next = Vec::new();
-            for state in level {
-                for &from in before.of(state) {
-                    if ranks[from as usize] == u32::MAX && through.has(from) {
-                        ranks[from as usize] = rank;
+            // Which thread meets a state first is left to chance, its rank is not.
+            let further = |states: &[u32]| {
+                let mut next = Vec::new();
+                for &from in states.iter().flat_map(|it| before.of(*it)) {
+                    let found = &ranks[from as usize];
+                    if found.load(Relaxed) == u32::MAX
+                        && through.has(from)
+                        && found.compare_exchange(u32::MAX, rank, Relaxed, Relaxed).is_ok()
+                    {
                         next.push(from);
                     }
                 }
-            }
-            level = next;
+                next
+            };
+            level = in_parts(&level, self.jobs, &further);
         }
-        Ok(ranks)
+        Ok(ranks.into_iter().map(AtomicU32::into_inner).collect())
     }
 }
 
@@ -128,8 +136,11 @@ impl<S: Successors> StateSets for BitSets<'_, S> {
 
     fn until(&mut self, through: &BitSet, goal: &BitSet) -> Result<(BitSet, Vec<u32>), Limit> {
         let mut holds = self.set(false)?;
+        let bytes = BitSet::bytes(goal.len());
+        self.memory.take(bytes)?;
         let goal = self.fair_and(goal);
         let ranks = self.backward(&goal, through)?;
+        self.memory.release(bytes);
         for (state, _) in (0..).zip(&ranks).filter(|it| *it.1 != u32::MAX) {
             holds.insert(state);
         }
@@ -161,6 +172,31 @@ impl<S: Successors> StateSets for BitSets<'_, S> {
     fn is_empty(&self, set: &BitSet) -> bool {
         set.ones().next().is_none()
     }
+}
+
+/// States that are worth a thread of their own.
+const WORTH: usize = 1 << 13;
+
+/// What follows from the states of a level, looked at by so many threads.
+fn in_parts(
+    level: &[u32],
+    jobs: usize,
+    further: &(impl Fn(&[u32]) -> Vec<u32> + Sync),
+) -> Vec<u32> {
+    let jobs = jobs.clamp(1, level.len().div_ceil(WORTH).max(1));
+    let mut parts = level.chunks(level.len().div_ceil(jobs).max(1));
+    let first = parts.next().unwrap_or_default();
+    if parts.len() == 0 {
+        return further(first);
+    }
+    thread::scope(|scope| {
+        let others: Vec<_> = parts.map(|it| scope.spawn(move || further(it))).collect();
+        let mut next = further(first);
+        for other in others {
+            next.extend(other.join().unwrap_or_else(|it| resume_unwind(it)));
+        }
+        next
+    })
 }
 
 /// For each state those that it follows.

@@ -97,9 +97,11 @@ impl Engine for StoredBranching {
     }
 
     fn suits(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Option<Bid> {
-        let is_worth = budget.evidence || net.made().is_some();
+        let made = net.made();
+        let most = made.as_ref().map_or(STORED, |_| u64::MAX);
+        let is_worth = budget.evidence || made.is_some();
         let bid = Branching.suits(net, task, budget).filter(|_| net.is_whole() && is_worth)?;
-        Some(Bid::few(bid.cost.min(Bid::STORED), budget, STORED))
+        Some(Bid::few(bid.cost.min(Bid::STORED), budget, most))
     }
 
     fn find(&self, net: &Known<'_>, task: Task<'_>, budget: &Budget<'_>) -> Finding {

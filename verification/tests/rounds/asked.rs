@@ -177,6 +177,47 @@ fn the_decisional_level_has_4166_states_between_rounds() {
     assert_eq!(rounds.size(&graph), Size { states: 4_166, edges: 22_810 });
 }
 
+/// What watches ask is answered by the graph of the rounds as by a graph of its own: with the same
+/// runs, counts and evidence.
+#[test]
+fn one_graph_answers_what_watches_ask() {
+    let options = Options { evidence: true, ..Options::default() };
+    let plain = rounds(&reconstruction::SYSTEM).unwrap().net().unwrap();
+    let plain = Model::from(&plain.view().net());
+    let checker = Checker::new(&plain);
+    let (mut asked, mut runs) = (0, 0);
+    for it in ASKED {
+        let (rounds, pt, property) = it.of(&reconstruction::SYSTEM);
+        let Some(count) = pt.places.iter().find_map(|it| it.strip_suffix(".looks")) else {
+            continue;
+        };
+        let texts = [
+            "AG EF NAME = 0",
+            "EF NAME >= 1",
+            "AG (round -> NAME = 0)",
+            "A (G F NAME = 0)",
+            "AG (NAME > 0 -> EX NAME > 0)",
+            "AG (turn.outside & NAME > 0 -> fireable(idle))",
+            "EF deadlock",
+        ];
+        let texts = texts.map(|it| property::parse(&it.replace("NAME", count), &pt).unwrap());
+        let model = Model::from(pt.clone());
+        let (alone, watched) =
+            (Checker::new(&model), checker.watched(&model, rounds.watching(), &options));
+        // The first one makes the graph.
+        for property in texts.iter().chain([&property]) {
+            let [one, two] = [&alone, &watched].map(|it| it.answer(property, &options));
+            assert_eq!((one.verdict, &one.run), (two.verdict, &two.run), "{}", property.name);
+            if one.engine() != "structural" {
+                assert_eq!((one.states, one.evidence), (two.states, two.evidence));
+            }
+            asked += 1;
+            runs += usize::from(two.run.is_some());
+        }
+    }
+    assert_eq!((asked, runs), (40, 14));
+}
+
 /// By which engine, with which evidence, of which the small checker is convinced, and with how many
 /// transitions.
 fn known(asked: &[Asked]) -> Vec<String> {

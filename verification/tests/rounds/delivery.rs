@@ -31,6 +31,10 @@ pub(crate) fn explored(rounds: &Rounds) -> (Pt, Graph) {
     (pt, graph)
 }
 
+fn with_evidence() -> Options<'static> {
+    Options { evidence: true, ..Options::default() }
+}
+
 fn requirement(id: &str) -> &'static Requirement {
     REQUIREMENTS.iter().find(|it| it.id == id).unwrap()
 }
@@ -60,8 +64,10 @@ fn known(
         line += &if asked.watches.is_empty() {
             answered(of.id, asked.text, model, checker, verified)
         } else {
-            let model = self::model(&watched(plain, asked.watches).unwrap());
-            answered(of.id, asked.text, &model, &Checker::new(&model), verified)
+            let rounds = watched(plain, asked.watches).unwrap();
+            let model = self::model(&rounds);
+            let checker = checker.watched(&model, rounds.watching(), &with_evidence());
+            answered(of.id, asked.text, &model, &checker, verified)
         };
     }
     for said in of.said {
@@ -86,7 +92,7 @@ fn known(
 
 fn answered(id: &str, text: &str, model: &Model, checker: &Checker<'_>, verified: bool) -> String {
     let property = property::parse(text, model.pt()).unwrap();
-    let answer = checker.answer(&property, &Options { evidence: true, ..Options::default() });
+    let answer = checker.answer(&property, &with_evidence());
     assert_eq!(answer.verdict, Verdict::Holds(true), "{id}");
     let is_short = matches!(answer.evidence, Evidence::Refutation(_));
     let certificate = answer.certificate(model.pt(), &property);

@@ -23,6 +23,27 @@ fn a_kanban_system_is_live_and_returns() {
 }
 
 #[test]
+fn numbers_are_the_same_on_any_number_of_threads() {
+    for net in [kanban(3).unwrap(), philosophers(9).unwrap()] {
+        let pt = Pt::from(&net.view().net());
+        let one = graph(&pt);
+        for jobs in [2, 3, 8] {
+            let some = Graph::on(&pt, &Limits::default(), jobs, &|_| ()).unwrap();
+            assert_eq!((some.states(), some.arcs()), (one.states(), one.arcs()));
+            let same = |it: u32| one.successors(it) == some.successors(it);
+            assert!((0..one.states() as u32).all(same));
+            let alike = |it: u32| one.marking(it) == some.marking(it);
+            assert!((0..one.states() as u32).step_by(97).all(alike));
+            assert_eq!(one.liveness(), some.liveness());
+            // A limit ends all of them after as many markings.
+            let limits = Limits { states: 5_000, ..Limits::default() };
+            let ended = |jobs| Graph::on(&pt, &limits, jobs, &|_| ()).map(|_| ()).unwrap_err();
+            assert_eq!(ended(jobs), ended(1));
+        }
+    }
+}
+
+#[test]
 fn philosophers_may_starve() {
     let graph = graph(&Pt::from(&philosophers(5).unwrap().view().net()));
     // All markings but the two deadlocks lead back to each other.

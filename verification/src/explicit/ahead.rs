@@ -1,0 +1,123 @@
+//! Looking at markings on other threads, ahead of the one that gives numbers to what follows. It
+//! takes what they found in the order of the markings, so numbers do not depend on threads.
+
+use super::enabling::Seen;
+use super::space::Space;
+use super::view::View;
+use std::collections::VecDeque;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::{self, Scope};
+
+/// Markings that are worth to be sent to another thread, and the most that are sent at once.
+const FEW: usize = 256;
+const MANY: usize = 1_024;
+
+/// What follows some markings, in their order.
+#[derive(Debug)]
+pub(super) struct Following<const S: usize> {
+    pub(super) markings: Vec<[u64; S]>,
+    /// For each of them where its successors end.
+    pub(super) ends: Vec<usize>,
+    /// A bit for each transition that one of them enables.
+    pub(super) fired: Vec<u64>,
+}
+
+/// Looks at markings.
+#[derive(Debug)]
+pub(super) struct Looker<'s, const S: usize> {
+    space: &'s Space,
+    deltas: Vec<[u64; S]>,
+    view: View,
+    seen: Seen,
+}
+
+impl<'s, const S: usize> Looker<'s, S> {
+    pub(super) fn new(space: &'s Space) -> Self {
+        let (view, seen) = (space.enabling.view(), space.enabling.unseen());
+        Self { space, deltas: space.deltas(), view, seen }
+    }
+
+    pub(super) fn look(&mut self, some: &[[u64; S]]) -> Following<S> {
+        let Self { space, deltas, view, seen } = self;
+        let mut found = Following {
+            markings: Vec::with_capacity(2 * some.len()),
+            ends: Vec::with_capacity(some.len()),
+            fired: vec![0; view.enabled.len()],
+        };
+        for marking in some {
+            space.enabling.look(marking, view, seen);
+            found.fired.iter_mut().zip(&*view.enabled).for_each(|(all, it)| *all |= it);
+            let fire = |it: u32| {
+                let delta = &deltas[it as usize];
+                std::array::from_fn(|at| marking[at].wrapping_add(delta[at]))
+            };
+            found.markings.extend(view.transitions().map(fire));
+            found.ends.push(found.markings.len());
+        }
+        found
+    }
+}
+
+/// Another thread that looks.
+#[derive(Debug)]
+struct Mate<const S: usize> {
+    to: Sender<Vec<[u64; S]>>,
+    from: Receiver<Following<S>>,
+}
+
+/// This thread and others that look at markings.
+#[derive(Debug)]
+pub(super) struct Ahead<'s, const S: usize> {
+    own: Looker<'s, S>,
+    mates: Vec<Mate<S>>,
+    /// The mates that look at the next markings, in the order of markings.
+    next: VecDeque<usize>,
+    /// How many markings were handed out.
+    sent: usize,
+}
+
+impl<'s, const S: usize> Ahead<'s, S> {
+    /// With so many threads in all, or as many as there can be.
+    pub(super) fn new<'e>(space: &'s Space, jobs: usize, scope: &'e Scope<'e, 's>) -> Self {
+        let mut mates = Vec::new();
+        while mates.len() + 1 < jobs {
+            let ((to, asked), (found, from)) = (channel(), channel());
+            let mate = thread::Builder::new().spawn_scoped(scope, move || {
+                let mut looker = Looker::<S>::new(space);
+                // Who asked may have ended at a limit.
+                asked.iter().all(|some: Vec<_>| found.send(looker.look(&some)).is_ok())
+            });
+            if mate.is_err() {
+                break;
+            }
+            mates.push(Mate { to, from });
+        }
+        Self { own: Looker::new(space), mates, next: VecDeque::new(), sent: 0 }
+    }
+
+    /// What follows the next markings of a list that grows: those after all that were told before.
+    /// `None` when all were told.
+    pub(super) fn follow(&mut self, markings: &[[u64; S]]) -> Option<Following<S>> {
+        let mut turn = self.next.back().map_or(0, |it| it + 1);
+        while self.next.len() < 2 * self.mates.len() && markings.len() - self.sent >= FEW {
+            turn %= self.mates.len();
+            let some = self.some(markings, MANY).to_vec();
+            // A mate that is gone has panicked, which ends the search with the scope of threads.
+            let _ = self.mates[turn].to.send(some);
+            self.next.push_back(turn);
+            turn += 1;
+        }
+        if let Some(mate) = self.next.pop_front() {
+            return self.mates[mate].from.recv().ok();
+        }
+        let some = self.some(markings, FEW);
+        (!some.is_empty()).then(|| self.own.look(some))
+    }
+
+    /// The next markings that were not handed out, so many at most.
+    fn some<'m>(&mut self, markings: &'m [[u64; S]], most: usize) -> &'m [[u64; S]] {
+        let from = self.sent;
+        self.sent = markings.len().min(from + most);
+        &markings[from..self.sent]
+    }
+}
