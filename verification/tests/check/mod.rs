@@ -15,6 +15,7 @@ pub(crate) mod nets;
 mod quick;
 mod replay;
 mod small;
+mod splits;
 mod timed;
 mod timed_logic;
 mod unbounded;
