@@ -5,6 +5,8 @@ mod fairness;
 mod linear;
 mod public;
 
+pub(crate) use linear::side_by_side;
+
 use crate::properties::oracle::Space;
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
