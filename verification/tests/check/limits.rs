@@ -1,11 +1,9 @@
 //! Every engine keeps the limits, and what is known is said.
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_verification::check::{
-    Answer, Budget, Choice, Engine, Explicit, Extent, Found, Known, Model, Options, Reason, Task,
-    Verdict, check,
-};
-use cotama_verification::explicit::{Limit, Limits};
+use cotama_verification::check::{Answer, Choice, Model, Options, Verdict, check};
+use cotama_verification::engines::{Budget, Engine, Extent, Found, Known, Reason, Task};
+use cotama_verification::explicit::{Explicit, Limit, Limits};
 use cotama_verification::property;
 use cotama_verification::pt::Pt;
 use std::time::{Duration, Instant};
