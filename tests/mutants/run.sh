@@ -33,7 +33,8 @@ work=${CARGO_TARGET_DIR:-$root/target}/mutants
 copy=$work/workspace
 export CARGO_TARGET_DIR=$work/build
 limit=${SECONDS_PER_RUN:-120}
-declare -A target_of=([explicit]=statespace [certificate]=certificates)
+declare -A target_of=([explicit]=statespace [certificate]=certificates [classes_ltl]=check
+    [classes_ctl]=check [fairness]=check [budget]=check)
 bad=0
 
 # Builds the tests of the list; prints where they are.
@@ -178,7 +179,8 @@ table() {
     done | sed '$d'
 }
 
-all=(structural reductions explicit stubborn temporal coverability tpn certificate decisional)
+all=(structural reductions explicit stubborn temporal fairness coverability tpn classes_ltl
+    classes_ctl budget certificate decisional)
 if [[ ${1-} == --table ]]; then
     table >"$lists/README.new"
     mv "$lists/README.new" "$lists/README.md"

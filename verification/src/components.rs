@@ -15,7 +15,7 @@ pub struct Components {
     pub count: u32,
 }
 
-/// The components of a graph of so many nodes; the graph tells the successor of a node at a position,
+/// The components of a graph of so many nodes, which tells the successor of a node at a position,
 /// counted from 0.
 pub(crate) fn components(nodes: usize, mut graph: impl Fn(u32, u32) -> Option<u32>) -> Components {
     let mut search = Search::new(nodes);

@@ -88,11 +88,8 @@ impl<'a> Structure<'a> {
     /// owes its gaps to.
     pub(crate) fn within(self, limits: &Limits) -> Option<Self> {
         let cost = Cost::new(Effort::default(), limits);
-        let later = match (self.cost.deadline, cost.deadline) {
-            (Some(before), Some(now)) => now > before,
-            (Some(_), None) => true,
-            (None, _) => false,
-        };
+        let later =
+            self.cost.deadline.is_some_and(|before| cost.deadline.is_none_or(|now| now > before));
         let is_owed = match self.cut {
             Some(Limit::Time) => later,
             Some(Limit::Work) => cost.work > self.cost.work,

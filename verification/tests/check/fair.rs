@@ -1,13 +1,17 @@
 //! What is assumed of runs.
 
+use super::timed_logic::assumptions;
 use crate::check::{named, replay};
+use crate::properties::oracle::Space;
 use crate::properties::random::{Random, branching, net as small, state};
+use crate::temporal::side_by_side;
 use cotama_core::net;
 use cotama_core::net::TransitionId;
 use cotama_verification::assert_holds;
 use cotama_verification::check::{Model, Options, Verdict, check};
 use cotama_verification::explicit::{Graph, Limits};
-use cotama_verification::property::{Assumptions, Ctl, Question};
+use cotama_verification::property::{Assumptions, Ctl, Formula, Question};
+use cotama_verification::pt::Pt;
 use cotama_verification::temporal::{Fairness, ctl};
 
 net! {
@@ -51,6 +55,17 @@ fn who_only_calls_again_and_again_is_no_reason_for_never() {
     let blocked = said("AG (Called -> AF There) assuming weak(arrive)");
     assert!(blocked.contains("repeat for ever (`block` and `clear`)"), "{blocked}");
     assert_holds!(lift::NET, "AG (Called -> AF There) assuming strong(arrive)");
+}
+
+#[test]
+fn what_one_run_does_again_and_again_is_told_on_fair_runs() {
+    assert_holds!(
+        lift::NET,
+        "A (G F There | F G Blocked) assuming strong(arrive)",
+        "A (G F There | F G Blocked) assuming often(There)",
+        "E (G F There & F Blocked) assuming often(There)",
+        "E (G F There & G F Blocked) assuming strong(arrive, clear)"
+    );
 }
 
 #[test]
@@ -116,4 +131,54 @@ fn the_front_says_of_two_thousand_nets_what_the_engine_says_and_its_runs_replay(
         shown += usize::from(replay::replays(model.pt(), &property.question, &answer));
     }
     assert!(shown > 200, "{shown}");
+}
+
+/// The markings of a net, each as often as transitions lead to it; behind the places a place for
+/// each transition that says that it fired last.
+fn space(pt: &Pt) -> Space<'_> {
+    let transitions = pt.transitions.len();
+    let (mut markings, mut successors) = (Vec::new(), Vec::new());
+    markings.push([&pt.initial[..], &vec![0; transitions]].concat());
+    while successors.len() < markings.len() {
+        let marking: Vec<u32> = markings[successors.len()].clone();
+        let mut next = Vec::new();
+        for fired in (0..transitions).filter(|it| pt.enabled(&marking, *it as u32)) {
+            let mut after = pt.fire(&marking[..pt.places.len()], fired as u32).unwrap();
+            after.extend((0..transitions).map(|it| u32::from(it == fired)));
+            next.push(markings.iter().position(|it| *it == after).unwrap_or(markings.len()));
+            if next.last() == Some(&markings.len()) {
+                markings.push(after);
+            }
+        }
+        successors.push(next);
+    }
+    Space { net: pt, markings, successors }
+}
+
+#[test]
+fn formulas_of_ltl_on_fair_runs_of_nets_are_what_the_oracle_says() {
+    let (mut random, mut compared, mut changed) = (Random(62), 0, 0);
+    while compared < 100 {
+        let pt = if compared % 2 == 0 { small(&mut random) } else { side_by_side(&mut random) };
+        let said = state(&mut random, &pt, 1);
+        let said = Formula::Globally(Formula::Finally(said.into()).into());
+        let said = if random.below(2) == 0 { said } else { Formula::Not(said.into()) };
+        if Space::new(&pt).markings.len() > 4 || !said.needs_run() {
+            continue;
+        }
+        compared += 1;
+        let space = space(&pt);
+        let (assumed, parts) = assumptions(&mut random, &pt);
+        let some = |parts: &[Formula], path: &Formula| {
+            let all = parts.iter().chain([path, &Formula::TRUE]).cloned().collect();
+            space.satisfying(&Formula::Exists(Formula::And(all).into()))[0]
+        };
+        let expected = some(&parts, &said);
+        changed += usize::from(some(&[], &said) != expected);
+        let question = Question::Fair(Formula::Exists(said.clone().into()), assumed);
+        let property = named(question, &pt);
+        let answer = check(&Model::from(pt.clone()), &property, &Options::default());
+        assert_eq!(answer.verdict, Verdict::Holds(expected), "{} on {pt:?}", property.name);
+    }
+    assert!(changed > 1, "{changed}");
 }

@@ -1,8 +1,9 @@
 //! Every engine keeps the limits, and what is known is said.
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_verification::check::{Answer, Choice, Extent, Model, Options, Reason, Verdict, check};
-use cotama_verification::explicit::Limits;
+use cotama_verification::check::{Answer, Choice, Model, Options, Verdict, check};
+use cotama_verification::engines::{Budget, Engine, Extent, Found, Known, Reason, Task};
+use cotama_verification::explicit::{Explicit, Limit, Limits};
 use cotama_verification::property;
 use cotama_verification::pt::Pt;
 use std::time::{Duration, Instant};
@@ -115,13 +116,27 @@ fn an_automaton_that_is_too_large_is_the_reason() {
     let heap = net.place(OwnedPlace::new("heap", 200)).unwrap();
     net.transition(OwnedTransition::new("take").take(heap, 1)).unwrap();
     let model = Model::from(&net.view().net());
-    let parts: Vec<_> = (1..140).map(|it| format!("(F heap = {it})")).collect();
-    let answer = ask(&model, &format!("E ({})", parts.join(" & ")), &Options::default());
-    assert_eq!(answer.verdict, Verdict::Unknown(Reason::Automaton));
+    let parts: Vec<_> = (1..130).map(|it| format!("(F heap = {it})")).collect();
+    let of = |parts: &[String]| verdict(&model, &format!("E ({})", parts.join(" & ")));
+    assert_eq!(of(&parts), Verdict::Unknown(Reason::Automaton));
+    assert_eq!(of(&parts[..128]), Verdict::Holds(true));
 }
 
 #[test]
 fn markings_of_a_first_glance_are_counted() {
     let answer = ask(&ring(20), "AG !(p1 & p2)", &Options::default());
     assert_eq!((answer.verdict, answer.states), (Verdict::Holds(true), 20));
+}
+
+#[test]
+fn what_is_kept_of_a_question_depends_on_its_budget() {
+    let pt = moves(4, (0..4).map(|it| (it, (it + 1) % 4)));
+    let known = Known::new(&pt);
+    let within = |limits| Budget { limits, jobs: 1, evidence: false, progress: &|_| () };
+    let few = Limits { states: 3, ..Limits::default() };
+    let live = |limits| Explicit.find(&known, Task::Live, &within(limits)).found;
+    let is_cut = |it| matches!(it, Found::Nothing(Reason::Limit(Limit::States)));
+    assert!(is_cut(live(few)));
+    assert!(matches!(live(Limits::default()), Found::Holds(true, None, _)));
+    assert!(is_cut(live(few)));
 }

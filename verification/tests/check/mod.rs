@@ -16,6 +16,7 @@ mod own;
 mod quick;
 mod replay;
 mod small;
+mod splits;
 mod timed;
 mod timed_logic;
 mod unbounded;

@@ -141,6 +141,8 @@ fn a_net_that_grows_without_end_is_unbounded() {
     let all = [TransitionId(0), TransitionId(1)];
     assert_eq!(space.growth, Some(Growth { first: vec![], repeated: all.to_vec() }));
     assert_eq!(space.states, 1 << 16);
+    let few = statespace(&pt, &Limits { states: 100, ..Limits::default() }, 1, &|_| ());
+    assert_eq!((few.states, few.limit), (100, Some(Limit::Unbounded)));
 }
 
 #[test]

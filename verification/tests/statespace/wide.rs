@@ -2,8 +2,9 @@
 
 use crate::check::nets::any;
 use crate::properties::random::Random;
-use cotama_verification::explicit::{Graph, Limits, statespace};
+use cotama_verification::explicit::{Graph, Limit, Limits, statespace};
 use cotama_verification::pt::{Lists, Pt};
+use std::time::Instant;
 
 /// The same with so many places that nothing needs or changes, each with a token.
 fn padded(pt: &Pt, more: usize) -> Pt {
@@ -52,4 +53,26 @@ fn markings_that_are_not_packed_are_the_same() {
         assert_eq!(spaces[0].max_sum + more as u64, spaces[1].max_sum);
     }
     assert!(compared > 100, "only {compared}");
+}
+
+#[test]
+fn limits_are_answers() {
+    // Forty tokens on a ring of four places: almost all markings differ from the start in four.
+    let step = |from: u32| [[(from, 1)], [((from + 1) % 4, 1)]];
+    let arcs = [0, 1, 2, 3].map(step);
+    let ring = super::net(&[40, 0, 0, 0], &arcs.each_ref().map(|it| [&it[0][..], &[], &it[1][..]]));
+    let wide = padded(&ring, 8_200);
+    let within = |limits| statespace(&wide, &limits, 1, &|_| ());
+    let few = within(Limits { states: 10, ..Limits::default() });
+    assert_eq!((few.states, few.limit), (10, Some(Limit::States)));
+    let over = within(Limits { deadline: Some(Instant::now()), ..Limits::default() });
+    assert_eq!((over.states, over.limit), (1, Some(Limit::Time)));
+    let none = within(Limits { bytes: 1_000, ..Limits::default() });
+    assert_eq!((none.states, none.limit), (0, Some(Limit::Bytes)));
+    let all = within(Limits::default());
+    assert_eq!((all.states, all.limit), (12_341, None));
+    assert!(all.bytes - few.bytes > 50 * all.states, "{} {}", few.bytes, all.bytes);
+    let part = within(Limits { bytes: all.bytes - 1, ..Limits::default() });
+    assert_eq!(part.limit, Some(Limit::Bytes));
+    assert!(part.bytes > 0 && part.states < all.states);
 }

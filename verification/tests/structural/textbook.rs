@@ -12,6 +12,7 @@ use cotama_verification::structural::{
     place_invariants, place_semiflows,
 };
 use std::sync::Arc;
+use std::time::Instant;
 
 fn tokens_at_most(place: u32, most: i64) -> Linear {
     Linear { constant: -most, weights: vec![(PlaceId(place), 1)] }
@@ -262,4 +263,18 @@ fn a_transition_that_needs_less_is_not_disabled_with_one_that_needs_more() {
     let mut structure = Structure::new(&pt, &Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     assert!(proof.holds(&pt, structure.dead()));
+}
+
+#[test]
+fn what_may_cost_too_little_is_not_known() {
+    let pt = philosophers(3, true);
+    // 1,347 are enough.
+    for work in [0, 1_300] {
+        let effort = Effort { work, ..Effort::default() };
+        let found = Structure::with_effort(&pt, &Limits::default(), effort).deadlock();
+        assert!(matches!(found, Answer::Unknown(Unknown::Limit(Limit::Work))), "{found:?}");
+    }
+    let limits = Limits { deadline: Some(Instant::now()), ..Limits::default() };
+    let found = Structure::new(&pt, &limits).deadlock();
+    assert!(matches!(found, Answer::Unknown(Unknown::Limit(Limit::Time))), "{found:?}");
 }

@@ -1,9 +1,11 @@
 //! Fair runs, compared with all sets of markings that a run can stay in.
 
+use super::linear::crossing;
 use super::{formula, lamp};
 use crate::properties::oracle::Space;
 use crate::properties::random::{Random, branching, net, state};
 use cotama_core::net::TransitionId;
+use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::explicit::{BitSet, Goal, Graph, Limits};
 use cotama_verification::property::{Ctl, CtlNode, Formula};
 use cotama_verification::pt::Pt;
@@ -227,4 +229,53 @@ fn a_run_that_is_to_be_in_two_places_again_and_again_visits_both() {
     assert!(verdict(&[&on]));
     // The lamp is never both.
     assert!(!verdict(&[&on, &both]) && !verdict(&[&both, &on]));
+    let pt = crossing();
+    let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
+    let sides = ["left", "right"].map(|it| formula(&pt, it));
+    let recurring = sides.iter().map(|it| Goal::new(it).unwrap()).collect();
+    let said = Ctl::new(&formula(&pt, "EG !deadlock")).unwrap();
+    let found = ctl(&graph, &said, &Fairness { recurring, ..Fairness::default() });
+    let run = Run { stem: Vec::new(), rest: Rest::Cycle([0, 1, 2, 3].map(TransitionId).to_vec()) };
+    assert_eq!(found.witness.unwrap().run, run);
+}
+
+#[test]
+fn fairness_takes_memory_that_is_counted() {
+    let mut net = OwnedNet::new("heap", "");
+    let [heap, used] = [("heap", 1_000), ("used", 0)]
+        .map(|(name, tokens)| net.place(OwnedPlace::new(name, tokens)).unwrap());
+    net.transition(OwnedTransition::new("take").take(heap, 1).give(used, 1)).unwrap();
+    net.transition(OwnedTransition::new("give").take(used, 1).give(heap, 1)).unwrap();
+    let pt = Pt::from(&net.view().net());
+    let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
+    // The fewest bytes that are enough.
+    let least = |text: &str, weak: &[u32], often: &[&Formula]| {
+        let said = Ctl::new(&formula(&pt, text)).unwrap();
+        let recurring = || often.iter().map(|it| Goal::new(it).unwrap()).collect();
+        let weak: Vec<_> = weak.iter().copied().map(TransitionId).collect();
+        let fits = |bytes| {
+            let fairness = Fairness { recurring: recurring(), weak: weak.clone(), strong: vec![] };
+            cotama_verification::temporal::ctl(&graph, &said, &fairness, bytes, 1).is_ok()
+        };
+        let (mut small, mut enough) = (0, 1 << 20);
+        while enough - small > 1 {
+            let middle = u64::midpoint(small, enough);
+            *if fits(middle) { &mut enough } else { &mut small } = middle;
+        }
+        enough
+    };
+    let (states, set) = (1_001, 1_001_u64.div_ceil(64) * 8);
+    let next = least("EX used >= 7", &[], &[]);
+    assert!((2 * set..4 * set).contains(&next), "{next}");
+    // What a search takes beside its answer is given back.
+    let two = least("EG used <= 7 & EG heap >= 7", &[], &[]);
+    let three = least("EG used <= 7 & EG heap >= 7 & EG used <= 9", &[], &[]);
+    assert!(three - two < 8 * states, "{two} {three}");
+    // A transition: where it is enabled, and where it leads.
+    let first = least("EX used >= 7", &[0], &[]);
+    let second = least("EX used >= 7", &[0, 1], &[]) - first;
+    assert!((8 * states + set..14 * states).contains(&second), "{second}");
+    let often = ["used <= 7", "heap <= 7"].map(|it| formula(&pt, it));
+    let [one, two] = [1, 2].map(|it| least("EX used >= 7", &[], &[&often[0], &often[1]][..it]));
+    assert_eq!(two - one, set);
 }

@@ -71,7 +71,7 @@ fn stuttering(random: &mut Random, atoms: &[Formula], depth: usize) -> Formula {
 }
 
 /// Several small nets side by side, so that much of one makes no difference to the others.
-fn side_by_side(random: &mut Random) -> Pt {
+pub(crate) fn side_by_side(random: &mut Random) -> Pt {
     let mut all = OwnedNet::new("all", "");
     for part in 0..2 + random.below(2) {
         let places: Vec<_> = (0..2 + random.below(2))
@@ -218,7 +218,46 @@ fn an_unbounded_net_is_followed_as_far_as_the_formula_asks() {
 }
 
 #[test]
-fn a_loop_keeps_all_promises() {
+fn a_way_to_a_loop_does_not_end_elsewhere() {
+    let mut net = OwnedNet::new("lake", "A way round a lake, and into it.");
+    let [start, shore, near, far, lake] = ["start", "shore", "near", "far", "lake"]
+        .map(|it| net.place(OwnedPlace::new(it, u32::from(it == "start"))).unwrap());
+    for (name, from, to) in [
+        ("walk", start, shore),
+        ("come", shore, near),
+        ("fall", near, lake),
+        ("go", near, far),
+        ("back", far, near),
+        ("jump", start, lake),
+    ] {
+        net.transition(OwnedTransition::new(name).take(from, 1).give(to, 1)).unwrap();
+    }
+    let pt = Pt::from(&net.view().net());
+    let said = formula(&pt, "E (G F near)");
+    let verdict = answer(&pt, &said, &Limits::default(), &|_| ());
+    let run = Run {
+        stem: [0, 1].map(TransitionId).to_vec(),
+        rest: Rest::Cycle([3, 4].map(TransitionId).to_vec()),
+    };
+    assert_eq!(verdict, Verdict::Known { holds: true, run: Some(run), states: 5 });
+}
+
+#[test]
+fn a_loop_that_begins_as_it_ends_is_told_whole() {
+    let mut net = OwnedNet::new("pair", "");
+    let [p, q] = ["p", "q"].map(|it| net.place(OwnedPlace::new(it, 1)).unwrap());
+    net.transition(OwnedTransition::new("one").take(p, 1).give(q, 1)).unwrap();
+    net.transition(OwnedTransition::new("both").take(q, 2).give(p, 2)).unwrap();
+    let pt = Pt::from(&net.view().net());
+    let said = formula(&pt, "E (G p <= 2)");
+    let verdict = answer(&pt, &said, &Limits::default(), &|_| ());
+    let rest = Rest::Cycle([0, 1, 0].map(TransitionId).to_vec());
+    let run = Some(Run { stem: Vec::new(), rest });
+    assert_eq!(verdict, Verdict::Known { holds: true, run, states: 3 });
+}
+
+/// Two ways out of the middle and back.
+pub(super) fn crossing() -> Pt {
     let mut crossing = OwnedNet::new("crossing", "");
     let [middle, left, right] = [("middle", 1), ("left", 0), ("right", 0)]
         .map(|it| crossing.place(OwnedPlace::new(it.0, it.1)).unwrap());
@@ -230,7 +269,12 @@ fn a_loop_keeps_all_promises() {
     ] {
         crossing.transition(OwnedTransition::new(name).take(from, 1).give(to, 1)).unwrap();
     }
-    let crossing = Pt::from(&crossing.view().net());
+    Pt::from(&crossing.view().net())
+}
+
+#[test]
+fn a_loop_keeps_all_promises() {
+    let crossing = crossing();
     let path = "(G F left >= 1) & (G F right >= 1)";
     let said = formula(&crossing, &format!("E ({path})"));
     let verdict = answer(&crossing, &said, &Limits::default(), &|_| ());
@@ -257,11 +301,12 @@ fn limits_are_answers() {
     };
     assert!(states < 300);
     let limits = Limits { bytes: 50_000, ..Limits::default() };
-    let Verdict::Unknown { reason: Reason::Limit(Limit::Bytes), .. } =
+    let Verdict::Unknown { reason: Reason::Limit(Limit::Bytes), states } =
         answer(&fountain(), &said, &limits, &|_| ())
     else {
         panic!("no limit")
     };
+    assert!((260..285).contains(&states), "{states}");
 }
 
 #[test]

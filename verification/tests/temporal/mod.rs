@@ -6,6 +6,8 @@ mod linear;
 mod public;
 mod sets;
 
+pub(crate) use linear::side_by_side;
+
 use crate::properties::oracle::Space;
 use cotama_core::net::TransitionId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};

@@ -77,7 +77,21 @@ fn limits_end_the_work_with_an_answer() {
     let stopped = |limits| tpn::classes(&net, &limits).stopped();
     assert_eq!(stopped(Limits { states: 0, ..LIMITS }), Some(Limit::States));
     assert_eq!(stopped(Limits { bytes: 100, ..LIMITS }), Some(Limit::Bytes));
+    assert_eq!(stopped(Limits { bytes: 1_000, ..LIMITS }), Some(Limit::Bytes));
     assert_eq!(stopped(Limits { deadline: Some(Instant::now()), ..LIMITS }), Some(Limit::Time));
+    // The times of 200 transitions take almost a megabyte.
+    let many =
+        |from| (0..200).map(|it| format!("tr t{it} [1,2] {from} -> r  ")).collect::<String>();
+    for (from, classes) in [("p", 0), ("q", 1)] {
+        let wide = tpn::classes(
+            &crate::tpn::net(&format!("tr go [1,1] p -> q  {}pl p (1)", many(from))),
+            &Limits { bytes: 500_000, ..LIMITS },
+        );
+        assert_eq!((wide.stopped(), wide.classes()), (Some(Limit::Bytes), classes));
+    }
+    let ring = crate::tpn::net("tr t a -> b  tr u b -> c  tr v c -> d  tr w d -> a  pl a (1)");
+    let untimed = tpn::untimed(&ring.untimed(), &Limits { states: 3, ..LIMITS });
+    assert_eq!((untimed.markings, untimed.stopped), (3, Some(Limit::States)));
 }
 
 #[test]

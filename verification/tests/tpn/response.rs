@@ -116,6 +116,11 @@ fn limits_end_the_work_with_an_answer() {
         tpn::bound(&net, a, p, &limits),
         Response::Unknown { limit: Limit::States, explored: 2 }
     );
+    // Times to reach classes count, too.
+    assert_eq!(
+        tpn::bound(&net, a, p, &Limits { states: 3, ..limits }),
+        Response::Unknown { limit: Limit::States, explored: 4 }
+    );
     let unbounded = crate::tpn::net("tr a -> p");
     let (a, p) = (unbounded.transition("a").unwrap(), unbounded.place("p").unwrap());
     let unknown = tpn::bound(&unbounded, a, p, &Limits::default());

@@ -86,8 +86,8 @@ fn classes(by: &str, net: &TimeNet) -> Result<(Measured, u64), String> {
         "cotama" => {
             let limits = tpn::Limits::default();
             let graph = tpn::classes(net, &limits);
-            if let Some(stop) = graph.stopped() {
-                return Err(stop.to_string());
+            if let Some(limit) = graph.stopped() {
+                return Err(format!("stopped: {limit:?}"));
             }
             let count = || {
                 let graph = tpn::classes(net, &limits);
