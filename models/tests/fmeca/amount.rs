@@ -1,9 +1,9 @@
 //! Numbers of an analysis, by themselves.
 
 #[path = "../../src/fmeca/reader/amount.rs"]
-mod amount;
+mod source;
 
-use amount::thousandths;
+use source::thousandths;
 
 #[test]
 fn numbers_are_read_exactly_or_not_at_all() {

@@ -2,9 +2,9 @@
 //! through the component.
 
 #[path = "../../src/cotama/decider/pending.rs"]
-mod pending;
+mod source;
 
-use pending::Pending;
+use source::Pending;
 
 #[test]
 fn a_flood_loses_no_kind_of_failure() {

@@ -6,6 +6,7 @@ use crate::tpn::regions::regions;
 use cotama_verification::check::Verdict;
 use cotama_verification::property::Question;
 use cotama_verification::{assert_holds, tina};
+use std::fmt::Write as _;
 
 /// Places that are opened after some time, and transitions that wait for some of them and for one
 /// token.
@@ -17,7 +18,7 @@ fn gates(random: &mut Random) -> String {
     };
     for gate in 0..2 {
         let interval = format!("[0,{}]", 1 + random.below(4));
-        net += &format!(" tr open{gate} {interval} s{gate} -> r{gate} pl s{gate} (1)");
+        write!(net, " tr open{gate} {interval} s{gate} -> r{gate} pl s{gate} (1)").unwrap();
     }
     for way in 0..3 {
         let interval = interval(random);
@@ -26,7 +27,7 @@ fn gates(random: &mut Random) -> String {
             1 => format!(" r{gate}"),
             _ => format!(" r{gate}?1"),
         });
-        net += &format!(" tr way{way} {interval} a{} -> b{way}", arcs.concat());
+        write!(net, " tr way{way} {interval} a{} -> b{way}", arcs.concat()).unwrap();
     }
     net + &format!(" tr on {} b0 r0?1 -> c tr out {} b0 -> d", interval(random), interval(random))
 }

@@ -302,7 +302,7 @@ fn without_more_work_the_net_is_left_as_far_as_it_is() {
 
 #[test]
 fn reductions_end_when_time_is_over() {
-    let places: String = (0..3_000).map(|it| format!(" p{it}")).collect();
+    let places = (0..3_000).map(|it| format!(" p{it}")).collect::<Vec<_>>().concat();
     let steps = (0..2_999).map(|it| format!("t{it}: p{it} -> p{};", it + 1));
     let before = net(&format!("a:1{places} | t: a -> p0; {}", steps.collect::<String>()));
     let limits = Limits { deadline: Some(std::time::Instant::now()), ..Limits::default() };

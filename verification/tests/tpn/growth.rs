@@ -81,10 +81,10 @@ fn limits_end_the_work_with_an_answer() {
     assert_eq!(stopped(Limits { deadline: Some(Instant::now()), ..LIMITS }), Some(Limit::Time));
     // The times of 200 transitions take almost a megabyte.
     let many =
-        |from| (0..200).map(|it| format!("tr t{it} [1,2] {from} -> r  ")).collect::<String>();
+        |from| (0..200).map(|it| format!("tr t{it} [1,2] {from} -> r  ")).collect::<Vec<_>>();
     for (from, classes) in [("p", 0), ("q", 1)] {
         let wide = tpn::classes(
-            &crate::tpn::net(&format!("tr go [1,1] p -> q  {}pl p (1)", many(from))),
+            &crate::tpn::net(&format!("tr go [1,1] p -> q  {}pl p (1)", many(from).concat())),
             &Limits { bytes: 500_000, ..LIMITS },
         );
         assert_eq!((wide.stopped(), wide.classes()), (Some(Limit::Bytes), classes));
