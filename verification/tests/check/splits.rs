@@ -6,19 +6,18 @@ use crate::tpn::regions::regions;
 use cotama_verification::check::Verdict;
 use cotama_verification::property::Question;
 use cotama_verification::{assert_holds, tina};
-use std::fmt::Write as _;
 
 /// Places that are opened after some time, and transitions that wait for some of them and for one
 /// token.
 fn gates(random: &mut Random) -> String {
-    let mut net = "pl a (1)".to_owned();
     let interval = |random: &mut Random| {
         let lower = random.below(4);
         format!("[{lower},{}]", lower + random.below(4))
     };
+    let mut net = vec!["pl a (1)".to_owned()];
     for gate in 0..2 {
-        let interval = format!("[0,{}]", 1 + random.below(4));
-        write!(net, " tr open{gate} {interval} s{gate} -> r{gate} pl s{gate} (1)").unwrap();
+        let latest = 1 + random.below(4);
+        net.push(format!("pl s{gate} (1) tr open{gate} [0,{latest}] s{gate} -> r{gate}"));
     }
     for way in 0..3 {
         let interval = interval(random);
@@ -27,15 +26,20 @@ fn gates(random: &mut Random) -> String {
             1 => format!(" r{gate}"),
             _ => format!(" r{gate}?1"),
         });
-        write!(net, " tr way{way} {interval} a{} -> b{way}", arcs.concat()).unwrap();
+        net.push(format!("tr way{way} {interval} a{} -> b{way}", arcs.concat()));
     }
-    net + &format!(" tr on {} b0 r0?1 -> c tr out {} b0 -> d", interval(random), interval(random))
+    net.push(format!(
+        "tr on {} b0 r0?1 -> c tr out {} b0 -> d",
+        interval(random),
+        interval(random)
+    ));
+    net.join(" ")
 }
 
 #[test]
 fn classes_are_split_as_often_as_needed() {
     let mut random = Random(77);
-    for _ in 0..15 {
+    for _ in 0..8 {
         let net = tina::read("gates.net", gates(&mut random).as_bytes()).unwrap();
         let (pt, instants) = (net.untimed(), regions(&net, 20_000, 3).unwrap().instants());
         let space = space(&pt, &instants);

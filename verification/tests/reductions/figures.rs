@@ -302,9 +302,9 @@ fn without_more_work_the_net_is_left_as_far_as_it_is() {
 
 #[test]
 fn reductions_end_when_time_is_over() {
-    let places = (0..3_000).map(|it| format!(" p{it}")).collect::<Vec<_>>().concat();
-    let steps = (0..2_999).map(|it| format!("t{it}: p{it} -> p{};", it + 1));
-    let before = net(&format!("a:1{places} | t: a -> p0; {}", steps.collect::<String>()));
+    let places = (0..3_000).map(|it| format!("p{it}")).collect::<Vec<_>>().join(" ");
+    let steps = (1..3_000).map(|it| format!("t{it}: p{} -> p{it}", it - 1)).collect::<Vec<_>>();
+    let before = net(&format!("a:1 {places} | t: a -> p0; {}", steps.join(";")));
     let limits = Limits { deadline: Some(std::time::Instant::now()), ..Limits::default() };
     let after = reduce_within(&before, &Keep::new(Deadlock), &limits, &Effort::default());
     assert!(after.net.places.len() > 10, "{}", after.net.places.len());

@@ -80,11 +80,12 @@ fn limits_end_the_work_with_an_answer() {
     assert_eq!(stopped(Limits { bytes: 1_000, ..LIMITS }), Some(Limit::Bytes));
     assert_eq!(stopped(Limits { deadline: Some(Instant::now()), ..LIMITS }), Some(Limit::Time));
     // The times of 200 transitions take almost a megabyte.
-    let many =
-        |from| (0..200).map(|it| format!("tr t{it} [1,2] {from} -> r  ")).collect::<Vec<_>>();
+    let many = |from| {
+        (0..200).map(|it| format!("tr t{it} [1,2] {from} -> r  ")).collect::<Vec<_>>().concat()
+    };
     for (from, classes) in [("p", 0), ("q", 1)] {
         let wide = tpn::classes(
-            &crate::tpn::net(&format!("tr go [1,1] p -> q  {}pl p (1)", many(from).concat())),
+            &crate::tpn::net(&format!("tr go [1,1] p -> q  {}pl p (1)", many(from))),
             &Limits { bytes: 500_000, ..LIMITS },
         );
         assert_eq!((wide.stopped(), wide.classes()), (Some(Limit::Bytes), classes));
