@@ -1,9 +1,9 @@
-//! Results in JSON that are printed even when the command is interrupted: by a second process, which
-//! an interruption from the terminal does not reach.
+//! Results in JSON that are printed even when the command is interrupted: by a second process,
+//! which an interruption from the terminal does not reach.
 //!
-//! An object is whole or none at all, so a command cannot print it bit by bit as it prints lines. It
-//! hands each result to the second process when it is known, which prints them when the command has
-//! ended without printing them itself.
+//! An object is whole or none at all, so a command cannot print it bit by bit as it prints lines.
+//! It hands each result to the second process when it is known, which prints them when the command
+//! has ended without printing them itself.
 
 use serde::Serialize;
 use std::env;

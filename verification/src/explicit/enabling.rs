@@ -277,13 +277,16 @@ impl Enabling {
         view.enabled.copy_from_slice(&self.start.enabled);
         view.computed.copy_from_slice(&self.start.computed);
         view.sum = self.start.sum;
-        if self.listed.is_some() {
-            self.add_up(marking, view, seen);
-        } else {
-            for chunk in &self.chunks[..chunks] {
-                let row = self.allow(chunk, marking[chunk.word], view, seen);
-                view.sum = view.sum.wrapping_add(row[0]);
-                add(&mut view.computed, &row[1..], 1);
+        let stride = self.bits + 1 + view.computed.len();
+        let (computed, rows) = (&mut *view.computed, &mut *seen.rows);
+        for chunk in &self.chunks[..chunks] {
+            let row = chunk.row + ((marking[chunk.word] >> chunk.shift) & chunk.mask) as usize;
+            rows[row] = true;
+            let (allowed, adds) = self.rows[row * stride..][..stride].split_at(self.bits);
+            and(&mut view.enabled[..self.bits], allowed);
+            view.sum = view.sum.wrapping_add(adds[0]);
+            for (it, more) in computed.iter_mut().zip(&adds[1..]) {
+                *it = it.wrapping_add(*more);
             }
         }
         for (at, it) in self.wide[..wide].iter().enumerate() {
@@ -300,23 +303,6 @@ impl Enabling {
         if let Some(listed) = &self.listed {
             self.enable(listed, marking, view);
         }
-    }
-
-    /// Adds up what the rows of stored chunks add, where they forbid no transition.
-    fn add_up(&self, marking: &[u64], view: &mut View, seen: &mut Seen) {
-        let (stride, computed, rows) =
-            (1 + self.start.computed.len(), &mut *view.computed, &mut *seen.rows);
-        let mut sum = view.sum;
-        for chunk in &self.chunks[..self.in_stored.0] {
-            let row = chunk.row + ((marking[chunk.word] >> chunk.shift) & chunk.mask) as usize;
-            rows[row] = true;
-            let adds = &self.rows[row * stride..][..stride];
-            sum = sum.wrapping_add(adds[0]);
-            for (it, add) in computed.iter_mut().zip(&adds[1..]) {
-                *it = it.wrapping_add(*add);
-            }
-        }
-        view.sum = sum;
     }
 
     /// Lets a chunk forbid transitions; returns what its row adds.

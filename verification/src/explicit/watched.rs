@@ -226,7 +226,8 @@ impl<'s> Search<'s> {
             before: Vec::new(),
             starts: Vec::new(),
             successors: Vec::new(),
-            memory: Memory::new(limits.bytes),
+            // The graph of the net without watches stays.
+            memory: Memory::new(limits.bytes.saturating_sub(base.bytes())),
         })
     }
 
