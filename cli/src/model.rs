@@ -10,7 +10,7 @@ use cotama_core::net::Known;
 use cotama_core::net::owned::OwnedNet;
 use cotama_core::system::{Component, System};
 use cotama_models::nets;
-use cotama_verification::export::json::{self, JsonNetError};
+use cotama_verification::formats::json::{self, JsonNetError};
 use cotama_verification::pnml::{self, Imported, Limits};
 use cotama_verification::tina;
 use cotama_verification::tpn::{self, Interval, NotANet, TimeNet};

@@ -8,9 +8,11 @@
 //! | [`conform`] | whether a recorded run is a run of a model, and where it departs |
 //! | [`coverability`] | infinitely many markings: boundedness, and what more tokens keep true |
 //! | [`diagnosis`] | what a person sees of a verdict |
+//! | [`drawing`] | a net or a system as a drawing |
+//! | [`engines`] | what engines have in common, and all of them |
 //! | [`explicit`] | the engine that passes through reachable markings one by one |
-//! | [`export`] | a net as a file of another tool, or as a drawing |
 //! | [`flat`] | a system of nets as one net |
+//! | [`formats`] | nets as files of other tools |
 //! | [`guide`] | how to check a net of one's own, and ten counterexamples |
 //! | [`limits`] | what a search may use, and why it ended before its end |
 //! | [`play`] | any net or system in play, whatever its size |
@@ -24,30 +26,28 @@
 //! | [`tina`] | the exchange format of time Petri nets, read and written |
 //! | [`tpn`] | time Petri nets and their state classes |
 
-pub mod bounds;
 pub mod certificate;
 pub mod check;
-mod components;
 pub mod conform;
-pub mod coverability;
 pub mod diagnosis;
+pub mod drawing;
 pub mod engines;
-pub mod explicit;
-pub mod export;
 pub mod flat;
+pub mod formats;
 mod integer;
 pub mod limits;
 pub mod play;
-pub mod pnml;
 pub mod property;
 pub mod pt;
-pub mod reductions;
 mod source;
-pub mod structural;
-pub mod stubborn;
-pub mod temporal;
-pub mod tina;
-pub mod tpn;
+
+pub(crate) use engines::components;
+#[doc(inline)]
+pub use engines::{
+    bounds, coverability, explicit, reductions, structural, stubborn, temporal, tpn,
+};
+#[doc(inline)]
+pub use formats::{pnml, tina};
 
 #[doc = include_str!("guide.md")]
 #[doc = "## Two trains\n\n```text"]

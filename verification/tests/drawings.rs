@@ -8,9 +8,10 @@ pub(crate) mod xml;
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{PlaceId, Role, TransitionId};
-use cotama_verification::export::drawing::Style;
-use cotama_verification::export::svg::Highlight;
-use cotama_verification::export::{dot, mermaid, svg};
+use cotama_verification::drawing::figure::Style;
+use cotama_verification::drawing::svg;
+use cotama_verification::drawing::svg::Highlight;
+use cotama_verification::formats::{dot, mermaid};
 use proptest::prelude::*;
 use std::io::Write as _;
 use std::path::Path;

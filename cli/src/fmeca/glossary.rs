@@ -1,7 +1,7 @@
 //! What the abbreviations of the page mean: only those that occur on it.
 
 use cotama_models::cotama::Module;
-use cotama_verification::export::svg::escape;
+use cotama_verification::drawing::svg::escape;
 use std::collections::HashSet;
 use std::fmt::Write;
 

@@ -8,7 +8,7 @@ use crate::render::fmeca::{
     against, detected, heading, hours, left_out, seconds, sentence, shared, summary, worst,
 };
 use cotama_models::fmeca::Analysis;
-use cotama_verification::export::svg::escape;
+use cotama_verification::drawing::svg::escape;
 use std::fmt::{Display, Write};
 
 /// Writes into a page, which cannot fail.

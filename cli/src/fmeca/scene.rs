@@ -1,7 +1,7 @@
 //! Drawings as data: shapes and texts with their places, so that what is drawn can also be
 //! measured.
 
-use cotama_verification::export::svg::{bold_width, escape, width};
+use cotama_verification::drawing::svg::{bold_width, escape, width};
 use std::fmt::Write;
 
 /// How a text looks.

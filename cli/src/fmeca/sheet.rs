@@ -3,7 +3,7 @@
 use super::ishikawa::{diagram, legend};
 use super::scene::Scene;
 use cotama_models::fmeca::Analysis;
-use cotama_verification::export::svg::escape;
+use cotama_verification::drawing::svg::escape;
 
 /// The style of diagrams, in files and in the page.
 pub(crate) const STYLE: &str = include_str!("diagram.css");

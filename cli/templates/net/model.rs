@@ -8,7 +8,7 @@
 //! cotama export my-net.json --output my-net.svg
 //! ```
 
-use cotama_verification::export::json;
+use cotama_verification::formats::json;
 use my_net::my_net::NET;
 
 fn main() {

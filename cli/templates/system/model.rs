@@ -6,7 +6,7 @@
 //! cotama export my-system.json --output my-system.svg
 //! ```
 
-use cotama_verification::export::json;
+use cotama_verification::formats::json;
 use cotama_verification::flat::flat;
 
 fn main() {

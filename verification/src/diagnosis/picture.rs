@@ -2,8 +2,8 @@
 
 use super::Step;
 use super::words::{escape, printable};
-use crate::export::drawing::Style;
-use crate::export::svg::{self, Highlight, Part};
+use crate::drawing::figure::Style;
+use crate::drawing::svg::{self, Highlight, Part};
 use crate::pt::Pt;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Net, PlaceId, TransitionId};

@@ -3,7 +3,7 @@
 use super::picture::Frame;
 use super::words::printable;
 use super::{Diagnosis, Unused};
-use crate::export::svg::{STYLE, bold_width, escape, short, width};
+use crate::drawing::svg::{STYLE, bold_width, escape, short, width};
 use cotama_core::net::Net;
 use std::fmt::Write as _;
 

@@ -4,11 +4,20 @@
 //! Each is in the module of what it does; [`ALL`] lists them. The checker asks those that suit a
 //! task, the cheapest first: [`check`](mod@crate::check).
 
+pub mod bounds;
 mod budget;
+pub(crate) mod components;
+pub mod coverability;
 mod engine;
+pub mod explicit;
 mod known;
 mod reason;
+pub mod reductions;
+pub mod structural;
+pub mod stubborn;
 mod task;
+pub mod temporal;
+pub mod tpn;
 
 pub use budget::Budget;
 pub use engine::{Bid, Engine};
@@ -16,12 +25,12 @@ pub use known::{Known, Made};
 pub use reason::Reason;
 pub use task::{Extent, Finding, Found, Task};
 
-use crate::coverability::{Coverability, FewOmegas};
-use crate::explicit::{Explicit, Few, Stored};
-use crate::structural::Structural;
-use crate::stubborn::{Glance, Stubborn};
-use crate::temporal::{Branching, Runs, StoredBranching};
-use crate::tpn::StateClasses;
+use coverability::{Coverability, FewOmegas};
+use explicit::{Explicit, Few, Stored};
+use structural::Structural;
+use stubborn::{Glance, Stubborn};
+use temporal::{Branching, Runs, StoredBranching};
+use tpn::StateClasses;
 
 /// All engines. Which of them is asked first is told by what they ask for.
 pub const ALL: &[&dyn Engine] = &[

@@ -9,7 +9,8 @@ mod random;
 
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Defect, Role, TransitionId};
-use cotama_verification::export::{jani, json, matrix, scxml};
+use cotama_verification::drawing::matrix;
+use cotama_verification::formats::{jani, json, scxml};
 use std::path::Path;
 
 fn check_golden(name: &str, text: &str) {

@@ -3,7 +3,8 @@
 use crate::exports::random::{PLACES, SIGNALS, complemented, machine, net, net_reaching};
 use cotama_core::net::owned::OwnedTransition;
 use cotama_core::net::{Arc, Net};
-use cotama_verification::export::{jani, json, matrix, scxml};
+use cotama_verification::drawing::matrix;
+use cotama_verification::formats::{jani, json, scxml};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use serde_json::Value;

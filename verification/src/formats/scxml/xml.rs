@@ -1,7 +1,7 @@
 //! A state machine as XML text.
 
 use super::machine::{Machine, Move, Timing};
-use crate::export::identifier::identifiers;
+use crate::formats::identifier::identifiers;
 use crate::play::condition;
 use cotama_core::net::{Ignored, Place, PlaceId, Role, Transition, Within};
 use std::cmp::Reverse;

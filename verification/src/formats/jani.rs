@@ -38,7 +38,7 @@ const AUTOMATON: &str = "net";
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::jani;
+/// use cotama_verification::formats::jani;
 ///
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1).at_most(1)).unwrap();

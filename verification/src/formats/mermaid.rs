@@ -1,7 +1,7 @@
 //! Mermaid diagrams.
 
 use super::dot::{id, tokens};
-use super::drawing::{Figure, Flow, Kind, Label, Style};
+use crate::drawing::figure::{Figure, Flow, Kind, Label, Style};
 use cotama_core::net::Net;
 use std::fmt::{self, Write as _};
 
@@ -13,7 +13,7 @@ use std::fmt::{self, Write as _};
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::{drawing::Style, mermaid};
+/// use cotama_verification::{drawing::figure::Style, formats::mermaid};
 ///
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();

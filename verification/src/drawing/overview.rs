@@ -1,6 +1,6 @@
 //! A drawing of a system: its nets, what they say to each other, and what they look at.
 
-use super::drawing::{Edge, Figure, Flow, Kind, Label, Node};
+use super::figure::{Edge, Figure, Flow, Kind, Label, Node};
 use super::svg;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace};
 use cotama_core::net::{Net, OutputId, PlaceId};
@@ -37,7 +37,7 @@ const LEGEND: [svg::Key; 3] = [
 ///
 /// ```
 /// let drawing =
-///     cotama_verification::export::overview::write(&cotama_models::cotama::delivery::SYSTEM);
+///     cotama_verification::drawing::overview::write(&cotama_models::cotama::delivery::SYSTEM);
 /// assert!(drawing.starts_with("<svg xmlns=") && drawing.contains("start_drive"));
 /// ```
 pub fn write(system: &System<'_>) -> String {

@@ -1,6 +1,6 @@
 //! A net seen as one state machine with variables.
 
-use crate::export::effect::effect;
+use crate::formats::effect::effect;
 use cotama_core::net::{Arc, Defect, Net, PlaceId, Role, Transition};
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;

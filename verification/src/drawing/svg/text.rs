@@ -1,6 +1,6 @@
 //! Text: how wide it is, where lines break, how it is written in XML.
 
-use crate::export::drawing::Label;
+use crate::drawing::figure::Label;
 use std::fmt::Write as _;
 
 /// The size of names, in pixels.

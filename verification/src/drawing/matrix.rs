@@ -31,7 +31,7 @@ use std::fmt::Write as _;
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::matrix;
+/// use cotama_verification::drawing::matrix;
 ///
 /// let mut net = OwnedNet::new("light", "");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();

@@ -11,7 +11,7 @@ mod scene;
 mod style;
 mod text;
 
-use super::drawing::{Figure, Flow, Kind, Label, Style};
+use super::figure::{Figure, Flow, Kind, Label, Style};
 use super::layout::{Outline, Point, Run};
 use cotama_core::net::{Net, Place, PlaceId, TransitionId};
 use scene::{ENTRY, INITIAL, LOOP, SPACE, Scene};
@@ -39,7 +39,7 @@ pub struct Highlight<'a> {
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::{drawing::Style, svg};
+/// use cotama_verification::drawing::{figure::Style, svg};
 ///
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();
@@ -57,8 +57,8 @@ pub fn write(net: &Net<'_>, style: Style) -> String {
 /// ```
 /// use cotama_core::net::TransitionId;
 /// use cotama_models::nets::door;
-/// use cotama_verification::export::drawing::Style;
-/// use cotama_verification::export::svg::{Highlight, write, write_highlighted};
+/// use cotama_verification::drawing::figure::Style;
+/// use cotama_verification::drawing::svg::{Highlight, write, write_highlighted};
 /// let fired = [TransitionId(0)];
 /// let highlight = Highlight { transitions: &fired, ..Highlight::default() };
 /// let drawing = write_highlighted(&door::NET, Style::Net, &highlight);

@@ -1,6 +1,6 @@
 //! Graphviz DOT.
 
-use super::drawing::{Figure, Flow, Kind, Label, Node, Style};
+use crate::drawing::figure::{Figure, Flow, Kind, Label, Node, Style};
 use cotama_core::net::Net;
 use std::fmt::{self, Write as _};
 
@@ -11,7 +11,7 @@ use std::fmt::{self, Write as _};
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::{dot, drawing::Style};
+/// use cotama_verification::{drawing::figure::Style, formats::dot};
 ///
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();

@@ -2,8 +2,8 @@
 
 use super::Highlight;
 use super::text::{self, Block, Face};
-use crate::export::drawing::{Figure, Flow, Kind, Label, Node, Style};
-use crate::export::layout::{self, Graph, Layout, Outline};
+use crate::drawing::figure::{Figure, Flow, Kind, Label, Node, Style};
+use crate::drawing::layout::{self, Graph, Layout, Outline};
 use cotama_core::net::{Net, TransitionId};
 
 /// The least half width and the half height of a state.

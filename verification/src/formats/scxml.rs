@@ -42,7 +42,7 @@ use machine::{Machine, Timing};
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::scxml;
+/// use cotama_verification::formats::scxml;
 ///
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();

@@ -3,8 +3,8 @@
 use super::scene::{SPACE, Scene};
 use super::text::{LABEL, bold_width, escape, width};
 use super::{Highlight, Svg, Tip};
-use crate::export::drawing::{Figure, Flow};
-use crate::export::layout::Point;
+use crate::drawing::figure::{Figure, Flow};
+use crate::drawing::layout::Point;
 use cotama_core::net::Net;
 
 /// The length of a line in a legend, and the height of a line of it.

@@ -54,7 +54,7 @@ pub fn write(net: &Net<'_>) -> String {
 ///
 /// ```
 /// use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-/// use cotama_verification::export::json;
+/// use cotama_verification::formats::json;
 ///
 /// let mut net = OwnedNet::new("light", "A lamp.");
 /// let off = net.place(OwnedPlace::new("off", 1)).unwrap();
