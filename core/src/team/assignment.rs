@@ -1,254 +1,346 @@
 //! Assignment: each row gets a column of its own, at the least sum of costs.
 //!
-//! Rows are added one at a time, each along a shortest path of exchanges (R. Jonker and A.
-//! Volgenant, *A shortest augmenting path algorithm for dense and sparse linear assignment
-//! problems*, Computing 38, 1987; their reduction of rows comes first, with as many steps as it may
-//! take). Prices of columns prove the answer: see [`Assigned`].
+//! R. Jonker and A. Volgenant, *A shortest augmenting path algorithm for dense and sparse linear
+//! assignment problems*, Computing 38, 1987: reductions find a first part of the assignment, and
+//! each row that is left joins along a shortest path of exchanges. Their reduction of rows may go on
+//! for as long as costs are large where edges are missing, so it may take a number of steps, and the
+//! paths do the rest; their reduction of columns comes first only where each column is needed.
 
+use super::amount::Amount;
 use super::cost::{Cost, Costs};
+use super::memory::Memory;
+use super::proof::conflict;
+use super::scan::{Nearest, Reach, next_equal, reach, two_nearest};
+use crate::allocation::{MemoryError, enough};
 
-/// What is remembered of a row; as many as there are rows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Row {
-    /// Its column, one more than its number; none while it waits.
-    column: u32,
-}
-
-impl Row {
-    /// Its column, once it has one.
-    pub fn column(&self) -> Option<usize> {
-        self.column.checked_sub(1).map(|it| it as usize)
-    }
-}
-
-/// What is remembered of a column; as many as there are columns.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Column {
-    /// What it is worth to its row beside the cost: at most 0, and 0 while nobody has it.
-    price: i64,
-    /// The length of the shortest path to it, while one is looked for.
-    distance: i64,
-    /// The row that has it, one more than its number; 0 for none.
-    row: u32,
-    /// The row that comes before it on the path.
-    before: u32,
-    /// Its distance is final.
-    done: bool,
-}
-
-impl Column {
-    /// The row that has it.
-    pub fn row(&self) -> Option<usize> {
-        self.row.checked_sub(1).map(|it| it as usize)
-    }
-
-    /// Its price: at most 0, and 0 if nobody has it.
-    pub const fn price(&self) -> i64 {
-        self.price
-    }
-}
-
-/// An assignment of least cost.
-///
-/// It is proven by the prices: no edge costs less than the price of its row and of its column, an
-/// assigned edge costs exactly that, and a column that nobody has costs nothing. So whoever assigns
-/// all rows pays at least the sum of all prices, which is the total.
+/// Why there is no assignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Assigned {
-    /// The sum of the costs.
-    pub total: u64,
+pub enum Unassigned {
+    /// Some rows have, all together, fewer columns than they are (P. Hall, *On representatives of
+    /// subsets*, 1935); [`Memory::in_conflict`] tells which, [`conflict`](super::conflict)
+    /// counts again.
+    Infeasible {
+        /// How many rows are in conflict.
+        rows: usize,
+        /// How many columns these rows could have.
+        columns: usize,
+    },
+    /// Costs or prices pass the width of the [`Amount`]: take [`i64`].
+    TooLarge,
+    /// There is too little memory.
+    Memory(MemoryError),
 }
 
-/// No assignment gives each row a column: some rows have, all together, fewer columns than they are
-/// (P. Hall 1935).
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Infeasible {
-    /// How many rows are in conflict; [`in_conflict`](Infeasible::in_conflict) tells which.
-    pub rows: usize,
-    /// How many columns these rows could have.
-    pub columns: usize,
-    /// The row that found none.
-    row: u32,
-}
-
-impl Infeasible {
-    /// Whether a row is one of those in conflict.
-    pub fn in_conflict(&self, row: usize, columns: &[Column]) -> bool {
-        let number = row as u32;
-        number == self.row || columns.iter().any(|it| it.done && it.row() == Some(row))
+impl core::fmt::Display for Unassigned {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Infeasible { rows, columns } => {
+                write!(f, "{rows} rows could have {columns} columns only")
+            }
+            Self::TooLarge => f.write_str("costs or prices are too large for 32 bits"),
+            Self::Memory(error) => error.fmt(f),
+        }
     }
 }
 
-/// No path comes here yet.
-const FAR: i64 = i64::MAX;
+impl core::error::Error for Unassigned {}
 
-/// Assigns each row a column at the least total. `rows` and `columns` are as long as the table has
-/// rows and columns, and hold the assignment and the prices afterwards.
+impl From<MemoryError> for Unassigned {
+    fn from(error: MemoryError) -> Self {
+        Self::Memory(error)
+    }
+}
+
+/// Assigns each row a column at the least total, and returns that. `memory` holds the assignment
+/// and the prices that prove it; [`is_least`](super::is_least) is the proof. Columns may be left
+/// over. The same table gives the same assignment.
 ///
 /// ```
-/// use cotama_core::team::{Column, Cost, Costs, Row, assign};
-/// let costs = [4, 1, 3, 2, 0, 5].map(Cost::new);
-/// let table = Costs::new(&costs, 3).unwrap();
-/// let (mut rows, mut columns) = ([Row::default(); 2], [Column::default(); 3]);
-/// let assigned = assign(&table, &mut rows, &mut columns).unwrap();
-/// assert_eq!((assigned.total, rows.map(|it| it.column())), (3, [Some(1), Some(0)]));
+/// use cotama_core::team::{Cost, Costs, Fixed, Unassigned, assign, is_least};
+/// let entries = [Cost::new(9), None, Cost::new(2), Cost::new(8), Cost::new(7), Cost::new(2)];
+/// let table = Costs::new(&entries, 3).unwrap();
+/// let mut fixed = Fixed::<i32, 2, 3>::new();
+/// let mut memory = fixed.memory();
+/// assert_eq!(assign(&table, &mut memory), Ok(9));
+/// assert_eq!(is_least(&table, |row| memory.column(row), |column| memory.price(column)), Ok(9));
+///
+/// let cheap = table.at_most(Cost::new(5).unwrap()); // both need the last column
+/// assert_eq!(assign(&cheap, &mut memory), Err(Unassigned::Infeasible { rows: 2, columns: 1 }));
 /// ```
 ///
 /// # Errors
-/// [`Infeasible`], with the rows in conflict, where there is none. With too little memory for the
-/// table its last row or column counts as missing.
-pub fn assign(
-    costs: &Costs<'_>,
-    rows: &mut [Row],
-    columns: &mut [Column],
-) -> Result<Assigned, Infeasible> {
-    rows.fill(Row::default());
-    columns.fill(Column::default());
-    for row in 0..costs.rows() {
-        reduce(costs, row as u32, rows, columns);
+/// [`Unassigned`]: some rows are in conflict, the amounts are too narrow, or memory lacks.
+pub fn assign<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Result<u64, Unassigned> {
+    let mut work = Work::start(costs, memory)?;
+    work.memory.conflict.fill(0);
+    if costs.rows() > costs.columns() {
+        return Err(work.all_in_conflict());
     }
-    for row in 0..costs.rows() {
-        if rows.get(row).is_some_and(|it| it.column == 0) {
-            grow(costs, row as u32, rows, columns)?;
-        }
-    }
-    let cost = |(row, it): (usize, &Row)| {
-        let entry = it.column().and_then(|it| costs.row(row).get(it)).copied().flatten();
-        entry.map_or(0, |it| u64::from(it.get()))
-    };
-    Ok(Assigned { total: rows.iter().enumerate().map(cost).fold(0, u64::saturating_add) })
+    work.assign()
 }
 
-/// The reduction of a row: it takes the column that is cheapest for it, and lowers the price of that
-/// column by as much as the second one is worse, which may push another row out. Where it goes on
-/// for long, or a row has one column only, the rest is left to the paths.
-fn reduce(costs: &Costs<'_>, row: u32, rows: &mut [Row], columns: &mut [Column]) {
-    let mut open = row;
-    for _ in 0..8 {
-        let Some(best) = two_best(costs.row(open as usize), columns) else { return };
-        let Some(second) = best.second else {
-            // Its only column: nothing tells what that is worth.
-            if let Some(column) = columns.get_mut(best.column).filter(|it| it.row == 0) {
-                give(rows, column, open, best.column);
-            }
-            return;
-        };
-        let gain = second.0.saturating_sub(best.least);
-        let at = if gain == 0 && columns.get(best.column).is_some_and(|it| it.row > 0) {
-            second.1
+/// An assignment under work.
+pub(super) struct Work<'w, N> {
+    pub(super) costs: &'w Costs<'w>,
+    pub(super) memory: Memory<'w, N>,
+}
+
+impl<'w, N: Amount> Work<'w, N> {
+    /// Empty, with memory for the table.
+    pub(super) fn start(
+        costs: &'w Costs<'w>,
+        memory: &'w mut Memory<'_, N>,
+    ) -> Result<Self, Unassigned> {
+        let (rows, columns) = memory.size();
+        enough("assignment", costs.rows(), rows)?;
+        enough("assignment", costs.columns(), columns)?;
+        let lacks = MemoryError { what: "assignment", needed: usize::MAX, given: columns };
+        let memory = memory.cleared(costs.rows(), costs.columns()).ok_or(lacks)?;
+        if N::room_for(costs.most()) {
+            Ok(Self { costs, memory })
         } else {
-            best.column
-        };
-        let Some(column) = columns.get_mut(at) else { return };
-        let pushed = column.row;
-        if pushed > 0 && gain == 0 {
-            return; // to push somebody out without gain may go on for ever
+            Err(Unassigned::TooLarge)
         }
-        if at == best.column {
-            column.price = column.price.saturating_sub(gain);
-        }
-        give(rows, column, open, at);
-        let Some(next) = pushed.checked_sub(1) else { return };
-        if let Some(it) = rows.get_mut(next as usize) {
-            it.column = 0;
-        }
-        open = next;
     }
-}
 
-/// A row gets a column.
-fn give(rows: &mut [Row], column: &mut Column, row: u32, at: usize) {
-    column.row = row.saturating_add(1);
-    if let Some(it) = rows.get_mut(row as usize) {
-        it.column = (at as u32).saturating_add(1);
-    }
-}
-
-/// The cheapest column of a row and the second cheapest, less their prices.
-struct Best {
-    least: i64,
-    column: usize,
-    second: Option<(i64, usize)>,
-}
-
-fn two_best(row: &[Option<Cost>], columns: &[Column]) -> Option<Best> {
-    let mut best: Option<Best> = None;
-    for (at, (cost, column)) in row.iter().zip(columns).enumerate() {
-        let Some(cost) = cost else { continue };
-        let value = i64::from(cost.get()).saturating_sub(column.price);
-        best = Some(match best {
-            None => Best { least: value, column: at, second: None },
-            Some(it) if value < it.least => {
-                Best { least: value, column: at, second: Some((it.least, it.column)) }
+    /// Assigns each row a column at the least total.
+    pub(super) fn assign(&mut self) -> Result<u64, Unassigned> {
+        let costs = self.costs;
+        if costs.rows() == costs.columns() {
+            self.reduce_columns()?;
+        }
+        self.reduce_rows()?;
+        for row in 0..costs.rows() {
+            if self.memory.column(row).is_none() {
+                self.grow(row as u32)?;
             }
-            Some(it) if it.second.is_none_or(|second| value < second.0) => {
-                Best { second: Some((value, at)), ..it }
-            }
-            Some(it) => it,
-        });
+        }
+        self.lower_prices();
+        Ok(self.total())
     }
-    best
-}
 
-/// A shortest path of exchanges from a row without a column to a column without a row.
-fn grow(
-    costs: &Costs<'_>,
-    from: u32,
-    rows: &mut [Row],
-    columns: &mut [Column],
-) -> Result<(), Infeasible> {
-    for it in columns.iter_mut() {
-        (it.distance, it.done) = (FAR, false);
+    /// The sum of the costs.
+    fn total(&self) -> u64 {
+        let cost = |row| self.memory.column(row).and_then(|it| self.costs.cost(row, it));
+        let costs = (0..self.costs.rows()).map(|row| u64::from(cost(row).map_or(0, Cost::get)));
+        costs.fold(0, u64::saturating_add)
     }
-    // The row that is looked at, and what it costs to come to it, less the price of its own edge.
-    let (mut row, mut base, mut met) = (from, 0_i64, 1_usize);
-    let (end, length) = loop {
-        let mut nearest: Option<(usize, i64)> = None;
-        for (at, (cost, column)) in
-            costs.row(row as usize).iter().zip(columns.iter_mut()).enumerate()
-        {
-            if column.done {
+
+    /// A row gets a column that nobody has any more.
+    fn give(&mut self, row: u32, column: usize) {
+        if let Some(it) = self.memory.row_of.get_mut(column) {
+            *it = row.wrapping_add(1);
+        }
+        if let Some(it) = self.memory.column_of.get_mut(row as usize) {
+            *it = (column as u32).wrapping_add(1);
+        }
+    }
+
+    /// Changes the price of a column.
+    fn reprice(&mut self, column: usize, by: impl FnOnce(N) -> N) -> Result<(), Unassigned> {
+        let Some(price) = self.memory.prices.get_mut(column) else { return Ok(()) };
+        *price = by(*price);
+        if *price > N::ZERO.minus(N::ROOM) { Ok(()) } else { Err(Unassigned::TooLarge) }
+    }
+
+    /// The nearest two columns of a row at the current prices.
+    fn two_nearest(&self, row: usize) -> Nearest<N> {
+        two_nearest(self.costs.entries(row), self.costs.least(), self.memory.prices)
+    }
+
+    /// The reduction of columns: each costs what it costs its cheapest row, and that row has it
+    /// unless it has another. Only where each column is needed, as these prices are above 0. Then
+    /// each of these rows lowers the price of its column by what the second one is worse.
+    fn reduce_columns(&mut self) -> Result<(), Unassigned> {
+        let Memory { prices, before, done, .. } = &mut self.memory;
+        prices.fill(N::FAR);
+        for row in 0..self.costs.rows() {
+            let entries = self.costs.entries(row).iter();
+            for (entry, (price, cheapest)) in entries.zip(prices.iter_mut().zip(before.iter_mut()))
+            {
+                let cost = N::twice(*entry, self.costs.least()).unwrap_or(N::FAR);
+                let less = cost < *price;
+                *cheapest = if less { row as u32 } else { *cheapest };
+                *price = if less { cost } else { *price };
+            }
+        }
+        done.fill(0); // of how many columns a row is the cheapest
+        for column in (0..self.costs.columns()).rev() {
+            let row = self.memory.before.get(column).copied().unwrap_or(0);
+            let missing = self.memory.prices.get(column).is_none_or(|it| *it == N::FAR);
+            if missing {
+                self.reprice(column, |_| N::ZERO)?;
                 continue;
             }
-            if let Some(cost) = cost {
-                let value = i64::from(cost.get()).saturating_sub(column.price);
-                let length = base.saturating_add(value);
-                if length < column.distance {
-                    (column.distance, column.before) = (length, row);
+            if let Some(it) = self.memory.done.get_mut(row as usize) {
+                *it = it.wrapping_add(1);
+            }
+            if self.memory.column(row as usize).is_none() {
+                self.give(row, column);
+                self.reprice(column, |it| it.minus(N::HALF))?;
+            }
+        }
+        for row in 0..self.costs.rows() {
+            let Some(column) = self.memory.column(row) else { continue };
+            if self.memory.done.get(row) != Some(&1) {
+                continue;
+            }
+            let nearest = self.two_nearest(row);
+            let other = if nearest.column == column { nearest.second } else { nearest.away };
+            if other != N::FAR {
+                self.reprice(column, |it| it.minus(other.whole()))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The reduction of rows, twice: a row takes the column that is nearest, and lowers its price by
+    /// as much as the second one is further, which may push another row out. Where a row has one
+    /// column only nothing tells what that is worth, and the rest is left to the paths.
+    fn reduce_rows(&mut self) -> Result<(), Unassigned> {
+        let mut steps = self.costs.rows().saturating_mul(4);
+        let most_level = (self.costs.rows() / 10).saturating_add(4);
+        for _ in 0..2 {
+            for row in 0..self.costs.rows() {
+                let mut open = row;
+                let (mut level, mut lost) = (most_level, row);
+                while self.memory.column(open).is_none() {
+                    let Some(left) = steps.checked_sub(1) else { return Ok(()) };
+                    steps = left;
+                    let Nearest { away, mut column, second } = self.two_nearest(open);
+                    if away == N::FAR {
+                        return Err(self.conflict(open, 0));
+                    }
+                    let free = away == away.whole();
+                    let gain = match second {
+                        it if it == N::FAR => N::ZERO,
+                        it => it.whole().minus(away.whole()),
+                    };
+                    if !free && gain == N::ZERO {
+                        // To push somebody out without gain may go on for ever.
+                        let Some(left) = level.checked_sub(1) else { break };
+                        level = left;
+                        let (entries, least) = (self.costs.entries(open), self.costs.least());
+                        column = next_equal(entries, least, self.memory.prices, away, lost);
+                    }
+                    lost = column;
+                    let pushed = self.memory.row(column);
+                    let taken = if free { N::HALF } else { N::ZERO };
+                    self.reprice(column, |it| it.minus(gain).minus(taken))?;
+                    self.give(open as u32, column);
+                    let Some(pushed) = pushed else { break };
+                    if let Some(it) = self.memory.column_of.get_mut(pushed) {
+                        *it = 0;
+                    }
+                    open = pushed;
                 }
             }
-            if column.distance < nearest.map_or(FAR, |it| it.1) {
-                nearest = Some((at, column.distance));
+        }
+        Ok(())
+    }
+
+    /// A shortest path of exchanges from a row without a column to a column without a row.
+    fn grow(&mut self, from: u32) -> Result<(), Unassigned> {
+        self.memory.distances.fill(N::FAR);
+        // The row that is looked at, and what it costs to come to it.
+        let (mut row, mut base, mut met) = (from, N::ZERO, 0_usize);
+        let (end, length) = loop {
+            let by = Reach {
+                row: self.costs.entries(row as usize),
+                least: self.costs.least(),
+                prices: self.memory.prices,
+                base,
+                from: row,
+            };
+            let nearest = reach(&by, self.memory.distances, self.memory.before);
+            let (column, away) = (nearest.column, nearest.away);
+            if away == N::FAR {
+                return Err(self.conflict(from as usize, met));
+            }
+            let Some(next) = self.memory.row(column) else { break (column, away) };
+            self.settle(column, met, away);
+            // The next row gives this column back, and what it pays for it.
+            let own = N::twice(self.entry(next, column), 1).unwrap_or(N::ZERO);
+            let price = self.memory.prices.get(column).copied().unwrap_or(N::ZERO);
+            base = away.minus(own.minus(price));
+            if base >= N::ROOM.plus(N::ROOM) {
+                return Err(Unassigned::TooLarge);
+            }
+            (row, met) = (next as u32, met.wrapping_add(1));
+        };
+        let mut lowest = N::ZERO;
+        let ends = self.memory.done.iter().zip(self.memory.lengths.iter());
+        for (column, at) in ends.take(met) {
+            if let Some(price) = self.memory.prices.get_mut(*column as usize) {
+                *price = price.plus(at.whole()).minus(length);
+                lowest = lowest.min(*price);
             }
         }
-        let Some((at, length)) = nearest else {
-            return Err(Infeasible { rows: met, columns: met.saturating_sub(1), row: from });
-        };
-        let Some(column) = columns.get_mut(at) else { continue };
-        let Some(next) = column.row.checked_sub(1) else { break (at, length) };
-        column.done = true;
-        // Its row pays for it what the path to it costs.
-        let own = costs.row(next as usize).get(at).copied().flatten();
-        let own = own.map_or(0, |it| i64::from(it.get()).saturating_sub(column.price));
-        (row, base, met) = (next, length.saturating_sub(own), met.saturating_add(1));
-    };
-    for it in columns.iter_mut().filter(|it| it.done) {
-        it.price = it.price.saturating_add(it.distance.saturating_sub(length));
-        it.done = false;
-    }
-    // Along the path each row takes the next column.
-    let mut at = end;
-    for _ in 0..=met {
-        let Some(column) = columns.get_mut(at) else { break };
-        let row = column.before;
-        column.row = row.saturating_add(1);
-        let Some(it) = rows.get_mut(row as usize) else { break };
-        let next = core::mem::replace(&mut it.column, (at as u32).saturating_add(1));
-        if row == from {
-            break;
+        if lowest <= N::ZERO.minus(N::ROOM) {
+            return Err(Unassigned::TooLarge);
         }
-        let Some(next) = next.checked_sub(1) else { break };
-        at = next as usize;
+        self.reprice(end, |it| it.minus(N::HALF))?;
+        self.exchange(from, end, met);
+        Ok(())
     }
-    Ok(())
+
+    /// The shortest path to a column that somebody has is known.
+    pub(super) fn settle(&mut self, column: usize, number: usize, length: N) {
+        if let Some(it) = self.memory.done.get_mut(number) {
+            *it = column as u32;
+        }
+        if let Some(it) = self.memory.lengths.get_mut(number) {
+            *it = length;
+        }
+        if let Some(it) = self.memory.distances.get_mut(column) {
+            *it = N::DONE;
+        }
+    }
+
+    /// An entry of the table.
+    pub(super) fn entry(&self, row: usize, column: usize) -> Option<Cost> {
+        self.costs.entries(row).get(column).copied().flatten()
+    }
+
+    /// There are more rows than columns.
+    pub(super) fn all_in_conflict(&mut self) -> Unassigned {
+        self.memory.conflict.fill(1);
+        let (rows, columns) = conflict(self.costs, |_| true);
+        Unassigned::Infeasible { rows, columns }
+    }
+
+    /// Along a path over so many columns that somebody has, each row takes the next column.
+    pub(super) fn exchange(&mut self, from: u32, end: usize, over: usize) {
+        let mut column = end;
+        for _ in 0..=over {
+            let Some(row) = self.memory.before.get(column).copied() else { return };
+            let next = self.memory.column(row as usize);
+            self.give(row, column);
+            let Some(next) = next.filter(|_| row != from) else { return };
+            column = next;
+        }
+    }
+
+    /// The rows that have the first `met` columns done, and the one that finds no other, are in
+    /// conflict.
+    pub(super) fn conflict(&mut self, from: usize, met: usize) -> Unassigned {
+        let Memory { row_of, conflict, done, .. } = &mut self.memory;
+        conflict.fill(0);
+        let rows = done.iter().take(met).filter_map(|it| row_of.get(*it as usize));
+        for row in rows.filter_map(|it| it.checked_sub(1)).chain([from as u32]) {
+            if let Some(it) = conflict.get_mut(row as usize) {
+                *it = 1;
+            }
+        }
+        Unassigned::Infeasible { rows: met.saturating_add(1), columns: met }
+    }
+
+    /// Prices of columns that are all needed may be above 0: all fall alike until none is.
+    fn lower_prices(&mut self) {
+        let half = |it: &N| it.plus(N::HALF).whole();
+        let most = self.memory.prices.iter().map(half).fold(N::ZERO, N::max);
+        if most > N::ZERO {
+            self.memory.prices.iter_mut().for_each(|it| *it = it.minus(most));
+        }
+    }
 }

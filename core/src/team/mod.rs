@@ -1,7 +1,22 @@
 //! Who does what in a team of robots.
 
+mod amount;
 mod assignment;
+mod bottleneck;
+mod coalition;
 mod cost;
+mod memory;
+mod problem;
+mod proof;
+mod scan;
+mod task;
 
-pub use assignment::{Assigned, Column, Infeasible, Row, assign};
+pub use amount::Amount;
+pub use assignment::{Unassigned, assign};
+pub use bottleneck::{Bottleneck, bottleneck};
+pub use coalition::{Coalition, coalition};
 pub use cost::{Cost, Costs};
+pub use memory::{Fixed, Memory};
+pub use problem::{RobotSet, Team, TeamError};
+pub use proof::{Flaw, conflict, is_least};
+pub use task::{Combine, Plan, Task};
