@@ -5,6 +5,7 @@ mod assignment;
 mod bottleneck;
 mod coalition;
 mod cost;
+pub mod joint;
 mod memory;
 mod problem;
 mod proof;

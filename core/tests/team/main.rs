@@ -5,4 +5,7 @@ mod assignment;
 #[path = "../common/draw.rs"]
 #[allow(unreachable_pub)] // the tests across the crates read it too
 mod draw;
+mod joint;
 mod tables;
+#[allow(unreachable_pub)] // benchmarks read it too
+mod teams;
