@@ -11,6 +11,7 @@ mod problem;
 mod proof;
 mod scan;
 mod task;
+pub mod thesis;
 
 pub use amount::Amount;
 pub use assignment::{Unassigned, assign};

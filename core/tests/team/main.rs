@@ -9,3 +9,4 @@ mod joint;
 mod tables;
 #[allow(unreachable_pub)] // benchmarks read it too
 mod teams;
+mod thesis;
