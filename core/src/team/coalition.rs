@@ -49,7 +49,8 @@ pub fn coalition<N: Amount>(
     let mut failed = Unassigned::Infeasible { rows: 0, columns: 0 };
     let mut solved = None;
     let roles = |plan: usize| task.plans.get(plan).map_or(usize::MAX, |it| it.roles.rows());
-    for (number, plan) in task.plans.iter().enumerate() {
+    for number in 0..task.plans.len() {
+        let Some(plan) = task.plans.get(number) else { break };
         let least = |best: Coalition| {
             (best.cost, roles(best.plan)) <= (floor(task, plan, denominator), plan.roles.rows())
         };

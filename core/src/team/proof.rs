@@ -80,8 +80,8 @@ pub fn is_least(
         total = total.saturating_add(u64::from(cost.get()));
         let less = |cost: Cost, at| i64::from(cost.get()).saturating_sub(price_of(at));
         let own = less(cost, column);
-        let better = |(at, it): (usize, Option<Cost>)| it.is_some_and(|it| less(it, at) < own);
-        if let Some(column) = costs.row(row).enumerate().position(better) {
+        let better = |at: &usize| costs.cost(row, *at).is_some_and(|it| less(it, *at) < own);
+        if let Some(column) = (0..costs.columns()).find(better) {
             return Err(Flaw::Better { row, column });
         }
     }
@@ -108,5 +108,6 @@ pub fn is_least(
 pub fn conflict(costs: &Costs<'_>, among: impl Fn(usize) -> bool) -> (usize, usize) {
     let rows = || (0..costs.rows()).filter(|it| among(*it));
     let could = |column: &usize| rows().any(|row| costs.cost(row, *column).is_some());
-    (rows().count(), (0..costs.columns()).filter(could).count())
+    let count = |sum: usize, _| sum.wrapping_add(1);
+    (rows().fold(0, count), (0..costs.columns()).filter(could).fold(0, count))
 }

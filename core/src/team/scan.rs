@@ -26,6 +26,19 @@ fn less<N: Amount>(a: N, b: N) -> N {
     if a < b { a } else { b }
 }
 
+/// The place of the first that is true. Unlike `position` it counts without a check.
+#[inline]
+pub(super) fn place(all: impl Iterator<Item = bool>) -> Option<usize> {
+    let mut at = 0_usize;
+    for it in all {
+        if it {
+            return Some(at);
+        }
+        at = at.wrapping_add(1);
+    }
+    None
+}
+
 #[inline]
 fn more<N: Amount>(a: N, b: N) -> N {
     if a < b { b } else { a }
@@ -35,8 +48,8 @@ fn more<N: Amount>(a: N, b: N) -> N {
 #[inline]
 pub(super) fn two_nearest<N: Amount>(row: &[Option<Cost>], least: i32, prices: &[N]) -> Nearest<N> {
     let away = |entry, price: N| N::twice(entry, least).map_or(N::FAR, |it| it.minus(price));
-    let (mut best, mut second, mut block) = (N::FAR, N::FAR, 0);
-    for (number, (row, prices)) in row.chunks(BLOCK).zip(prices.chunks(BLOCK)).enumerate() {
+    let (mut best, mut second, mut block, mut number) = (N::FAR, N::FAR, 0, 0_usize);
+    for (row, prices) in row.chunks(BLOCK).zip(prices.chunks(BLOCK)) {
         let ((rows, row), (costs, prices)) =
             (row.as_chunks::<LANES>(), prices.as_chunks::<LANES>());
         let (mut first, mut next) = (N::FAR, N::FAR);
@@ -63,11 +76,12 @@ pub(super) fn two_nearest<N: Amount>(row: &[Option<Cost>], least: i32, prices: &
         if first < best {
             (best, block) = (first, number);
         }
+        number = number.wrapping_add(1);
     }
     let from = block.wrapping_mul(BLOCK);
     let met = row.iter().zip(prices).skip(from);
-    let place = met.map(|(entry, price)| away(*entry, *price)).position(|it| it == best);
-    Nearest { away: best, column: from.wrapping_add(place.unwrap_or(0)), second }
+    let at = place(met.map(|(entry, price)| away(*entry, *price) == best));
+    Nearest { away: best, column: from.wrapping_add(at.unwrap_or(0)), second }
 }
 
 /// The next column behind this one that is so far away, the first again after the last.
@@ -81,9 +95,9 @@ pub(super) fn next_equal<N: Amount>(
     let value = |entry, price: N| N::twice(entry, least).map_or(N::FAR, |it| it.minus(price));
     let equal = |it: (&Option<Cost>, &N)| value(*it.0, *it.1) == away;
     let from = behind.wrapping_add(1);
-    let next = row.iter().zip(prices).skip(from).position(equal);
+    let next = place(row.iter().zip(prices).skip(from).map(equal));
     let next = next.map(|it| it.wrapping_add(from));
-    next.or_else(|| row.iter().zip(prices).position(equal)).unwrap_or(behind)
+    next.or_else(|| place(row.iter().zip(prices).map(equal))).unwrap_or(behind)
 }
 
 /// Paths to all columns that go on by a row: what comes before it is `base` long.
@@ -110,10 +124,10 @@ pub(super) fn reach<N: Amount>(
     };
     // A column that is done is nearer than any path, so no path shortens it; less a half it is
     // further than all others.
-    let (mut best, mut block) = (N::FAR, 0);
+    let (mut best, mut block, mut number) = (N::FAR, 0, 0_usize);
     let blocks = by.row.chunks(BLOCK).zip(by.prices.chunks(BLOCK));
     let blocks = blocks.zip(distances.chunks_mut(BLOCK)).zip(before.chunks_mut(BLOCK));
-    for (number, (((row, prices), distances), before)) in blocks.enumerate() {
+    for (((row, prices), distances), before) in blocks {
         let (rows, row) = row.as_chunks::<LANES>();
         let (costs, prices) = prices.as_chunks::<LANES>();
         let (lengths, distances) = distances.as_chunks_mut::<LANES>();
@@ -145,9 +159,10 @@ pub(super) fn reach<N: Amount>(
         if first < best {
             (best, block) = (first, number);
         }
+        number = number.wrapping_add(1);
     }
     let start = block.wrapping_mul(BLOCK);
     let away = if best >= N::FAR.minus(N::HALF) { N::FAR } else { best.plus(N::HALF) };
-    let place = distances.iter().skip(start).position(|it| *it == away);
-    Nearest { away, column: start.wrapping_add(place.unwrap_or(0)), second: N::FAR }
+    let at = place(distances.iter().skip(start).map(|it| *it == away));
+    Nearest { away, column: start.wrapping_add(at.unwrap_or(0)), second: N::FAR }
 }
