@@ -84,6 +84,7 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         let show = |it| progress.show(it);
         let options = Options {
             engine,
+            engines: &[],
             limits: budget.limits,
             jobs: budget.jobs,
             evidence: args.certificate.is_some() || requirement.is_some(),

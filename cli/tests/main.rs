@@ -7,6 +7,7 @@ mod allocate;
 mod bad_input;
 mod book;
 mod broken_pnml;
+mod certificates;
 mod check;
 mod common;
 mod conform;

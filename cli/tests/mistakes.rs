@@ -134,7 +134,7 @@ fn what_is_not_permitted_is_said() {
     permit("locked", 0o555);
     permit("secret.toml", 0);
     if fs::read(folder.path().join("secret.toml")).is_ok() {
-        eprintln!("SKIPPED: permissions do not bind this user");
+        cotama_golden::skipped("permissions do not bind this user");
     } else {
         let lines = [
             "cotama plan secret.toml",
@@ -164,7 +164,7 @@ fn interruptions_are_ignored() -> bool {
 fn who_interrupts_a_long_check_finds_no_file() {
     use std::os::unix::process::ExitStatusExt;
     if interruptions_are_ignored() {
-        eprintln!("SKIPPED: interruptions do not reach this process");
+        cotama_golden::skipped("interruptions do not reach this process");
         return;
     }
     let folder = Folder::new("mistakes_interrupted");

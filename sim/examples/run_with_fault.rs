@@ -1,7 +1,7 @@
 //! Runs a mission in which something fails: `cargo run -p cotama-sim --example run_with_fault`.
 //!
-//! The patrol loses a laser at 60 m, and the first hall costs 4 % more power than was modelled. What the
-//! robot does about it is read from the trace of the run.
+//! The patrol loses a laser at 60 m, and the first hall costs 4 % more power than was modelled.
+//! What the robot does about it is read from the trace of the run.
 
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};

@@ -1,7 +1,9 @@
-//! Golden files: texts that tests keep, and compare with what they find.
+//! Golden files: texts that tests keep, and compare with what they find; public files, which the
+//! project does not keep.
 
 use std::fs;
-use std::path::Path;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Compares what a test found with a kept file. A relative path starts at the folder of the
@@ -46,4 +48,21 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
     let new = path.with_extension(format!("{}-{number}.new", std::process::id()));
     fs::write(&new, text)?;
     fs::rename(new, path)
+}
+
+/// The folder of public files that this environment variable names; `None`, said loudly, without
+/// it: then `what` is not tested.
+#[must_use]
+pub fn public_folder(variable: &str, what: &str) -> Option<PathBuf> {
+    let folder = std::env::var_os(variable).map(PathBuf::from);
+    if folder.is_none() {
+        skipped(&format!("{variable} names no folder to test {what} with"));
+    }
+    folder
+}
+
+/// Says what a test does not test here, and why.
+pub fn skipped(why: &str) {
+    // Not by `eprintln`, which says nothing when a test passes.
+    let _ = std::io::stderr().write_all(format!("SKIPPED: {why}\n").as_bytes());
 }

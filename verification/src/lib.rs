@@ -29,6 +29,7 @@ pub mod check;
 pub mod conform;
 pub mod coverability;
 pub mod diagnosis;
+pub mod engines;
 pub mod explicit;
 pub mod export;
 pub mod flat;

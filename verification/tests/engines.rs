@@ -5,6 +5,7 @@ mod certificates;
 mod check;
 mod coverability;
 mod forged;
+mod numbered;
 mod properties;
 mod reductions;
 mod statespace;

@@ -1,6 +1,7 @@
 //! Nets of others. The folder of them is given by the environment variable `COTAMA_MCC_DIR`: files
 //! `*.pnml`, and `facts.tsv` with the columns model, places, transitions and arcs.
 
+use cotama_golden::public_folder;
 use cotama_verification::pnml;
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -23,14 +24,10 @@ fn facts(folder: &Path) -> BTreeMap<String, [usize; 3]> {
 
 #[test]
 fn public_nets_have_the_known_numbers_of_places_transitions_and_arcs() {
-    let Some(folder) = std::env::var_os("COTAMA_MCC_DIR") else {
-        eprintln!("SKIPPED: COTAMA_MCC_DIR does not name a folder of public nets");
-        return;
-    };
-    let folder = Path::new(&folder);
-    let facts = facts(folder);
+    let Some(folder) = public_folder("COTAMA_MCC_DIR", "the reader of PNML") else { return };
+    let facts = facts(&folder);
     let mut files: Vec<_> =
-        std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+        std::fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()).collect();
     files.retain(|file| file.extension().is_some_and(|extension| extension == "pnml"));
     files.sort();
     assert_eq!(files.len(), facts.len(), "one fact for each net");

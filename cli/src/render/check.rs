@@ -99,7 +99,8 @@ pub(crate) fn result(row: &ResultRow, is_usual: bool, unit: Option<&str>, width:
         how.push(format!("evidence: {}", row.evidence.name()));
     }
     if row.states > 0 {
-        how.push(format!("{} states", grouped(&row.states.to_string())));
+        let states = if row.states == 1 { "state" } else { "states" };
+        how.push(format!("{} {states}", grouped(&row.states.to_string())));
     }
     if !how.is_empty() {
         let how = wrapped(&how.join("; "), width, &indent);

@@ -174,7 +174,7 @@ pub struct Decider<P, const W: usize, const C: usize, const S: usize> {
     returns: Option<Returns>,
     /// What the supervisors take for lost: what is diagnosed, and what the plan does without.
     lost: Losses,
-    untold: Pending,
+    untold: Pending<Told, Cause>,
     plannings_failed: u32,
     /// A limit cannot be kept, and the operator knows.
     resigned: bool,

@@ -34,7 +34,8 @@ proptest! {
             (0..rows.len()).filter(|&at| explains(rows[at])).collect::<BTreeSet<_>>()
         });
         let open: BTreeSet<_> = candidates.filter(|it| it.len() > 1).collect();
-        let is_largest = |it: &&BTreeSet<usize>| !open.iter().any(|o| o != *it && o.is_superset(it));
+        let is_largest =
+            |it: &&BTreeSet<usize>| !open.iter().any(|o| o != *it && o.is_superset(it));
         let largest: Vec<Vec<usize>> =
             open.iter().filter(is_largest).map(|it| it.iter().copied().collect()).collect();
         prop_assert_eq!(told.groups.list, largest);

@@ -1,6 +1,7 @@
 //! Analyses from files, and the robot's on the same path.
 #![cfg(feature = "std")]
 
+mod amount;
 mod broken;
 mod criticality;
 mod groups;

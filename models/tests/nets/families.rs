@@ -4,7 +4,6 @@ use crate::laws;
 use crate::textbook::explore;
 use cotama_core::net::owned::OwnedNet;
 use cotama_models::nets::families::{fms, kanban, philosophers, swimming_pool, token_ring};
-use std::io::Write;
 
 /// Places, transitions, arcs; a place that is read counts for an arc there and one back.
 fn parts(net: &OwnedNet) -> (usize, usize, usize) {
@@ -80,12 +79,8 @@ fn a_swimming_pool_has_the_published_counts() {
 /// transitions and arcs.
 #[test]
 fn the_contests_own_nets_have_as_many_parts() {
-    let Some(folder) = std::env::var_os("COTAMA_MCC_DIR") else {
-        // Not `eprintln`, which the test runner keeps to itself.
-        let skipped =
-            b"SKIPPED: COTAMA_MCC_DIR names no folder with the nets of the Model Checking \
-              Contest\n";
-        return std::io::stderr().write_all(skipped).unwrap();
+    let Some(folder) = cotama_golden::public_folder("COTAMA_MCC_DIR", "families of nets") else {
+        return;
     };
     for (file, net) in [
         ("Philosophers-PT-000005", philosophers(5)),
@@ -96,7 +91,7 @@ fn the_contests_own_nets_have_as_many_parts() {
         ("FMS-PT-00005", fms(5)),
         ("SwimmingPool-PT-01", swimming_pool(1)),
     ] {
-        let path = std::path::Path::new(&folder).join(format!("{file}.pnml"));
+        let path = folder.join(format!("{file}.pnml"));
         let text = std::fs::read_to_string(&path)
             .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
         let count = |tag: &str| text.matches(&format!("<{tag} ")).count();

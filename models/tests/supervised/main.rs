@@ -9,3 +9,4 @@ mod decider;
 mod delivery;
 mod file;
 mod nets;
+mod pending;

@@ -171,7 +171,8 @@ fn a_mission_file_says_when_a_failure_ends_and_its_trace_what_followed() {
     assert_eq!(up, Some(("Optimal", Some(1))));
 }
 
-/// Sonars and avoidance fail at once; the sonars return, and the next drive has the other avoidance.
+/// Sonars and avoidance fail at once; the sonars return, and the next drive has the other
+/// avoidance.
 #[test]
 fn an_avoidance_that_lost_sonars_hid_is_not_used_when_they_return() {
     let at = When::At(Millis(36_800));

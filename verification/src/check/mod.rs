@@ -2,8 +2,8 @@
 //!
 //! ```text
 //! text, XML, a law -> Property      Net, System, PNML, .net -> Model
-//! (Model, Property) -> Task         what is looked for, free of operators of one engine alone
-//! Task -> Finding                   by an Engine, one of those below
+//! (Model, Property) -> Task         one of the parts of the question
+//! Task -> Finding                   by an Engine: the cheapest of those that suit
 //! Finding -> Answer                 verdict, run, evidence that `certificate::verify` checks again
 //! ```
 //!
@@ -23,31 +23,22 @@
 //! assert_eq!((answer.verdict, answer.engine()), (Verdict::Holds(false), "structural"));
 //! ```
 
-mod auto;
-mod budget;
-mod clauses;
-mod engine;
-mod engines;
-mod known;
 mod laws;
 mod liveness;
 mod model;
-mod most;
+mod question;
 mod reduced;
 mod report;
-mod stored;
-mod timed;
+mod strategy;
 mod unused;
 
-pub use budget::Budget;
-pub use engine::{Engine, Extent, Finding, Found, Reason, Task};
-pub use engines::{Coverability, Explicit, Structural, Stubborn, Temporal};
-pub use known::Known;
+pub use crate::engines::{Extent, Reason};
 pub use laws::{laws, question};
 pub use model::Model;
 pub use report::{Checkable, NoModel, Report, ReportError, report};
 
 use crate::certificate::{self, Certificate, Evidence, Uncertifiable};
+use crate::engines::{Budget, Engine, Known};
 use crate::explicit::{Limits, Progress};
 use crate::property::Property;
 use crate::pt::Pt;
@@ -178,6 +169,13 @@ pub enum Choice {
     Explicit,
 }
 
+impl<'b> From<&Options<'b>> for Budget<'b> {
+    fn from(options: &Options<'b>) -> Self {
+        let Options { limits, jobs, evidence, progress, .. } = *options;
+        Self { limits, jobs, evidence, progress }
+    }
+}
+
 /// How a question is answered.
 ///
 /// ```
@@ -197,6 +195,8 @@ pub enum Choice {
 pub struct Options<'o> {
     /// By which engine.
     pub engine: Choice,
+    /// Engines of one's own, which are asked beside.
+    pub engines: &'o [&'o dyn Engine],
     /// What it may use.
     pub limits: Limits,
     /// On how many threads, where an engine can use several.
@@ -212,6 +212,7 @@ impl Default for Options<'_> {
     fn default() -> Self {
         Self {
             engine: Choice::Auto,
+            engines: &[],
             limits: Limits::default(),
             jobs: 1,
             evidence: false,
@@ -236,24 +237,22 @@ impl Default for Options<'_> {
 /// ```
 #[derive(Debug)]
 pub struct Checker<'m> {
-    model: &'m Model,
     known: Known<'m>,
 }
 
 impl<'m> Checker<'m> {
     /// Nothing is known of it yet.
     pub fn new(model: &'m Model) -> Self {
-        Self { model, known: Known::new(model.pt()) }
+        let known = match model {
+            Model::Plain(pt) => Known::new(pt),
+            Model::Timed { net, untimed } => Known::timed(untimed, net),
+        };
+        Self { known }
     }
 
     /// Answers a question.
     pub fn answer(&self, property: &Property, options: &Options<'_>) -> Answer {
-        match self.model {
-            Model::Plain(_) => auto::answer(&self.known, &property.question, options),
-            Model::Timed { net, .. } => {
-                timed::answer(&self.known, net, &property.question, options)
-            }
-        }
+        question::answer(&self.known, &property.question, options)
     }
 }
 

@@ -1,11 +1,12 @@
 //! A question to a smaller net.
 
+use crate::engines::{Found, Reason, Task};
 use crate::explicit;
 use crate::property::{Atom, Formula, Linear};
 use crate::pt::Pt;
-use crate::reductions::{Goal, Keep, Limits, Reduced, Tokens, Trail, reduce_within};
+use crate::reductions::{Goal, Keep, LiftError, Limits, Reduced, Tokens, Trail, reduce_within};
 use crate::temporal::{Rest, Run};
-use cotama_core::net::PlaceId;
+use cotama_core::net::{PlaceId, TransitionId};
 
 /// A smaller net, and what is asked of it.
 pub(super) struct Smaller {
@@ -17,21 +18,48 @@ pub(super) struct Smaller {
 }
 
 impl Smaller {
+    /// For a task; `None` when the net does not become smaller.
+    pub(super) fn new(pt: &Pt, task: Task<'_>, limits: &explicit::Limits) -> Option<Self> {
+        match task {
+            Task::Reach(goal) => Self::for_goal(pt, goal, limits),
+            Task::Holds(formula, assumed) if assumed.is_empty() => {
+                Self::for_formula(pt, formula, limits)
+            }
+            Task::Bound(sum) => Self::for_sum(pt, sum, limits),
+            _ => None,
+        }
+    }
+
+    /// The same task on the smaller net.
+    pub(super) fn task<'t>(&'t self, task: Task<'t>) -> Task<'t> {
+        match task {
+            Task::Reach(_) => Task::Reach(&self.goal),
+            Task::Holds(_, assumed) => Task::Holds(&self.goal, assumed),
+            Task::Bound(_) => Task::Bound(&self.sum),
+            task => task,
+        }
+    }
+
+    /// The way of the original net.
+    pub(super) fn way(&self, pt: &Pt, way: &[TransitionId]) -> Found {
+        match self.reduced.trail.lift(pt, way) {
+            Ok(way) => Found::Way(way),
+            Err(LiftError::TooLong) => Found::Reached,
+            Err(LiftError::NotARun) => Found::Nothing(Reason::Undecided),
+        }
+    }
+
     /// For a formula that is looked for in a marking; `None` when the net does not become smaller.
-    pub(super) fn for_goal(pt: &Pt, goal: &Formula, limits: &explicit::Limits) -> Option<Self> {
+    fn for_goal(pt: &Pt, goal: &Formula, limits: &explicit::Limits) -> Option<Self> {
         match goal {
-            Formula::Atom(Atom::Deadlock) => Self::new(pt, goal, Goal::Deadlock, limits),
+            Formula::Atom(Atom::Deadlock) => Self::formula(pt, goal, Goal::Deadlock, limits),
             _ if goal.any(&|it| matches!(it, Formula::Atom(Atom::Deadlock))) => None,
-            _ => Self::new(pt, goal, Goal::Reachability, limits),
+            _ => Self::formula(pt, goal, Goal::Reachability, limits),
         }
     }
 
     /// For a formula about runs.
-    pub(super) fn for_formula(
-        pt: &Pt,
-        formula: &Formula,
-        limits: &explicit::Limits,
-    ) -> Option<Self> {
+    fn for_formula(pt: &Pt, formula: &Formula, limits: &explicit::Limits) -> Option<Self> {
         let deadlock = formula.any(&|it| matches!(it, Formula::Atom(Atom::Deadlock)));
         let steps = formula.any(&|it| matches!(it, Formula::Next(_)));
         let quantifiers = |it: &Formula| matches!(it, Formula::All(_) | Formula::Exists(_));
@@ -39,22 +67,22 @@ impl Smaller {
             Formula::All(path) | Formula::Exists(path)
                 if !steps && !deadlock && !path.any(&quantifiers) =>
             {
-                Self::new(pt, formula, Goal::StutterInvariantLtl, limits)
+                Self::formula(pt, formula, Goal::StutterInvariantLtl, limits)
             }
-            _ => Self::new(pt, formula, Goal::Ctl, limits),
+            _ => Self::formula(pt, formula, Goal::Ctl, limits),
         }
     }
 
-    fn new(pt: &Pt, formula: &Formula, goal: Goal, limits: &explicit::Limits) -> Option<Self> {
+    fn formula(pt: &Pt, formula: &Formula, goal: Goal, limits: &explicit::Limits) -> Option<Self> {
         let formula = in_tokens(formula, pt)?;
         let keep = Keep { places: visible(&formula), ..Keep::new(goal) };
         let reduced = smaller(pt, &keep, limits)?;
-        let goal = rewritten(&formula, &reduced.trail)?;
+        let goal = rewritten(&formula, &reduced.trail)?.simplified();
         Some(Self { reduced, goal, sum: Linear::default() })
     }
 
     /// For a sum of tokens.
-    pub(super) fn for_sum(pt: &Pt, sum: &Linear, limits: &explicit::Limits) -> Option<Self> {
+    fn for_sum(pt: &Pt, sum: &Linear, limits: &explicit::Limits) -> Option<Self> {
         let places = sum.weights.iter().map(|it| it.0).collect();
         let reduced = smaller(pt, &Keep { places, ..Keep::new(Goal::Bounds) }, limits)?;
         let sum = told(sum, &reduced.trail)?;

@@ -1,12 +1,11 @@
 //! What no run of a model uses.
 
-use super::budget::Budget;
-use super::timed;
-use super::{Checker, Model, Options};
+use super::{Checker, Options};
 use crate::coverability::{CoverabilitySet, Tokens};
 use crate::diagnosis::Unused;
+use crate::engines::Budget;
 use crate::explicit::Limit;
-use crate::tpn::{self, TimeNet};
+use crate::tpn::TimeNet;
 
 impl<'m> Checker<'m> {
     /// The transitions that never fire and the places that are never marked: all, by a complete
@@ -27,9 +26,9 @@ impl<'m> Checker<'m> {
     /// ```
     pub fn unused(&self, options: &Options<'_>) -> Unused<'m> {
         let budget = Budget::from(options);
-        let all = match self.model {
-            Model::Plain(_) => self.in_any_order(&budget),
-            Model::Timed { net, .. } => self.in_time(net, options),
+        let all = match self.known.time() {
+            None => self.in_any_order(&budget),
+            Some(net) => self.in_time(net, &budget),
         };
         all.unwrap_or_else(|| {
             let found = self.known.structure(&budget).map(|mut structure| {
@@ -64,12 +63,9 @@ impl<'m> Checker<'m> {
         Some(Unused::new(pt, &fired, &marked))
     }
 
-    fn in_time(&self, net: &TimeNet, options: &Options<'_>) -> Option<Unused<'m>> {
-        let stop = || options.limits.is_over();
-        let classes = tpn::classes(net, &timed::limits(options, &stop));
-        if classes.stopped().is_some() {
-            return None;
-        }
+    fn in_time(&self, net: &TimeNet, budget: &Budget<'_>) -> Option<Unused<'m>> {
+        let stop = || budget.limits.is_over();
+        let classes = self.known.classes(net, &budget.classes(&stop)).ok()?;
         let pt = self.known.pt();
         let mut marked = vec![false; pt.places.len()];
         for class in 0..classes.classes() as u32 {
@@ -78,6 +74,6 @@ impl<'m> Checker<'m> {
                 .zip(classes.marking(class))
                 .for_each(|(it, tokens)| *it |= *tokens > 0);
         }
-        Some(Unused::new(pt, &timed::fired(&classes, pt.transitions.len()), &marked).timed())
+        Some(Unused::new(pt, &classes.fired(pt.transitions.len()), &marked).timed())
     }
 }

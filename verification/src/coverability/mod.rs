@@ -47,6 +47,7 @@
 //! ```
 
 mod antichain;
+mod engine;
 mod growth;
 mod question;
 mod search;
@@ -54,6 +55,8 @@ mod set;
 mod tokens;
 mod word;
 
+pub(crate) use engine::growth;
+pub use engine::{Coverability, FewOmegas};
 pub use growth::{Bounded, bounded};
 pub use question::{Coverable, coverable, is_upward_closed, reaches};
 pub use set::CoverabilitySet;

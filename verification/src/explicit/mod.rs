@@ -34,6 +34,7 @@ mod boxes;
 mod crew;
 mod diamonds;
 mod enabling;
+mod engine;
 mod explore;
 mod goal;
 mod graph;
@@ -55,6 +56,8 @@ mod wide;
 mod worker;
 
 pub use bits::BitSet;
+pub use engine::{Explicit, Few, Stored};
+pub(crate) use engine::{certified, evidence, reached};
 pub use goal::Goal;
 pub use graph::Graph;
 pub use growth::Growth;

@@ -91,6 +91,14 @@ impl Linear {
         Self { constant: 1, weights: vec![(place, -1)] }
     }
 
+    /// That the sum is at least so much, as an inequality; `None` when its numbers would be too
+    /// large.
+    pub(crate) fn at_least(&self, least: i64) -> Option<Self> {
+        let weight = |&(place, weight): &(PlaceId, i64)| Some((place, weight.checked_neg()?));
+        let weights = self.weights.iter().map(weight).collect::<Option<_>>()?;
+        Some(Self { constant: least.checked_sub(self.constant)?, weights })
+    }
+
     /// The inequality that holds exactly when this one does not; `None` when its numbers would be
     /// too large.
     pub fn negated(&self) -> Option<Self> {

@@ -81,6 +81,7 @@ mod operand;
 mod parser;
 mod reachability;
 mod simplify;
+mod value;
 mod xml;
 
 pub use ctl::{Ctl, CtlNode};
@@ -201,6 +202,13 @@ pub struct Assumptions {
     pub strong: Vec<TransitionId>,
     /// Each of these holds again and again; they speak of one marking.
     pub often: Vec<Formula>,
+}
+
+impl Assumptions {
+    /// Whether nothing is assumed.
+    pub const fn is_empty(&self) -> bool {
+        self.weak.is_empty() && self.strong.is_empty() && self.often.is_empty()
+    }
 }
 
 /// A formula of CTL, of LTL (one `All` in front), or bounded response. `Exists` and `All` quantify

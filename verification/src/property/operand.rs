@@ -3,7 +3,8 @@
 use super::error::Fault;
 use super::lexer::{Token, is_reserved};
 use super::linear::{Comparison, Sum};
-use super::parser::{Join, Parser, Value, What};
+use super::parser::Parser;
+use super::value::{Join, Value, What};
 use super::{Atom, Formula};
 use crate::source::quoted;
 use cotama_core::net::TransitionId;

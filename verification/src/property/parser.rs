@@ -2,9 +2,9 @@
 
 use super::error::Fault;
 use super::lexer::{Lexeme, Token, is_reserved, lexemes};
-use super::linear::Sum;
 use super::names::{First, Ids, Names};
-use super::{Assumptions, Atom, Ctl, Formula, Linear, Ltl, Property, PropertyError, Question};
+use super::value::{Join, Value, What};
+use super::{Assumptions, Ctl, Formula, Ltl, Property, PropertyError, Question};
 use crate::pt::Pt;
 use crate::source::quoted;
 use std::ops::Range;
@@ -67,81 +67,6 @@ pub(super) struct Parser<'t> {
     quantified: bool,
     /// How many parts equivalences may still add.
     parts: usize,
-}
-
-/// What was read: a number or a statement.
-pub(super) struct Value {
-    pub(super) what: What,
-    pub(super) span: Range<usize>,
-    /// Where its `U` stands, if it is an until without parentheses.
-    pub(super) until: Option<Range<usize>>,
-}
-
-pub(super) enum What {
-    Sum(Sum),
-    Formula(Formula),
-}
-
-/// Operators between statements, loosest first.
-#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Join {
-    Equivalence,
-    Implication,
-    Or,
-    And,
-    Until,
-}
-
-impl Join {
-    fn tighter(self) -> Self {
-        match self {
-            Self::Equivalence => Self::Implication,
-            Self::Implication => Self::Or,
-            Self::Or => Self::And,
-            Self::And | Self::Until => Self::Until,
-        }
-    }
-}
-
-impl Value {
-    pub(super) fn new(what: What, span: Range<usize>) -> Self {
-        Self { what, span, until: None }
-    }
-
-    fn formula(self) -> Result<Formula, Fault> {
-        match self.what {
-            What::Formula(formula) => Ok(formula),
-            What::Sum(sum) => match sum.as_place() {
-                Some(place) => Ok(Formula::Atom(Atom::AtMost(Linear::marked(place)))),
-                None => Err(Fault::new(self.span, "this is a number, and a statement is expected")
-                    .help("compare it with another number, as in `p + q <= 3`")),
-            },
-        }
-    }
-
-    /// An operand of anything but an until.
-    fn operand(self) -> Result<Formula, Fault> {
-        match self.until {
-            Some(span) => Err(Fault::new(span, "an until beside another operator")
-                .help("put it in parentheses, as in `(a U b) & c`")),
-            None => self.formula(),
-        }
-    }
-
-    pub(super) fn sum(self) -> Result<Sum, Fault> {
-        match self.what {
-            What::Sum(sum) => Ok(sum),
-            What::Formula(_) => Err(Fault::new(
-                self.span,
-                "this is a statement, and a number is \
-                expected",
-            )
-            .help(
-                "`+`, `-`, `*` and comparisons are for numbers of tokens; join statements \
-                    with `&`, `|`, `->` or `<->`",
-            )),
-        }
-    }
 }
 
 impl<'t> Parser<'t> {

@@ -187,16 +187,20 @@ fn replayed(pt: &Pt, mut marking: Vec<u32>, run: &[u32]) -> Option<Vec<u32>> {
 
 /// Fires a transition, if it can.
 fn fire(pt: &Pt, marking: &mut [u32], transition: u32) -> bool {
+    if transition as usize >= pt.transitions.len() || !pt.enabled(marking, transition) {
+        return false;
+    }
+    let effects = pt.effects.of(transition);
     let after =
         |&(place, by): &(u32, i64)| u32::try_from(i64::from(marking[place as usize]) + by).is_ok();
-    let can = (transition as usize) < pt.transitions.len()
-        && pt.enabled(marking, transition)
-        && pt.effects.of(transition).iter().all(after);
-    for &(place, by) in pt.effects.of(transition).iter().filter(|_| can) {
+    if !effects.iter().all(after) {
+        return false;
+    }
+    for &(place, by) in effects {
         let tokens = &mut marking[place as usize];
         *tokens = tokens.wrapping_add_signed(by as i32);
     }
-    can
+    true
 }
 
 /// Takes the firing of a transition back.

@@ -11,7 +11,9 @@
 
 pub mod certificate;
 mod class;
+mod clauses;
 mod commoner;
+mod engine;
 mod flow;
 mod program;
 mod row;
@@ -23,6 +25,7 @@ mod work;
 
 pub use class::{Class, class};
 pub use commoner::{Commoner, commoner};
+pub use engine::Structural;
 pub use flow::{
     Flow, Semiflows, place_invariants, place_semiflows, transition_invariants, transition_semiflows,
 };

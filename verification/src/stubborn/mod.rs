@@ -15,10 +15,12 @@
 //! and for cycles all runs as far as a formula without `X` tells them apart.
 
 mod closure;
+mod engine;
 mod goal;
 mod search;
 mod visible;
 
 pub(crate) use closure::Closure;
+pub use engine::{Glance, Stubborn};
 pub use search::{deadlock, reach_reduced};
 pub(crate) use visible::visible;

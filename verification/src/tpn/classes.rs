@@ -45,6 +45,17 @@ pub struct Classes {
 }
 
 impl Classes {
+    /// For each transition whether some class fires it.
+    pub(crate) fn fired(&self, transitions: usize) -> Vec<bool> {
+        let mut fires = vec![false; transitions];
+        for class in 0..self.classes() as u32 {
+            for (transition, _) in self.successors(class) {
+                fires[transition.0 as usize] = true;
+            }
+        }
+        fires
+    }
+
     /// No class yet.
     pub(super) fn none(net: &TimeNet) -> Self {
         let rules = Rules::new(net);

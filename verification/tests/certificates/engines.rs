@@ -163,6 +163,7 @@ fn two_thousand_cards_never_stop_and_two_hundred_philosophers_do() {
 }
 
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn all_markings_of_well_known_nets_are_passed_through_again() {
     pass_through_again(0..2);
 }

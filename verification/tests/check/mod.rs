@@ -12,6 +12,7 @@ mod limits;
 mod message;
 mod mutations;
 pub(crate) mod nets;
+mod own;
 mod quick;
 mod replay;
 mod small;
@@ -21,19 +22,11 @@ mod unbounded;
 
 use cotama_verification::property::{Property, Question};
 use cotama_verification::pt::Pt;
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// The folder of public nets; `None`, said loudly, without it.
 fn folder(what: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from);
-    if folder.is_none() {
-        // Not by `eprintln`, which says nothing when a test passes.
-        let message =
-            format!("SKIPPED: COTAMA_MCC_DIR names no folder of public nets, to check {what}\n");
-        let _ = std::io::stderr().write_all(message.as_bytes());
-    }
-    folder
+    cotama_golden::public_folder("COTAMA_MCC_DIR", what)
 }
 
 /// A question named by its text.

@@ -9,30 +9,10 @@ mod questions;
 mod random;
 mod textbook;
 
-use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{PlaceId, TransitionId};
+use crate::numbered::net;
+use cotama_core::net::TransitionId;
 use cotama_verification::coverability::{CoverabilitySet, Growth, Limits, Sequence};
 use cotama_verification::pt::Pt;
-
-/// A net of places, given by their tokens, and transitions that take and give `(place, weight)`. A
-/// place that is both taken from and given to is needed.
-fn net(initial: &[u32], transitions: &[[&[(u32, u32)]; 2]]) -> Pt {
-    let mut net = OwnedNet::new("net", "");
-    for (at, &tokens) in initial.iter().enumerate() {
-        net.place(OwnedPlace::new(&format!("p{at}"), tokens)).unwrap();
-    }
-    for (at, [take, give]) in transitions.iter().enumerate() {
-        let mut transition = OwnedTransition::new(&format!("t{at}"));
-        for &(place, weight) in *take {
-            transition = transition.take(PlaceId(place), weight);
-        }
-        for &(place, weight) in *give {
-            transition = transition.give(PlaceId(place), weight);
-        }
-        net.transition(transition).unwrap();
-    }
-    Pt::from(&net.view().net())
-}
 
 fn set(pt: &Pt) -> CoverabilitySet<'_> {
     CoverabilitySet::new(pt, &Limits::default()).unwrap()

@@ -2,6 +2,7 @@
 //! `*.pnml`, and what is known of them in `facts.tsv`.
 
 use super::pumps_ten_times;
+use cotama_golden::public_folder;
 use cotama_verification::coverability::{Bounded, CoverabilitySet, Limits, bounded};
 use cotama_verification::pnml;
 use cotama_verification::pt::Pt;
@@ -9,10 +10,7 @@ use std::collections::BTreeMap;
 
 #[test]
 fn public_nets_are_bounded_or_not_as_published() {
-    let Some(folder) = std::env::var_os("COTAMA_MCC_DIR").map(std::path::PathBuf::from) else {
-        eprintln!("SKIPPED: COTAMA_MCC_DIR does not name a folder of public nets");
-        return;
-    };
+    let Some(folder) = public_folder("COTAMA_MCC_DIR", "which nets are bounded") else { return };
     let text = std::fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut lines = text.lines().map(|line| line.split('\t'));
     let header: Vec<&str> = lines.next().unwrap().collect();

@@ -99,7 +99,7 @@ fn a_transition_that_needs_nothing_pumps_at_once() {
 
 #[test]
 fn a_net_of_nothing_has_one_marking() {
-    let pt = net(&[], &[]);
+    let pt = net::<2>(&[], &[]);
     assert_eq!(shown(&set(&pt)), [""]);
     assert_eq!(bounded(&pt, &Limits::default()), Bounded::Yes);
     // A transition without any arcs can fire for ever, and changes nothing.

@@ -254,11 +254,7 @@ fn a_deep_formula_is_read_on_a_small_stack() {
 
 /// The public property files, each with its net; `None`, said loudly, without the folder.
 fn public() -> Option<Vec<(PathBuf, PathBuf)>> {
-    let Some(folder) = std::env::var_os("COTAMA_MCC_DIR") else {
-        eprintln!("SKIPPED: COTAMA_MCC_DIR does not name a folder of public nets and properties");
-        return None;
-    };
-    let folder = Path::new(&folder);
+    let folder = cotama_golden::public_folder("COTAMA_MCC_DIR", "the reader of properties")?;
     let files =
         std::fs::read_dir(folder.join("properties")).unwrap().map(|entry| entry.unwrap().path());
     let mut files: Vec<_> =

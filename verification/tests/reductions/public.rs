@@ -1,21 +1,17 @@
 //! Nets of others; the folder of them is given by the environment variable `COTAMA_MCC_DIR`.
 
 use crate::reductions::space::{Space, is_dead, run};
+use cotama_golden::public_folder;
 use cotama_verification::pnml;
 use cotama_verification::pt::Pt;
 use cotama_verification::reductions::{Goal, Keep, reduce};
-use std::path::Path;
 
 /// Markings of a reduced net that are passed through.
 const MARKINGS: usize = 150_000;
 
 #[test]
 fn public_nets_have_the_known_deadlocks_when_reduced() {
-    let Some(folder) = std::env::var_os("COTAMA_MCC_DIR") else {
-        eprintln!("SKIPPED: COTAMA_MCC_DIR does not name a folder of public nets");
-        return;
-    };
-    let folder = Path::new(&folder);
+    let Some(folder) = public_folder("COTAMA_MCC_DIR", "reductions") else { return };
     let facts = std::fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut lines = facts.lines().map(|line| line.split('\t').collect::<Vec<_>>());
     let header = lines.next().unwrap();

@@ -75,6 +75,7 @@ fn found(what: &str, system: &System<'_>, id: &str, way: &str) {
 
 /// The table as it was: an observer that stops observing is nobody's news.
 #[test]
+#[ignore = "a minute: CI runs it"]
 fn a_watch_that_is_lost_in_silence_lets_the_operator_drive_blind() {
     let mutant = silent("faults.watch");
     let way = "mission_received drift lose_watch teleoperate idle idle";

@@ -56,7 +56,7 @@ fn many_threads_count_what_one_counts() {
 
 #[test]
 fn a_net_without_transitions_has_one_marking() {
-    let space = space(&net(&[3, 0], &[]));
+    let space = space(&net::<2>(&[3, 0], &[]));
     assert_eq!((space.states, space.arcs, space.dead_markings, space.max_sum), (1, 0, 1, 3));
     assert_eq!((space.bounds, space.depth), (vec![3, 0], 0));
 }

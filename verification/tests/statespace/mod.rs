@@ -10,34 +10,11 @@ mod random;
 mod ways;
 mod wide;
 
-use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+use crate::numbered::net;
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::explicit::{Limits, StateSpace, statespace};
 use cotama_verification::property::{Atom, Formula, Linear};
 use cotama_verification::pt::Pt;
-
-/// A net of places, given by their tokens, and transitions that take, read and give `(place,
-/// weight)`.
-fn net(initial: &[u32], transitions: &[[&[(u32, u32)]; 3]]) -> Pt {
-    let mut net = OwnedNet::new("net", "");
-    for (at, &tokens) in initial.iter().enumerate() {
-        net.place(OwnedPlace::new(&format!("p{at}"), tokens)).unwrap();
-    }
-    for (at, [take, read, give]) in transitions.iter().enumerate() {
-        let mut transition = OwnedTransition::new(&format!("t{at}"));
-        for &(place, weight) in *take {
-            transition = transition.take(PlaceId(place), weight);
-        }
-        for &(place, weight) in *read {
-            transition = transition.read(PlaceId(place), weight);
-        }
-        for &(place, weight) in *give {
-            transition = transition.give(PlaceId(place), weight);
-        }
-        net.transition(transition).unwrap();
-    }
-    Pt::from(&net.view().net())
-}
 
 /// All that is counted, on one thread and without limits.
 fn space(pt: &Pt) -> StateSpace {

@@ -10,10 +10,7 @@ use std::path::PathBuf;
 type Fact = BTreeMap<String, String>;
 
 fn facts() -> Option<(PathBuf, Vec<Fact>)> {
-    let Some(folder) = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from) else {
-        eprintln!("SKIPPED: COTAMA_MCC_DIR does not name a folder of public nets");
-        return None;
-    };
+    let folder = cotama_golden::public_folder("COTAMA_MCC_DIR", "counts of markings")?;
     let text = std::fs::read_to_string(folder.join("facts.tsv")).unwrap();
     let mut lines = text.lines().map(|line| line.split('\t').map(str::to_owned));
     let header: Vec<String> = lines.next().unwrap().collect();

@@ -4,18 +4,10 @@ use super::nets::{enabled, replay};
 use cotama_verification::pt::Pt;
 use cotama_verification::structural::{Answer, Limits, Structure};
 use cotama_verification::{pnml, structural};
-use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 fn folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from);
-    if folder.is_none() {
-        let _ = writeln!(
-            std::io::stderr(),
-            "SKIPPED: set COTAMA_MCC_DIR to the folder of the published nets"
-        );
-    }
-    folder
+    cotama_golden::public_folder("COTAMA_MCC_DIR", "the structure of public nets")
 }
 
 fn net(folder: &Path, name: &str) -> Pt {

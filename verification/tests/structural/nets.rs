@@ -1,37 +1,12 @@
 //! Nets to look at.
 
+use crate::numbered::{Arcs, net};
 use cotama_core::net::PlaceId;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_verification::pt::Pt;
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
-
-/// Arcs: a place and a weight.
-pub(crate) type Arcs<'a> = &'a [(usize, u32)];
-
-/// A net of places with these tokens and transitions that take, read and give.
-pub(crate) fn net(initial: &[u32], transitions: &[(Arcs<'_>, Arcs<'_>, Arcs<'_>)]) -> Pt {
-    let mut net = OwnedNet::new("net", "");
-    for (at, &tokens) in initial.iter().enumerate() {
-        net.place(OwnedPlace::new(&format!("p{at}"), tokens)).unwrap();
-    }
-    let id = |place: usize| PlaceId(place as u32);
-    for (at, (take, read, give)) in transitions.iter().enumerate() {
-        let mut transition = OwnedTransition::new(&format!("t{at}"));
-        for &(place, weight) in *take {
-            transition = transition.take(id(place), weight);
-        }
-        for &(place, weight) in *read {
-            transition = transition.read(id(place), weight);
-        }
-        for &(place, weight) in *give {
-            transition = transition.give(id(place), weight);
-        }
-        net.transition(transition).unwrap();
-    }
-    Pt::from(&net.view().net())
-}
 
 /// Philosophers who take one fork after the other. If they keep an order, the last one is the only
 /// one to begin on the other side. Places of each: thinks, fork, has the first fork, eats.
@@ -65,7 +40,7 @@ pub(crate) fn kanban(cards: u32) -> Pt {
         initial[4 * cell + 3] = cards;
     }
     let [works, broken, done, free] =
-        [0, 1, 2, 3].map(|which| move |cell: usize| (4 * cell + which, 1));
+        [0, 1, 2, 3].map(|which| move |cell: u32| (4 * cell + which, 1));
     let mut arcs: Vec<(Vec<_>, Vec<_>)> = vec![
         (vec![free(0)], vec![works(0)]),
         (vec![done(0), free(1), free(2)], vec![free(0), works(1), works(2)]),
@@ -77,8 +52,8 @@ pub(crate) fn kanban(cards: u32) -> Pt {
         arcs.push((vec![works(cell)], vec![broken(cell)]));
         arcs.push((vec![broken(cell)], vec![works(cell)]));
     }
-    let arcs: Vec<(Arcs<'_>, Arcs<'_>, Arcs<'_>)> =
-        arcs.iter().map(|(take, give)| (&take[..], &[][..], &give[..])).collect();
+    let arcs: Vec<[Arcs<'_>; 3]> =
+        arcs.iter().map(|(take, give)| [&take[..], &[], &give[..]]).collect();
     net(&initial, &arcs)
 }
 
@@ -116,19 +91,20 @@ pub(crate) fn replay(pt: &Pt, trace: &[cotama_core::net::TransitionId]) -> Vec<u
 
 /// Small nets of all kinds, with weights, reads and choices.
 pub(crate) fn any_net() -> impl Strategy<Value = Pt> {
-    let arcs = |most: usize| vec((0..5_usize, 1..=2_u32), 0..=most);
+    let arcs = |most: usize| vec((0..5_u32, 1..=2_u32), 0..=most);
     let transition = (arcs(3), arcs(1), arcs(3));
     (vec(0..=2_u32, 1..=5), vec(transition, 1..=6)).prop_map(|(initial, transitions)| {
-        let within = |arcs: Vec<(usize, u32)>| {
-            let arcs = arcs.into_iter().map(|(place, weight)| (place % initial.len(), weight));
+        let places = initial.len() as u32;
+        let within = |arcs: Vec<(u32, u32)>| {
+            let arcs = arcs.into_iter().map(|(place, weight)| (place % places, weight));
             arcs.collect::<BTreeMap<_, _>>().into_iter().collect::<Vec<_>>()
         };
         let all: Vec<_> = transitions
             .into_iter()
             .map(|(take, read, give)| (within(take), within(read), within(give)))
             .collect();
-        let all: Vec<(Arcs<'_>, Arcs<'_>, Arcs<'_>)> =
-            all.iter().map(|(take, read, give)| (&take[..], &read[..], &give[..])).collect();
+        let all: Vec<[Arcs<'_>; 3]> =
+            all.iter().map(|(take, read, give)| [&take[..], &read[..], &give[..]]).collect();
         net(&initial, &all)
     })
 }

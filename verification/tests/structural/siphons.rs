@@ -1,7 +1,8 @@
 //! Siphons and traps of random nets, against their definitions and against what markings are
 //! reachable.
 
-use super::nets::{any_net, enabled, explore, net};
+use super::nets::{any_net, enabled, explore};
+use crate::numbered::{Arcs, net};
 use cotama_core::net::PlaceId;
 use cotama_verification::pt::Pt;
 use cotama_verification::structural::{
@@ -135,14 +136,13 @@ proptest! {
 fn a_trap_without_tokens_keeps_no_siphon_marked() {
     // From the marked place to the other one and back; what comes back leaves a token there, so
     // that the other one is a trap.
-    let around: [(super::nets::Arcs<'_>, super::nets::Arcs<'_>, super::nets::Arcs<'_>); 2] =
-        [(&[(0, 1)], &[], &[(1, 1)]), (&[], &[(1, 1)], &[(0, 1)])];
+    let around: [[Arcs<'_>; 3]; 2] = [[&[(0, 1)], &[], &[(1, 1)]], [&[], &[(1, 1)], &[(0, 1)]]];
     let found = minimal_siphons(&net(&[1, 0], &around), 100, 1_000_000);
     let [siphon] = &found.siphons[..] else { panic!("{found:?}") };
     assert_eq!(ids(&siphon.places), [0, 1]);
     assert_eq!(siphon.trap.as_ref().map(|it| ids(&it.places)), Some(vec![0, 1]));
     // The marked place may lose its token before any comes to the trap.
-    let lost = [&around[..], &[(&[(0, 1)], &[], &[])]].concat();
+    let lost = [&around[..], &[[&[(0, 1)], &[], &[]]]].concat();
     let found = minimal_siphons(&net(&[1, 0], &lost), 100, 1_000_000);
     assert_eq!(found.siphons.iter().map(|it| it.trap.is_some()).collect::<Vec<_>>(), [false]);
 }

@@ -1,6 +1,7 @@
 //! Small nets with results that can be found by hand.
 
-use super::nets::{kanban, net, philosophers, replay};
+use super::nets::{kanban, philosophers, replay};
+use crate::numbered::net;
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::property::Linear;
 use cotama_verification::structural::certificate::{
@@ -93,7 +94,7 @@ fn a_proof_with_a_wrong_number_is_refused() {
 #[test]
 fn the_last_token_of_a_trap_stays() {
     // Two tokens become one: the state equation alone would let the last one go.
-    let pt = net(&[3], &[(&[(0, 2)], &[], &[(0, 1)])]);
+    let pt = net(&[3], &[[&[(0, 2)], &[], &[(0, 1)]]]);
     let structure = Structure::new(&pt, Limits::default());
     let goal = [tokens_at_most(0, 0)];
     let Answer::Impossible(proof) = structure.reach(&goal) else { panic!("not proved") };
@@ -105,7 +106,7 @@ fn the_last_token_of_a_trap_stays() {
 
 #[test]
 fn half_a_token_is_no_token() {
-    let pt = net(&[3, 0], &[(&[(0, 1)], &[], &[(1, 1)])]);
+    let pt = net(&[3, 0], &[[&[(0, 1)], &[], &[(1, 1)]]]);
     let structure = Structure::new(&pt, Limits::default());
     let goal = [
         Linear { constant: -3, weights: vec![(PlaceId(1), 2)] },
@@ -125,11 +126,11 @@ fn what_never_gets_its_tokens_is_dead() {
     let pt = net(
         &[0, 0, 1, 0, 0],
         &[
-            (&[(0, 1)], &[], &[(1, 1)]),
-            (&[(1, 1)], &[], &[(0, 1)]),
-            (&[(2, 1)], &[], &[(3, 1)]),
-            (&[], &[(2, 1), (3, 1)], &[(4, 1)]),
-            (&[(4, 1)], &[], &[]),
+            [&[(0, 1)], &[], &[(1, 1)]],
+            [&[(1, 1)], &[], &[(0, 1)]],
+            [&[(2, 1)], &[], &[(3, 1)]],
+            [&[], &[(2, 1), (3, 1)], &[(4, 1)]],
+            [&[(4, 1)], &[], &[]],
         ],
     );
     let mut structure = Structure::new(&pt, Limits::default());
@@ -144,7 +145,7 @@ fn what_never_gets_its_tokens_is_dead() {
 
 #[test]
 fn a_place_that_grows_without_limit_has_no_bound() {
-    let pt = net(&[1, 0], &[(&[], &[(0, 1)], &[(1, 1)])]);
+    let pt = net(&[1, 0], &[[&[], &[(0, 1)], &[(1, 1)]]]);
     let mut structure = Structure::new(&pt, Limits::default());
     let bounds: Vec<_> =
         structure.bounds().iter().map(|it| it.as_ref().map(|it| it.at_most)).collect();
@@ -158,10 +159,10 @@ fn a_place_that_grows_without_limit_has_no_bound() {
 #[test]
 fn a_net_without_transitions_is_dead_and_one_without_places_is_not() {
     assert_eq!(
-        Structure::new(&net(&[1], &[]), Limits::default()).deadlock(),
+        Structure::new(&net::<2>(&[1], &[]), Limits::default()).deadlock(),
         Answer::Reachable(Vec::new())
     );
-    let free = net(&[], &[(&[], &[], &[])]);
+    let free = net(&[], &[[&[], &[], &[]]]);
     let mut structure = Structure::new(&free, Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     assert!(proof.holds(&free, structure.dead()));
@@ -170,10 +171,9 @@ fn a_net_without_transitions_is_dead_and_one_without_places_is_not() {
 #[test]
 fn numbers_that_pass_63_bits_are_no_answer() {
     let most = u32::MAX;
-    let arcs: Vec<[(usize, u32); 1]> = (0..8)
-        .flat_map(|at| [[(at, most - at as u32)], [(at + 1, most - 7 * at as u32)]])
-        .collect();
-    let transitions: Vec<_> = arcs.chunks(2).map(|it| (&it[0][..], &[][..], &it[1][..])).collect();
+    let arcs: Vec<[(u32, u32); 1]> =
+        (0..8).flat_map(|at| [[(at, most - at)], [(at + 1, most - 7 * at)]]).collect();
+    let transitions: Vec<_> = arcs.chunks(2).map(|it| [&it[0][..], &it[1][..]]).collect();
     let pt = net(&[most; 9], &transitions);
     assert_eq!(place_invariants(&pt), None);
     assert!(!place_semiflows(&pt, 100).complete);
@@ -184,30 +184,29 @@ fn numbers_that_pass_63_bits_are_no_answer() {
 
 #[test]
 fn classes_are_told_apart() {
-    let ring = class(&net(&[1, 0], &[(&[(0, 1)], &[], &[(1, 1)]), (&[(1, 1)], &[], &[(0, 1)])]));
+    let ring = class(&net(&[1, 0], &[[&[(0, 1)], &[], &[(1, 1)]], [&[(1, 1)], &[], &[(0, 1)]]]));
     assert!(ring.state_machine && ring.marked_graph && ring.free_choice);
     let fork = class(&net(
         &[1, 0, 0],
-        &[(&[(0, 1)], &[], &[(1, 1), (2, 1)]), (&[(1, 1), (2, 1)], &[], &[(0, 1)])],
+        &[[&[(0, 1)], &[], &[(1, 1), (2, 1)]], [&[(1, 1), (2, 1)], &[], &[(0, 1)]]],
     ));
     assert!(!fork.state_machine && fork.marked_graph);
     let both =
-        class(&net(&[1, 1], &[(&[(0, 1), (1, 1)], &[], &[]), (&[(0, 1), (1, 1)], &[], &[])]));
+        class(&net(&[1, 1], &[[&[(0, 1), (1, 1)], &[], &[]], [&[(0, 1), (1, 1)], &[], &[]]]));
     assert!(!both.free_choice && both.extended_free_choice);
-    let one_more = class(&net(&[1, 1], &[(&[(0, 1), (1, 1)], &[], &[]), (&[(0, 1)], &[], &[])]));
+    let one_more = class(&net(&[1, 1], &[[&[(0, 1), (1, 1)], &[], &[]], [&[(0, 1)], &[], &[]]]));
     assert!(!one_more.extended_free_choice && one_more.asymmetric_choice);
-    let crossed =
-        [&[(0, 1), (1, 1)][..], &[(0, 1)], &[(1, 1)]].map(|take| (take, &[][..], &[][..]));
+    let crossed = [&[(0, 1), (1, 1)][..], &[(0, 1)], &[(1, 1)]].map(|take| [take, &[]]);
     let crossed = class(&net(&[1, 1], &crossed));
     assert!(crossed.ordinary && !crossed.asymmetric_choice);
-    assert!(!class(&net(&[1], &[(&[(0, 2)], &[], &[])])).ordinary);
+    assert!(!class(&net(&[1], &[[&[(0, 2)], &[], &[]]])).ordinary);
 }
 
 #[test]
 fn a_free_choice_net_with_a_siphon_that_runs_dry_is_not_live() {
     let pt = net(
         &[1, 0],
-        &[(&[(0, 1)], &[], &[(1, 1)]), (&[(1, 1)], &[], &[(0, 1)]), (&[(1, 1)], &[], &[])],
+        &[[&[(0, 1)], &[], &[(1, 1)]], [&[(1, 1)], &[], &[(0, 1)]], [&[(1, 1)], &[], &[]]],
     );
     let siphons = minimal_siphons(&pt, 10, 1_000);
     assert_eq!(siphons.siphons.len(), 1);
@@ -220,7 +219,7 @@ fn a_free_choice_net_with_a_siphon_that_runs_dry_is_not_live() {
 
 #[test]
 fn three_tokens_make_one_pair_and_not_one_and_a_half() {
-    let pt = net(&[3, 0], &[(&[(0, 2)], &[], &[(1, 1)])]);
+    let pt = net(&[3, 0], &[[&[(0, 2)], &[], &[(1, 1)]]]);
     let mut structure = Structure::new(&pt, Limits::default());
     let most: Vec<_> = structure.bounds().iter().flatten().map(|it| it.at_most).collect();
     assert_eq!(most, [3, 1]);
@@ -242,7 +241,7 @@ fn some_siphons_alone_prove_nothing() {
 fn a_forged_proof_is_refused() {
     // A source adds one token at a time: no marking of its place is out of reach, whatever is
     // written down.
-    let pt = net(&[0], &[(&[], &[], &[(0, 1)])]);
+    let pt = net(&[0], &[[&[], &[], &[(0, 1)]]]);
     let refuses = |goal: Linear, sum: Sum| {
         !unreachable(&pt, &DeadTransitions::default(), &[goal], &Refutation::Sum(sum))
     };
@@ -259,7 +258,7 @@ fn a_forged_proof_is_refused() {
 #[test]
 fn a_transition_that_needs_less_is_not_disabled_with_one_that_needs_more() {
     // The first one fires once, the other one for ever.
-    let pt = net(&[2, 0], &[(&[(0, 2)], &[], &[(0, 1), (1, 1)]), (&[(0, 1)], &[], &[(0, 1)])]);
+    let pt = net(&[2, 0], &[[&[(0, 2)], &[], &[(0, 1), (1, 1)]], [&[(0, 1)], &[], &[(0, 1)]]]);
     let mut structure = Structure::new(&pt, Limits::default());
     let Answer::Impossible(proof) = structure.deadlock() else { panic!("not proved") };
     assert!(proof.holds(&pt, structure.dead()));

@@ -9,11 +9,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 fn folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("COTAMA_MCC_DIR").map(PathBuf::from);
-    if folder.is_none() {
-        eprintln!("SKIPPED: COTAMA_MCC_DIR does not name a folder of public nets and properties");
-    }
-    folder
+    cotama_golden::public_folder("COTAMA_MCC_DIR", "CTL and LTL")
 }
 
 /// The verdicts of each file, by property.

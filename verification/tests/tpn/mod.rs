@@ -20,19 +20,11 @@ mod watchdog;
 
 use cotama_verification::tina;
 use cotama_verification::tpn::{self, Limits, Response, Time, TimeNet};
-use std::io::Write as _;
 use std::path::PathBuf;
 
 /// The folder of known nets; `None`, said loudly, without it.
 fn folder(what: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os("COTAMA_TPN_DIR").map(PathBuf::from);
-    if folder.is_none() {
-        // Not by `eprintln`, which says nothing when a test passes.
-        let message =
-            format!("SKIPPED: COTAMA_TPN_DIR names no folder of time nets, to check {what}\n");
-        let _ = std::io::stderr().write_all(message.as_bytes());
-    }
-    folder
+    cotama_golden::public_folder("COTAMA_TPN_DIR", what)
 }
 
 /// A net of text that is right.

@@ -50,8 +50,9 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         let cause = self.next_cause();
         let (judged, recorded) = (None, false);
         let mut finding = Finding { cause, flags: raised, diagnosis, judged, recorded };
-        // Several at once: whatever always raises some of the flags may be among them, and is taken
-        // to be. It may be about a module that is lost anyway: encoders break after they lost ticks.
+        // Several at once: whatever always raises some of the flags may be among them, and is
+        // taken to be. It may be about a module that is lost anyway: encoders break after they
+        // lost ticks.
         let mut shown = FailureModes::NONE;
         if diagnosis == Diagnosis::Unexplained {
             for &mode in FailureMode::ALL {

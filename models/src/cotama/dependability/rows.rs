@@ -3,8 +3,8 @@
 //! A row is: name, id, function, component, failure { cause, effect; severity (autonomous,
 //! operator), class, persistence; lost (words, modules, resources); seen by (words, words, latency
 //! in ms; flags always, flags sometimes, modules without which and with which it cannot be); answer
-//! (report, words, what an adapter changes or why nothing is); rate (MTBF in thousandths of an hour,
-//! label, source), injection }.
+//! (report, words, what an adapter changes or why nothing is); rate (MTBF in thousandths of an
+//! hour, label, source), injection }.
 
 macro_rules! rows {
     ($($mode:ident $id:literal $function:literal $component:literal $failure:literal {

@@ -315,7 +315,8 @@ requirements! {
     GM2 Inferred "Nothing that is lost is available again.",
         checked "AG ((!gom.mcl -> AX !gom.mcl) & (!gom.sonar -> AX !gom.sonar) & \
                  (!gom.avoidance -> AX !gom.avoidance) & (!gom.smz -> AX !gom.smz) & \
-                 (!gom.camera -> AX !gom.camera) & (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital))",
+                 (!gom.camera -> AX !gom.camera) & (!gom.wifi -> AX !gom.wifi) & \
+                 (!gom.vital -> AX !gom.vital))",
         tested in "models/tests/cotama_data/availability.rs";
     GM3 Inferred "What tells nothing new is not reported: a loss that is known, and a suspicion \
                   until the robot sets out again.",

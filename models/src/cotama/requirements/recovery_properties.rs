@@ -53,7 +53,8 @@ requirements! {
                  (!gom.sonar & !turn.gom.sonar_sound -> AX !gom.sonar) & \
                  (!gom.avoidance & !turn.gom.avoidance_sound -> AX !gom.avoidance) & \
                  (!gom.smz -> AX !gom.smz) & (!gom.camera -> AX !gom.camera) & \
-                 (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital) & (gom.given_up -> !gom.mcl & AX gom.given_up) & \
+                 (!gom.wifi -> AX !gom.wifi) & (!gom.vital -> AX !gom.vital) & \
+                 (gom.given_up -> !gom.mcl & AX gom.given_up) & \
                  (after.cs.slow & (pf.Reduced | pf.Reactive) & pf.level = 0 -> gom.given_up))";
     RC8 Assumed "A return is for the adapter that runs without the module, and else it is recorded \
                  only; it is read in the next round.",

@@ -83,8 +83,8 @@ fn three_sentences_tell_the_story_of_the_delivery() {
     let expected = [
         "4 failures on the way: at 43.0 m, RT1: MCL, deadline missed again and again; at 52.0 m, \
          LOC2: map, map wrong at this place (uncharted obstacle); at 66.0 m, SON1: sonar array, \
-         one transducer stuck at maximum range; at 74.0 m, LOC3: odometry only (degraded mode), drift \
-         beyond the corridor width.",
+         one transducer stuck at maximum range; at 74.0 m, LOC3: odometry only (degraded mode), \
+         drift beyond the corridor width.",
         "The adapter took fewer particles after RT1; the operator was asked after LOC2 and LOC3; \
          the adapter went on without sonars after SON1; the rest was planned again after SON1.",
         "All 4 activities are done after 413.2 s and 80.0 m; 486.8 s (54.1 %) and 4358.9 J \

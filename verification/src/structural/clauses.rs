@@ -9,7 +9,7 @@ const MOST: usize = 20_000;
 
 /// The inequalities of each clause; `None` when there are too many, or numbers too large. Without a
 /// clause it is false.
-pub(super) fn clauses(formula: &Formula, pt: &Pt) -> Option<Vec<Vec<Linear>>> {
+pub(crate) fn clauses(formula: &Formula, pt: &Pt) -> Option<Vec<Vec<Linear>>> {
     walk(formula, pt, true)
 }
 

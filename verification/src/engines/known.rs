@@ -6,18 +6,23 @@ use crate::pt::Pt;
 use crate::structural::{self, Structure};
 use crate::temporal::Successors;
 use crate::tpn::{self, ClassGraph, Classes, TimeNet};
-use std::cell::{OnceCell, RefCell, RefMut};
+use std::cell::{Cell, OnceCell, RefCell, RefMut};
 use std::rc::Rc;
 
 /// Of the memory that may be used, a graph that is kept takes at most one of so many parts.
 const KEPT: u64 = 4;
 
-type Made = Result<Rc<Graph>, Unfinished>;
+/// A graph, or why there is none.
+pub type Made = Result<Rc<Graph>, Unfinished>;
 
 /// A net, and what engines found of it, kept for the next question.
 #[derive(Debug)]
 pub struct Known<'n> {
     pt: &'n Pt,
+    time: Option<&'n TimeNet>,
+    /// Whether it is what is asked about, and not a smaller net in its place.
+    is_whole: bool,
+    is_unbounded: Cell<bool>,
     structure: RefCell<Option<Structure<'n>>>,
     graph: RefCell<Option<(Limits, Made)>>,
     space: RefCell<Option<(Limits, Rc<StateSpace>)>>,
@@ -30,6 +35,9 @@ impl<'n> Known<'n> {
     pub fn new(pt: &'n Pt) -> Self {
         Self {
             pt,
+            time: None,
+            is_whole: true,
+            is_unbounded: Cell::new(false),
             structure: RefCell::new(None),
             graph: RefCell::new(None),
             space: RefCell::new(None),
@@ -38,14 +46,44 @@ impl<'n> Known<'n> {
         }
     }
 
-    /// The net.
+    /// The same of a net whose transitions fire within intervals.
+    pub(crate) fn timed(pt: &'n Pt, net: &'n TimeNet) -> Self {
+        Self { time: Some(net), ..Self::new(pt) }
+    }
+
+    /// The same of a smaller net in the place of another one.
+    pub(crate) fn reduced(pt: &'n Pt) -> Self {
+        Self { is_whole: false, ..Self::new(pt) }
+    }
+
+    /// The net, without time.
     pub fn pt(&self) -> &'n Pt {
         self.pt
     }
 
+    /// The net with its intervals of time, if it has some.
+    pub fn time(&self) -> Option<&'n TimeNet> {
+        self.time
+    }
+
+    /// Whether it is the net that is asked about, and not a smaller one in its place.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// Whether an engine found that it has infinitely many markings.
+    pub fn is_unbounded(&self) -> bool {
+        self.is_unbounded.get()
+    }
+
+    /// It has infinitely many markings.
+    pub(crate) fn grows(&self) {
+        self.is_unbounded.set(true);
+    }
+
     /// About how many bytes the net and what is known of its structure take: in the forms in which
     /// it was read, and in which it is checked.
-    pub(super) fn bytes(&self) -> u64 {
+    pub(crate) fn bytes(&self) -> u64 {
         let kept = self.structure.try_borrow().is_ok_and(|it| it.is_some());
         self.size() + if kept { self.size() / 2 } else { 0 }
     }
@@ -57,7 +95,7 @@ impl<'n> Known<'n> {
     }
 
     /// What its structure says, within this budget; `None` where it does not allow to look.
-    pub(super) fn structure(&self, budget: &Budget<'_>) -> Option<RefMut<'_, Structure<'n>>> {
+    pub fn structure(&self, budget: &Budget<'_>) -> Option<RefMut<'_, Structure<'n>>> {
         let limits = structural::Limits::within(&budget.limits);
         let mut kept = self.structure.borrow_mut();
         let known = kept.take().and_then(|it| it.within(limits));
@@ -68,8 +106,11 @@ impl<'n> Known<'n> {
         RefMut::filter_map(kept, Option::as_mut).ok()
     }
 
-    /// The graph of its markings, or the limit that keeps it from being made.
-    pub(super) fn graph(&self, budget: &Budget<'_>) -> Made {
+    /// The graph of its markings.
+    ///
+    /// # Errors
+    /// The limit that keeps it from being made.
+    pub fn graph(&self, budget: &Budget<'_>) -> Made {
         let mut kept = self.graph.borrow_mut();
         match &*kept {
             Some((_, Ok(graph))) => {
@@ -94,7 +135,7 @@ impl<'n> Known<'n> {
     }
 
     /// The graph of its markings if it is there already.
-    pub(super) fn made(&self) -> Option<Rc<Graph>> {
+    pub fn made(&self) -> Option<Rc<Graph>> {
         match &*self.graph.borrow() {
             Some((_, Ok(graph))) => Some(Rc::clone(graph)),
             _ => None,
@@ -103,7 +144,7 @@ impl<'n> Known<'n> {
 
     /// The linear state classes of the net with its intervals, or why they are not all known and
     /// how many were met.
-    pub(super) fn classes(
+    pub(crate) fn classes(
         &self,
         net: &TimeNet,
         limits: &tpn::Limits<'_>,
@@ -119,7 +160,7 @@ impl<'n> Known<'n> {
     }
 
     /// The atomic ones.
-    pub(super) fn atomic(
+    pub(crate) fn atomic(
         &self,
         net: &TimeNet,
         limits: &tpn::Limits<'_>,
@@ -134,7 +175,7 @@ impl<'n> Known<'n> {
     }
 
     /// What is counted of its markings.
-    pub(super) fn space(&self, budget: &Budget<'_>) -> Rc<StateSpace> {
+    pub fn space(&self, budget: &Budget<'_>) -> Rc<StateSpace> {
         let mut kept = self.space.borrow_mut();
         if let Some((limits, space)) = &*kept
             && !space.limit.is_some_and(|it| budget.has_more(limits, it))
