@@ -2,9 +2,9 @@
 //!
 //! R. Jonker and A. Volgenant, *A shortest augmenting path algorithm for dense and sparse linear
 //! assignment problems*, Computing 38, 1987: reductions find a first part of the assignment, and
-//! each row that is left joins along a shortest path of exchanges. Their reduction of rows may go on
-//! for as long as costs are large where edges are missing, so it may take a number of steps, and the
-//! paths do the rest; their reduction of columns comes first only where each column is needed.
+//! each row that is left joins along a shortest path of exchanges. Their reduction of rows may go
+//! on for as long as costs are large where edges are missing, so it may take a number of steps, and
+//! the paths do the rest; their reduction of columns comes first only where each column is needed.
 
 use super::amount::Amount;
 use super::cost::{Cost, Costs};
@@ -194,8 +194,8 @@ impl<'w, N: Amount> Work<'w, N> {
         Ok(())
     }
 
-    /// The reduction of rows, twice: a row takes the column that is nearest, and lowers its price by
-    /// as much as the second one is further, which may push another row out. Where a row has one
+    /// The reduction of rows, twice: a row takes the column that is nearest, and lowers its price
+    /// by as much as the second one is further, which may push another row out. Where a row has one
     /// column only nothing tells what that is worth, and the rest is left to the paths.
     fn reduce_rows(&mut self) -> Result<(), Unassigned> {
         let mut steps = self.costs.rows().saturating_mul(4);

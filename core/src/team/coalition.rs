@@ -21,8 +21,8 @@ pub struct Coalition {
 }
 
 /// The plan and the robots that do a task at the least cost, whatever it costs to leave it undone.
-/// [`Memory::column`] is the robot of each role. Of equally good plans the one with the fewest roles
-/// is taken, and of these the first.
+/// [`Memory::column`] is the robot of each role. Of equally good plans the one with the fewest
+/// roles is taken, and of these the first.
 ///
 /// That the plan's roles are assigned best is proven as for [`assign`] and [`bottleneck`]; that
 /// another plan is no better is seen by the same for each.

@@ -1,4 +1,12 @@
-//! Who does what in a team of robots.
+//! Who does what in a team of robots (F. Rohrmüller, *Cooperative Action Selection*, dissertation,
+//! TU München 2011, ch. 3), at the least cost, with what proves it.
+//!
+//! - [`assign`]: rows to columns at the least sum, as roles to robots; who cannot has no cost,
+//!   which is a type; [`is_least`] proves an answer by its prices, [`conflict`] that there is none
+//! - [`bottleneck`]: the largest cost as small as can be, then the least sum
+//! - [`coalition`]: one task with several plans of several roles
+//! - [`joint`]: all tasks at once, within a step budget, with a true bound
+//! - [`thesis`]: what the thesis does, for comparison
 
 mod amount;
 mod assignment;

@@ -332,7 +332,8 @@ impl<'m, const N: usize> Joint<'m, N> {
         proven
     }
 
-    /// Whether some task that must be done is left undone in each solution, with those tasks marked.
+    /// Whether some task that must be done is left undone in each solution, with those tasks
+    /// marked.
     fn unserved(&mut self, prices: &mut [i64; N], search: bool, budget: &mut Budget) -> bool {
         let mut bound = 0;
         // Long strides at first.
@@ -362,7 +363,8 @@ impl<'m, const N: usize> Joint<'m, N> {
         true
     }
 
-    /// Marks the tasks in conflict: those that pay, at prices that prove it, or all that must be done.
+    /// Marks the tasks in conflict: those that pay, at prices that prove it, or all that must be
+    /// done.
     fn name_conflict(&mut self, ray: Option<&[i64; N]>) {
         for slot in self.memory.slots.iter_mut().take(self.tasks) {
             slot.conflict = slot.must && (ray.is_none() || slot.least > 0);
