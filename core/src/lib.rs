@@ -19,6 +19,7 @@
 //! | [`mod@system`] | several nets that work together; a net alone is a system of one |
 //! | [`player`] | plays a net or a system: events and time in, what fired out; snapshots |
 //! | [`executive`] | periodic modules on one processor, their watchdogs, proofs of response times |
+//! | [`team`] | who does what in a team of robots |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
 //! Laws of a net speak of what the player does, and are checked while compiling. One
@@ -49,6 +50,7 @@ pub mod panorama;
 pub mod player;
 pub mod problem;
 pub mod system;
+pub mod team;
 pub mod units;
 
 /// What `net!` and `system!` expand to: no part of the API, and free to change.

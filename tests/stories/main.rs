@@ -7,3 +7,9 @@ mod once_wrong;
 mod patrol;
 mod players;
 mod systems;
+#[allow(dead_code, unreachable_pub)] // the core tests and benchmarks read it too
+#[path = "../../core/tests/team/teams.rs"]
+mod team_tables;
+mod teams;
+
+use cotama_tests::draw;

@@ -19,6 +19,7 @@ mod executive;
 mod models;
 mod on_time;
 mod systems;
+mod team;
 
 use core::panic::PanicInfo;
 

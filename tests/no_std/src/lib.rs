@@ -1,4 +1,5 @@
-//! The core as firmware links it: allocators, front and monitor on the tables of the patrol.
+//! The core as firmware links it: allocators, front and monitor on the tables of the patrol, and
+//! teams of eight robots.
 //!
 //! This crate has a panic handler, so it does not build when anything below it needs `std`, and no
 //! global allocator, so it does not build when anything below it needs the heap. `check.sh` builds
@@ -19,6 +20,8 @@ use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{Monitor, Request};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::{Candidate, Problem};
+use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Outcome, Slot, Way};
+use cotama_core::team::{Combine, Cost, Costs, Fixed, Plan as TaskPlan, Task, Team, assign};
 use cotama_core::units::Millimetres;
 use cotama_models::missions::tables::patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
 use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, remaining};
@@ -112,6 +115,53 @@ pub extern "C" fn cotama_monitor(
         Some(Request::Up) => 2,
         None => 3,
     }
+}
+
+/// Assigns eight roles to eight robots; the least sum, or the largest number without one.
+#[unsafe(no_mangle)]
+pub extern "C" fn cotama_assign(costs: &[u32; 64], robots: &mut [u8; 8]) -> u64 {
+    let entries = costs.map(Cost::new);
+    let mut fixed = Fixed::<i32, 8, 8>::new();
+    let mut memory = fixed.memory();
+    let total = Costs::new(&entries, 8).and_then(|it| assign(&it, &mut memory).ok());
+    for (role, robot) in robots.iter_mut().enumerate() {
+        *robot = memory.column(role).unwrap_or(8) as u8;
+    }
+    total.unwrap_or(u64::MAX)
+}
+
+/// Assigns four tasks of two roles each to eight robots at once; the least cost, or the largest
+/// number where it is not known.
+#[unsafe(no_mangle)]
+pub extern "C" fn cotama_team(costs: &[[u32; 16]; 4], steps: u64, taken: &mut [u8; 4]) -> u64 {
+    let entries = costs.map(|it| it.map(Cost::new));
+    let mut solve = || {
+        let [a, b, c, d] = &entries;
+        let plan = |it| Some([TaskPlan { roles: Costs::new(it, 8)?, extra: 0 }]);
+        let plans = [plan(a)?, plan(b)?, plan(c)?, plan(d)?];
+        let tasks =
+            plans.each_ref().map(|it| Task { skip: None, combine: Combine::Sum, plans: it });
+        let team = Team::new(8, 1, &tasks).ok()?;
+        let (mut roles, mut ways, mut slots) = ([[0; 8]; 8], [Way::EMPTY; 4], [Slot::EMPTY; 4]);
+        let (mut columns, mut open) = ([Column::EMPTY; 256], [Open::EMPTY; 16]);
+        let mut levels = [Level::EMPTY; 9];
+        let mut joint = Joint::<8>::new(JointMemory {
+            roles: &mut roles,
+            ways: &mut ways,
+            slots: &mut slots,
+            columns: &mut columns,
+            open: &mut open,
+            levels: &mut levels,
+        });
+        let Outcome::Optimal { cost } = joint.solve(&team, steps).ok()?.outcome else {
+            return None;
+        };
+        for (task, taken) in taken.iter_mut().enumerate() {
+            *taken = joint.chosen(task).map_or(0, |it| it.1 as u8);
+        }
+        Some(cost)
+    };
+    solve().unwrap_or(u64::MAX)
 }
 
 /// Takes memory from the heap.

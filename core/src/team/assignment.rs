@@ -1,0 +1,346 @@
+//! Assignment: each row gets a column of its own, at the least sum of costs.
+//!
+//! R. Jonker and A. Volgenant, *A shortest augmenting path algorithm for dense and sparse linear
+//! assignment problems*, Computing 38, 1987: reductions find a first part of the assignment, and
+//! each row that is left joins along a shortest path of exchanges. Their reduction of rows may go
+//! on for as long as costs are large where edges are missing, so it may take a number of steps, and
+//! the paths do the rest; their reduction of columns comes first only where each column is needed.
+
+use super::amount::Amount;
+use super::cost::{Cost, Costs};
+use super::memory::Memory;
+use super::proof::conflict;
+use super::scan::{Nearest, Reach, next_equal, reach, two_nearest};
+use crate::allocation::{MemoryError, enough};
+
+/// Why there is no assignment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Unassigned {
+    /// Some rows have, all together, fewer columns than they are (P. Hall, *On representatives of
+    /// subsets*, 1935); [`Memory::in_conflict`] tells which, [`conflict`](super::conflict)
+    /// counts again.
+    Infeasible {
+        /// How many rows are in conflict.
+        rows: usize,
+        /// How many columns these rows could have.
+        columns: usize,
+    },
+    /// Costs or prices pass the width of the [`Amount`]: take [`i64`].
+    TooLarge,
+    /// There is too little memory.
+    Memory(MemoryError),
+}
+
+impl core::fmt::Display for Unassigned {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        match self {
+            Self::Infeasible { rows, columns } => {
+                write!(f, "{rows} rows could have {columns} columns only")
+            }
+            Self::TooLarge => f.write_str("costs or prices are too large for 32 bits"),
+            Self::Memory(error) => error.fmt(f),
+        }
+    }
+}
+
+impl core::error::Error for Unassigned {}
+
+impl From<MemoryError> for Unassigned {
+    fn from(error: MemoryError) -> Self {
+        Self::Memory(error)
+    }
+}
+
+/// Assigns each row a column at the least total, and returns that. `memory` holds the assignment
+/// and the prices that prove it; [`is_least`](super::is_least) is the proof. Columns may be left
+/// over. The same table gives the same assignment.
+///
+/// ```
+/// use cotama_core::team::{Cost, Costs, Fixed, Unassigned, assign, is_least};
+/// let entries = [Cost::new(9), None, Cost::new(2), Cost::new(8), Cost::new(7), Cost::new(2)];
+/// let table = Costs::new(&entries, 3).unwrap();
+/// let mut fixed = Fixed::<i32, 2, 3>::new();
+/// let mut memory = fixed.memory();
+/// assert_eq!(assign(&table, &mut memory), Ok(9));
+/// assert_eq!(is_least(&table, |row| memory.column(row), |column| memory.price(column)), Ok(9));
+///
+/// let cheap = table.at_most(Cost::new(5).unwrap()); // both need the last column
+/// assert_eq!(assign(&cheap, &mut memory), Err(Unassigned::Infeasible { rows: 2, columns: 1 }));
+/// ```
+///
+/// # Errors
+/// [`Unassigned`]: some rows are in conflict, the amounts are too narrow, or memory lacks.
+pub fn assign<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Result<u64, Unassigned> {
+    let mut work = Work::start(costs, memory)?;
+    work.memory.conflict.fill(0);
+    if costs.rows() > costs.columns() {
+        return Err(work.all_in_conflict());
+    }
+    work.assign()
+}
+
+/// An assignment under work.
+pub(super) struct Work<'w, N> {
+    pub(super) costs: &'w Costs<'w>,
+    pub(super) memory: Memory<'w, N>,
+}
+
+impl<'w, N: Amount> Work<'w, N> {
+    /// Empty, with memory for the table.
+    pub(super) fn start(
+        costs: &'w Costs<'w>,
+        memory: &'w mut Memory<'_, N>,
+    ) -> Result<Self, Unassigned> {
+        let (rows, columns) = memory.size();
+        enough("assignment", costs.rows(), rows)?;
+        enough("assignment", costs.columns(), columns)?;
+        let lacks = MemoryError { what: "assignment", needed: usize::MAX, given: columns };
+        let memory = memory.cleared(costs.rows(), costs.columns()).ok_or(lacks)?;
+        if N::room_for(costs.most()) {
+            Ok(Self { costs, memory })
+        } else {
+            Err(Unassigned::TooLarge)
+        }
+    }
+
+    /// Assigns each row a column at the least total.
+    pub(super) fn assign(&mut self) -> Result<u64, Unassigned> {
+        let costs = self.costs;
+        if costs.rows() == costs.columns() {
+            self.reduce_columns()?;
+        }
+        self.reduce_rows()?;
+        for row in 0..costs.rows() {
+            if self.memory.column(row).is_none() {
+                self.grow(row as u32)?;
+            }
+        }
+        self.lower_prices();
+        Ok(self.total())
+    }
+
+    /// The sum of the costs.
+    fn total(&self) -> u64 {
+        let cost = |row| self.memory.column(row).and_then(|it| self.costs.cost(row, it));
+        let costs = (0..self.costs.rows()).map(|row| u64::from(cost(row).map_or(0, Cost::get)));
+        costs.fold(0, u64::saturating_add)
+    }
+
+    /// A row gets a column that nobody has any more.
+    fn give(&mut self, row: u32, column: usize) {
+        if let Some(it) = self.memory.row_of.get_mut(column) {
+            *it = row.wrapping_add(1);
+        }
+        if let Some(it) = self.memory.column_of.get_mut(row as usize) {
+            *it = (column as u32).wrapping_add(1);
+        }
+    }
+
+    /// Changes the price of a column.
+    fn reprice(&mut self, column: usize, by: impl FnOnce(N) -> N) -> Result<(), Unassigned> {
+        let Some(price) = self.memory.prices.get_mut(column) else { return Ok(()) };
+        *price = by(*price);
+        if *price > N::ZERO.minus(N::ROOM) { Ok(()) } else { Err(Unassigned::TooLarge) }
+    }
+
+    /// The nearest two columns of a row at the current prices.
+    fn two_nearest(&self, row: usize) -> Nearest<N> {
+        two_nearest(self.costs.entries(row), self.costs.least(), self.memory.prices)
+    }
+
+    /// The reduction of columns: each costs what it costs its cheapest row, and that row has it
+    /// unless it has another. Only where each column is needed, as these prices are above 0. Then
+    /// each of these rows lowers the price of its column by what the second one is worse.
+    fn reduce_columns(&mut self) -> Result<(), Unassigned> {
+        let Memory { prices, before, done, .. } = &mut self.memory;
+        prices.fill(N::FAR);
+        for row in 0..self.costs.rows() {
+            let entries = self.costs.entries(row).iter();
+            for (entry, (price, cheapest)) in entries.zip(prices.iter_mut().zip(before.iter_mut()))
+            {
+                let cost = N::twice(*entry, self.costs.least()).unwrap_or(N::FAR);
+                let less = cost < *price;
+                *cheapest = if less { row as u32 } else { *cheapest };
+                *price = if less { cost } else { *price };
+            }
+        }
+        done.fill(0); // of how many columns a row is the cheapest
+        for column in (0..self.costs.columns()).rev() {
+            let row = self.memory.before.get(column).copied().unwrap_or(0);
+            let missing = self.memory.prices.get(column).is_none_or(|it| *it == N::FAR);
+            if missing {
+                self.reprice(column, |_| N::ZERO)?;
+                continue;
+            }
+            if let Some(it) = self.memory.done.get_mut(row as usize) {
+                *it = it.wrapping_add(1);
+            }
+            if self.memory.column(row as usize).is_none() {
+                self.give(row, column);
+                self.reprice(column, |it| it.minus(N::HALF))?;
+            }
+        }
+        for row in 0..self.costs.rows() {
+            let Some(column) = self.memory.column(row) else { continue };
+            if self.memory.done.get(row) != Some(&1) {
+                continue;
+            }
+            let nearest = self.two_nearest(row);
+            let other = if nearest.column == column { nearest.second } else { nearest.away };
+            if other != N::FAR {
+                self.reprice(column, |it| it.minus(other.whole()))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The reduction of rows, twice: a row takes the column that is nearest, and lowers its price
+    /// by as much as the second one is further, which may push another row out. Where a row has one
+    /// column only nothing tells what that is worth, and the rest is left to the paths.
+    fn reduce_rows(&mut self) -> Result<(), Unassigned> {
+        let mut steps = self.costs.rows().saturating_mul(4);
+        let most_level = (self.costs.rows() / 10).saturating_add(4);
+        for _ in 0..2 {
+            for row in 0..self.costs.rows() {
+                let mut open = row;
+                let (mut level, mut lost) = (most_level, row);
+                while self.memory.column(open).is_none() {
+                    let Some(left) = steps.checked_sub(1) else { return Ok(()) };
+                    steps = left;
+                    let Nearest { away, mut column, second } = self.two_nearest(open);
+                    if away == N::FAR {
+                        return Err(self.conflict(open, 0));
+                    }
+                    let free = away == away.whole();
+                    let gain = match second {
+                        it if it == N::FAR => N::ZERO,
+                        it => it.whole().minus(away.whole()),
+                    };
+                    if !free && gain == N::ZERO {
+                        // To push somebody out without gain may go on for ever.
+                        let Some(left) = level.checked_sub(1) else { break };
+                        level = left;
+                        let (entries, least) = (self.costs.entries(open), self.costs.least());
+                        column = next_equal(entries, least, self.memory.prices, away, lost);
+                    }
+                    lost = column;
+                    let pushed = self.memory.row(column);
+                    let taken = if free { N::HALF } else { N::ZERO };
+                    self.reprice(column, |it| it.minus(gain).minus(taken))?;
+                    self.give(open as u32, column);
+                    let Some(pushed) = pushed else { break };
+                    if let Some(it) = self.memory.column_of.get_mut(pushed) {
+                        *it = 0;
+                    }
+                    open = pushed;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// A shortest path of exchanges from a row without a column to a column without a row.
+    fn grow(&mut self, from: u32) -> Result<(), Unassigned> {
+        self.memory.distances.fill(N::FAR);
+        // The row that is looked at, and what it costs to come to it.
+        let (mut row, mut base, mut met) = (from, N::ZERO, 0_usize);
+        let (end, length) = loop {
+            let by = Reach {
+                row: self.costs.entries(row as usize),
+                least: self.costs.least(),
+                prices: self.memory.prices,
+                base,
+                from: row,
+            };
+            let nearest = reach(&by, self.memory.distances, self.memory.before);
+            let (column, away) = (nearest.column, nearest.away);
+            if away == N::FAR {
+                return Err(self.conflict(from as usize, met));
+            }
+            let Some(next) = self.memory.row(column) else { break (column, away) };
+            self.settle(column, met, away);
+            // The next row gives this column back, and what it pays for it.
+            let own = N::twice(self.entry(next, column), 1).unwrap_or(N::ZERO);
+            let price = self.memory.prices.get(column).copied().unwrap_or(N::ZERO);
+            base = away.minus(own.minus(price));
+            if base >= N::ROOM.plus(N::ROOM) {
+                return Err(Unassigned::TooLarge);
+            }
+            (row, met) = (next as u32, met.wrapping_add(1));
+        };
+        let mut lowest = N::ZERO;
+        let ends = self.memory.done.iter().zip(self.memory.lengths.iter());
+        for (column, at) in ends.take(met) {
+            if let Some(price) = self.memory.prices.get_mut(*column as usize) {
+                *price = price.plus(at.whole()).minus(length);
+                lowest = lowest.min(*price);
+            }
+        }
+        if lowest <= N::ZERO.minus(N::ROOM) {
+            return Err(Unassigned::TooLarge);
+        }
+        self.reprice(end, |it| it.minus(N::HALF))?;
+        self.exchange(from, end, met);
+        Ok(())
+    }
+
+    /// The shortest path to a column that somebody has is known.
+    pub(super) fn settle(&mut self, column: usize, number: usize, length: N) {
+        if let Some(it) = self.memory.done.get_mut(number) {
+            *it = column as u32;
+        }
+        if let Some(it) = self.memory.lengths.get_mut(number) {
+            *it = length;
+        }
+        if let Some(it) = self.memory.distances.get_mut(column) {
+            *it = N::DONE;
+        }
+    }
+
+    /// An entry of the table.
+    pub(super) fn entry(&self, row: usize, column: usize) -> Option<Cost> {
+        self.costs.entries(row).get(column).copied().flatten()
+    }
+
+    /// There are more rows than columns.
+    pub(super) fn all_in_conflict(&mut self) -> Unassigned {
+        self.memory.conflict.fill(1);
+        let (rows, columns) = conflict(self.costs, |_| true);
+        Unassigned::Infeasible { rows, columns }
+    }
+
+    /// Along a path over so many columns that somebody has, each row takes the next column.
+    pub(super) fn exchange(&mut self, from: u32, end: usize, over: usize) {
+        let mut column = end;
+        for _ in 0..=over {
+            let Some(row) = self.memory.before.get(column).copied() else { return };
+            let next = self.memory.column(row as usize);
+            self.give(row, column);
+            let Some(next) = next.filter(|_| row != from) else { return };
+            column = next;
+        }
+    }
+
+    /// The rows that have the first `met` columns done, and the one that finds no other, are in
+    /// conflict.
+    pub(super) fn conflict(&mut self, from: usize, met: usize) -> Unassigned {
+        let Memory { row_of, conflict, done, .. } = &mut self.memory;
+        conflict.fill(0);
+        let rows = done.iter().take(met).filter_map(|it| row_of.get(*it as usize));
+        for row in rows.filter_map(|it| it.checked_sub(1)).chain([from as u32]) {
+            if let Some(it) = conflict.get_mut(row as usize) {
+                *it = 1;
+            }
+        }
+        Unassigned::Infeasible { rows: met.saturating_add(1), columns: met }
+    }
+
+    /// Prices of columns that are all needed may be above 0: all fall alike until none is.
+    fn lower_prices(&mut self) {
+        let half = |it: &N| it.plus(N::HALF).whole();
+        let most = self.memory.prices.iter().map(half).fold(N::ZERO, N::max);
+        if most > N::ZERO {
+            self.memory.prices.iter_mut().for_each(|it| *it = it.minus(most));
+        }
+    }
+}

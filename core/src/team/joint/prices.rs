@@ -1,0 +1,106 @@
+//! Prices of robots that raise the bound: the volume algorithm (F. Barahona and R. Anbil, *The
+//! volume algorithm*, Mathematical Programming 87, 2000) in integers.
+//!
+//! A robot that several tasks want becomes dearer, one that no task wants becomes cheaper. The
+//! direction is a mean over the demands so far, and starts at the best prices; any prices that are
+//! not negative give a valid bound, so rounding costs tightness only, never truth.
+
+use super::{Budget, LIMIT};
+
+/// What a bound is evaluated with.
+pub(super) trait Dual<const N: usize> {
+    /// The bound at these prices, and how many tasks want each robot; [`LIMIT`] or more where some
+    /// task cannot be done at all. None where the budget ends.
+    fn evaluate(
+        &mut self,
+        prices: &[i64; N],
+        wanted: &mut [i64; N],
+        budget: &mut Budget,
+    ) -> Option<i64>;
+}
+
+/// When to end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Until {
+    /// A bound that would be enough.
+    pub(super) enough: i64,
+    /// So many evaluations at most.
+    pub(super) evaluations: u32,
+    /// The cost of the best solution.
+    pub(super) target: i64,
+    /// How many robots there are.
+    pub(super) robots: usize,
+    /// The bound may be this far from the best one, or a small part of itself.
+    pub(super) gap: i64,
+}
+
+/// Of the direction, this is one.
+const ONE: i64 = 256;
+/// No price passes this.
+const DEAREST: i64 = 1 << 50;
+
+/// Raises the bound from these prices on, which are replaced by the best ones; returns the best
+/// bound, none where the budget allows not even one evaluation.
+pub(super) fn ascend<const N: usize>(
+    dual: &mut impl Dual<N>,
+    prices: &mut [i64; N],
+    until: Until,
+    budget: &mut Budget,
+) -> Option<i64> {
+    let mut wanted = [0; N];
+    let mut best = dual.evaluate(prices, &mut wanted, budget)?;
+    let mut mean = wanted.map(|it| (it - 1) * ONE);
+    let (mut pace, mut failures, mut stale) = (ONE, 0, 0);
+    for _ in 1..until.evaluations {
+        if best >= until.enough || best >= LIMIT || pace < 6 || stale > 40 {
+            break;
+        }
+        let counts = |price: i64, it: i64| if price == 0 && it < 0 { 0 } else { it };
+        let norm = prices.iter().zip(mean).take(until.robots).map(|(price, it)| counts(*price, it));
+        let norm = norm.fold(0_i128, |sum, it| sum + i128::from(it) * i128::from(it));
+        if norm == 0 {
+            break;
+        }
+        let least = best.abs() / 512 + 16;
+        let most = least.max(best.abs() / 32).max(until.gap);
+        let gap = (until.target - best).clamp(least, most);
+        let gap = i128::from(gap);
+        // In 2^-16 of a price for each of the direction's 2^-8.
+        let stride = ((i128::from(pace) * gap) << 16) / norm;
+        let mut next = *prices;
+        for (price, it) in next.iter_mut().zip(mean).take(until.robots) {
+            let change = (stride * i128::from(it)) >> 16;
+            let change = change.clamp(-i128::from(DEAREST), i128::from(DEAREST)) as i64;
+            *price = (*price + change).clamp(0, DEAREST);
+        }
+        let Some(bound) = dual.evaluate(&next, &mut wanted, budget) else { break };
+        let slope = wanted.map(|it| (it - 1) * ONE);
+        let along: i64 =
+            slope.iter().zip(mean).take(until.robots).map(|(a, b)| (a >> 4) * (b >> 4)).sum();
+        // The mean that is shortest, within limits (4.2 there).
+        let (mut over, mut under) = (0_i64, 1_i64);
+        for (own, new) in mean.iter().zip(slope).take(until.robots) {
+            over += (own >> 2) * ((own - new) >> 2);
+            under += ((own - new) >> 2) * ((own - new) >> 2);
+        }
+        let share = (over.saturating_mul(ONE) / under).clamp(ONE / 32, ONE / 8);
+        for (own, new) in mean.iter_mut().zip(slope).take(until.robots) {
+            *own += ((new - *own) * share) / ONE;
+        }
+        if bound > best {
+            // A gain that matters.
+            stale = if bound - best > (best.abs() >> 14) + 4 { 0 } else { stale + 1 };
+            (*prices, best, failures) = (next, bound, 0);
+            if along > 0 {
+                pace = (pace + pace / 8).min(2 * ONE);
+            }
+        } else {
+            stale += 1;
+            failures += 1;
+            if failures >= 3 {
+                (pace, failures) = (pace * 2 / 3, 0);
+            }
+        }
+    }
+    Some(best)
+}

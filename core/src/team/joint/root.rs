@@ -1,0 +1,68 @@
+//! The bound over all coalitions, of which none is listed.
+
+use super::first::First;
+use super::oracle::Oracle;
+use super::prices::Dual;
+use super::{Budget, FAR, LIMIT, Slot, Way, at, bits, put};
+
+/// The bound over all coalitions.
+pub(super) struct Root<'r, const N: usize> {
+    pub(super) ways: &'r [Way],
+    pub(super) rows: &'r [[i64; N]],
+    pub(super) keep: i64,
+    pub(super) slots: &'r mut [Slot],
+    pub(super) oracle: &'r mut Oracle<N>,
+    pub(super) robots: usize,
+    /// The cost of the best solution so far.
+    pub(super) best: &'r mut i64,
+    pub(super) calls: u32,
+}
+
+impl<const N: usize> Dual<N> for Root<'_, N> {
+    fn evaluate(
+        &mut self,
+        prices: &[i64; N],
+        wanted: &mut [i64; N],
+        budget: &mut Budget,
+    ) -> Option<i64> {
+        budget.take(self.rows.len() as u64 + 1)?;
+        self.slots.iter_mut().for_each(|it| (it.least, it.common) = (it.skip, 0));
+        for way in self.ways {
+            let rows = way.rows(self.rows);
+            let Some(slot) = self.slots.get_mut(usize::from(way.task)).filter(|it| !it.idle) else {
+                continue;
+            };
+            if let Some((value, set)) = self.oracle.cheapest(way, rows, self.keep, prices)
+                && value < slot.least
+            {
+                (slot.least, slot.common) = (value, set);
+            }
+        }
+        *wanted = [0; N];
+        let mut bound = 0_i64;
+        for slot in self.slots.iter() {
+            if slot.least >= LIMIT {
+                return Some(FAR);
+            }
+            bound += slot.least;
+            for robot in bits(slot.common) {
+                let count = at(&*wanted, robot) + 1;
+                put(wanted, robot, count);
+            }
+        }
+        wanted.iter_mut().skip(self.robots).for_each(|it| *it = 1);
+        let bound = bound - prices.iter().take(self.robots).sum::<i64>();
+        if self.calls.is_multiple_of(8) {
+            let Self { ways, rows, keep, .. } = *self;
+            let mut first = First { ways, rows, keep, slots: self.slots, oracle: self.oracle };
+            if let Some(cost) = first.draft(prices, budget)
+                && cost < *self.best
+            {
+                first.accept();
+                *self.best = cost;
+            }
+        }
+        self.calls += 1;
+        Some(bound)
+    }
+}

@@ -1,0 +1,419 @@
+//! From a team to an answer: the bound, first solutions, and ever larger losses.
+
+use super::answer::{JointMemory, Outcome, Solved};
+use super::columns::Listing;
+use super::first::First;
+use super::oracle::{Oracle, restricted};
+use super::prices::{Dual, Until, ascend};
+use super::root::Root;
+use super::search::Search;
+use super::{Budget, FAR, LIMIT, NO_PLAN, at};
+use crate::allocation::MemoryError;
+use crate::team::{RobotSet, Team};
+
+/// Assigns all tasks of a team at once.
+///
+/// ```
+/// use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Outcome, Slot, Way};
+/// use cotama_core::team::{Combine, Cost, Costs, Plan, Task, Team};
+///
+/// // The first robot is best for both tasks, and the only one that can weld.
+/// let (lift, weld) = ([Cost::new(1), Cost::new(2)], [Cost::new(5), None]);
+/// let plan = |costs| [Plan { roles: Costs::new(costs, 2).unwrap(), extra: 0 }];
+/// let plans = [plan(&lift), plan(&weld)];
+/// let task = |plans| Task { skip: None, combine: Combine::Sum, plans };
+/// let tasks = [task(&plans[0]), task(&plans[1])];
+/// let team = Team::new(2, 1, &tasks).unwrap();
+///
+/// let (mut roles, mut ways, mut slots) = ([[0; 2]; 2], [Way::EMPTY; 2], [Slot::EMPTY; 2]);
+/// let (mut columns, mut levels) = ([Column::EMPTY; 64], [Level::EMPTY; 3]);
+/// let mut open = [Open::EMPTY; 4];
+/// let mut joint = Joint::<2>::new(JointMemory {
+///     roles: &mut roles,
+///     ways: &mut ways,
+///     slots: &mut slots,
+///     columns: &mut columns,
+///     open: &mut open,
+///     levels: &mut levels,
+/// });
+/// assert_eq!(joint.solve(&team, 10_000).unwrap().outcome, Outcome::Optimal { cost: 7 });
+/// assert_eq!((joint.chosen(0), joint.chosen(1)), (Some((0, 0b10)), Some((0, 0b01))));
+/// assert!(joint.robots(1).eq([0]));
+/// ```
+#[derive(Debug)]
+pub struct Joint<'m, const N: usize> {
+    pub(super) memory: JointMemory<'m, N>,
+    pub(super) oracle: Oracle<N>,
+    /// How many tasks, plans and roles there are.
+    pub(super) tasks: usize,
+    pub(super) plans: usize,
+    pub(super) roles: usize,
+    pub(super) robots: usize,
+    /// All costs are computed with times two to this.
+    pub(super) shift: u32,
+    /// All costs differ by multiples of this.
+    pub(super) step: i64,
+    /// What counts of a cost: all of it, or only whether it is missing.
+    pub(super) keep: i64,
+    /// The best solution costs this; as much as `ceiling`, that none costs, if none is known.
+    pub(super) best: i64,
+    pub(super) ceiling: i64,
+    /// See [`Until::gap`].
+    pub(super) gap: i64,
+    pub(super) nodes: u64,
+    /// Robots that tasks in conflict compete for.
+    pub(super) contested: RobotSet,
+}
+
+/// Without costs, a task that is left undone costs this.
+const UNSERVED: i64 = 1 << 20;
+
+impl<'m, const N: usize> Joint<'m, N> {
+    /// With this memory.
+    pub const fn new(memory: JointMemory<'m, N>) -> Self {
+        Self {
+            memory,
+            oracle: Oracle::EMPTY,
+            tasks: 0,
+            plans: 0,
+            roles: 0,
+            robots: 0,
+            shift: 0,
+            step: 1,
+            keep: !0,
+            best: 0,
+            ceiling: 0,
+            gap: 0,
+            nodes: 0,
+            contested: 0,
+        }
+    }
+
+    /// Assigns the tasks within so many steps.
+    ///
+    /// # Errors
+    /// [`MemoryError`] where memory does not suffice for the team.
+    pub fn solve(&mut self, team: &Team<'_>, steps: u64) -> Result<Solved, MemoryError> {
+        self.load(team)?;
+        let mut budget = Budget { left: steps };
+        let outcome = self.run(&mut budget);
+        Ok(Solved { outcome, steps: steps - budget.left, nodes: self.nodes })
+    }
+
+    /// The plan of a task in the last answer, and its robots; none where it is left undone.
+    pub fn chosen(&self, task: usize) -> Option<(usize, RobotSet)> {
+        let slot = self.memory.slots.get(..self.tasks)?.get(task)?;
+        (slot.plan != NO_PLAN).then_some((usize::from(slot.plan), slot.chosen))
+    }
+
+    /// The robot of each role of a task in the last answer, in the order of the roles.
+    pub fn robots(&mut self, task: usize) -> impl Iterator<Item = usize> {
+        let chosen = self.chosen(task);
+        let roles = chosen.and_then(|(plan, set)| {
+            let mut ways = self.memory.ways.iter().take(self.plans);
+            let way =
+                ways.find(|it| usize::from(it.task) == task && usize::from(it.plan) == plan)?;
+            let rows = way.rows(self.memory.roles);
+            self.oracle.cheapest(way, rows, !0, &restricted(&[0; N], !set, 0))?;
+            Some(rows.len())
+        });
+        (0..roles.unwrap_or(0)).filter_map(|role| self.oracle.robot(role))
+    }
+
+    /// Whether a task is one of those that cannot be staffed together.
+    pub fn in_conflict(&self, task: usize) -> bool {
+        self.memory
+            .slots
+            .get(..self.tasks)
+            .and_then(|it| it.get(task))
+            .is_some_and(|it| it.conflict)
+    }
+
+    fn run(&mut self, budget: &mut Budget) -> Outcome {
+        let mut prices = [0; N];
+        let Some(mut bound) = self.bound(&mut prices, 24, budget) else {
+            return self.unknown(0);
+        };
+        if self.infeasible(false, budget) {
+            return Outcome::Infeasible { robots: self.contested };
+        }
+        if bound >= LIMIT {
+            return self.unknown(0);
+        }
+        if let Some(it) = self.bound(&mut prices, 240, budget) {
+            bound = bound.max(it);
+        }
+        if bound < self.ceiling && self.infeasible(true, budget) {
+            return Outcome::Infeasible { robots: self.contested };
+        }
+        // What tasks pay at these prices is needed again.
+        if self.bound(&mut prices, 1, budget).is_none() {
+            return self.unknown(bound);
+        }
+        self.exchange(budget);
+        // `bound` is proven, `value` is what the prices prove; a loss is above that.
+        let mut value = bound;
+        let mut most = 128_usize.saturating_mul(self.tasks);
+        let gap = self.best.saturating_sub(bound);
+        let mut rise = (bound >> 6).max(gap >> 5).max(self.step);
+        let mut last = 0;
+        loop {
+            let rest = self.best.saturating_sub(self.step);
+            if rest < bound {
+                return self.proven();
+            }
+            let limit = bound.saturating_add(rise).min(rest);
+            let Some(count) = self.list(&prices, limit.saturating_sub(value), most, budget) else {
+                if rise > (bound >> 9).max(self.step) {
+                    rise /= 2;
+                } else if most < self.memory.columns.len() / 2 && budget.left > 0 {
+                    most = most.saturating_mul(4);
+                } else {
+                    return self.unknown(bound);
+                }
+                continue;
+            };
+            let before = self.nodes;
+            let mut other = prices;
+            let (found, open) = self.search(count, limit, &mut other, budget);
+            if open <= limit && open < self.best {
+                return self.unknown(open.max(bound));
+            }
+            if found {
+                return self.proven();
+            }
+            bound = limit.saturating_add(1);
+            rise = match self.nodes - before {
+                _ if count == last => rise.saturating_mul(8), // all there is, it seems
+                ..=2 => rise.saturating_mul(2),
+                _ => rise.saturating_add(rise / 4),
+            };
+            last = count;
+            most = most.saturating_mul(2);
+            // Prices that were good for the list may be so for all coalitions.
+            if let Some(it) = self.bound(&mut other, 20, budget)
+                && it > value
+            {
+                (prices, value) = (other, it);
+            } else if self.bound(&mut prices, 1, budget).is_none() {
+                return self.unknown(bound);
+            }
+            bound = bound.max(value);
+        }
+    }
+
+    /// Raises the bound over all coalitions from these prices on.
+    fn bound(&mut self, prices: &mut [i64; N], count: u32, budget: &mut Budget) -> Option<i64> {
+        let memory = &mut self.memory;
+        let mut best = self.best;
+        let mut root = Root {
+            ways: memory.ways.get(..self.plans).unwrap_or(&[]),
+            rows: memory.roles.get(..self.roles).unwrap_or(&[]),
+            keep: self.keep,
+            slots: memory.slots.get_mut(..self.tasks).unwrap_or(&mut []),
+            oracle: &mut self.oracle,
+            robots: self.robots,
+            best: &mut best,
+            calls: 0,
+        };
+        let enough = self.best.saturating_sub(self.step - 1);
+        let until = Until {
+            enough,
+            evaluations: count,
+            target: self.best,
+            robots: self.robots,
+            gap: self.gap,
+        };
+        let bound = ascend(&mut root, prices, until, budget);
+        // What tasks pay at the best prices.
+        let again = root.evaluate(prices, &mut [0; N], budget);
+        self.best = best;
+        again.and(bound)
+    }
+
+    /// Exchanges robots between pairs of tasks of the best solution.
+    fn exchange(&mut self, budget: &mut Budget) {
+        if self.best == self.ceiling {
+            return;
+        }
+        let best = self.best;
+        let mut first = self.first();
+        if let Some(cost) = first.improve(budget)
+            && cost < best
+        {
+            first.accept();
+            self.best = cost;
+        }
+    }
+
+    /// Lists all coalitions within a loss.
+    fn list(
+        &mut self,
+        prices: &[i64; N],
+        loss: i64,
+        most: usize,
+        budget: &mut Budget,
+    ) -> Option<usize> {
+        let memory = &mut self.memory;
+        let mut listing = Listing {
+            ways: memory.ways.get(..self.plans).unwrap_or(&[]),
+            rows: memory.roles.get(..self.roles).unwrap_or(&[]),
+            keep: self.keep,
+            slots: memory.slots.get(..self.tasks).unwrap_or(&[]),
+            prices,
+            open: memory.open,
+        };
+        // Half of the memory is for the search.
+        let most = most.min(memory.columns.len() / 2);
+        let columns = memory.columns.get_mut(..most).unwrap_or(&mut []);
+        listing.list(&mut self.oracle, loss, columns, budget)
+    }
+
+    /// Searches for a solution of at most `limit`; whether one was found, and what no solution that
+    /// was not looked at undercuts.
+    fn search(
+        &mut self,
+        count: usize,
+        limit: i64,
+        prices: &mut [i64; N],
+        budget: &mut Budget,
+    ) -> (bool, i64) {
+        let memory = &mut self.memory;
+        let mut search = Search {
+            columns: memory.columns,
+            slots: memory.slots.get_mut(..self.tasks).unwrap_or(&mut []),
+            levels: memory.levels,
+            robots: self.robots,
+            gap: self.gap,
+            best: self.best.min(limit.saturating_add(self.step)),
+            step: self.step,
+            found: false,
+            nodes: 0,
+            prices: *prices,
+        };
+        let open = search.run(count, prices, budget);
+        let (found, best) = (search.found, search.best);
+        self.nodes += search.nodes;
+        *prices = search.prices;
+        if found {
+            self.best = best;
+        }
+        (found, open)
+    }
+
+    /// Whether the tasks that must be done cannot be staffed together: the same problem without
+    /// costs, where each of them that is left undone costs something; by the bound, or by a search
+    /// too. A solution that serves all is kept. Takes an eighth of the budget at most.
+    fn infeasible(&mut self, search: bool, budget: &mut Budget) -> bool {
+        let must = self.memory.slots.iter().take(self.tasks).any(|it| it.must);
+        if self.best < self.ceiling || !must {
+            return false;
+        }
+        let mut part = Budget { left: budget.left / 8 };
+        budget.left -= part.left;
+        for slot in self.memory.slots.iter_mut().take(self.tasks) {
+            slot.skip = if slot.must { UNSERVED } else { 0 };
+            slot.idle = !slot.must;
+        }
+        let step = core::mem::replace(&mut self.step, UNSERVED);
+        (self.keep, self.best) = (FAR, UNSERVED);
+        let mut prices = [0; N];
+        let proven = self.unserved(&mut prices, search, &mut part);
+        budget.left += part.left;
+        let served = self.best < UNSERVED;
+        (self.keep, self.step, self.best) = (!0, step, self.ceiling);
+        self.gap = 0;
+        for slot in self.memory.slots.iter_mut().take(self.tasks) {
+            (slot.skip, slot.idle) = (slot.undone, false);
+        }
+        if served {
+            self.best = self.first().recall();
+        }
+        proven
+    }
+
+    /// Whether some task that must be done is left undone in each solution, with those tasks
+    /// marked.
+    fn unserved(&mut self, prices: &mut [i64; N], search: bool, budget: &mut Budget) -> bool {
+        let mut bound = 0;
+        // Long strides at first.
+        for gap in [UNSERVED, UNSERVED / 8, UNSERVED / 64] {
+            self.gap = gap;
+            let Some(it) = self.bound(prices, 100, budget) else { return false };
+            bound = it;
+            if bound > 0 || self.best < UNSERVED {
+                break;
+            }
+        }
+        self.gap = UNSERVED;
+        let ray = bound > 0;
+        if !ray {
+            if self.best < UNSERVED || !search {
+                return false;
+            }
+            let limit = UNSERVED - 1;
+            let count = self.list(prices, limit - bound, usize::MAX, budget);
+            let Some(count) = count else { return false };
+            let (found, open) = self.search(count, limit, &mut { *prices }, budget);
+            if found || open < UNSERVED {
+                return false;
+            }
+        }
+        self.name_conflict(ray.then_some(&*prices));
+        true
+    }
+
+    /// Marks the tasks in conflict: those that pay, at prices that prove it, or all that must be
+    /// done.
+    fn name_conflict(&mut self, ray: Option<&[i64; N]>) {
+        for slot in self.memory.slots.iter_mut().take(self.tasks) {
+            slot.conflict = slot.must && (ray.is_none() || slot.least > 0);
+        }
+        // What the tasks of the ray pay is more than the prices of all robots together.
+        let bit = |it: usize| 1_u128.wrapping_shl(it as u32);
+        let priced = |it: &usize| ray.is_some_and(|prices| at(prices, *it) > 0);
+        self.contested = (0..self.robots).filter(priced).fold(0, |set, it| set | bit(it));
+        if self.contested == 0 {
+            let slots = self.memory.slots.get(..self.tasks).unwrap_or(&[]);
+            let ways = self.memory.ways.iter().take(self.plans);
+            let ways =
+                ways.filter(|it| slots.get(usize::from(it.task)).is_some_and(|it| it.conflict));
+            for row in ways.flat_map(|it| it.rows(self.memory.roles)) {
+                let capable = (0..self.robots).filter(|it| at(row, *it) < LIMIT);
+                self.contested |= capable.fold(0, |set, it| set | bit(it));
+            }
+        }
+    }
+
+    /// What solutions are made from.
+    fn first(&mut self) -> First<'_, N> {
+        let memory = &mut self.memory;
+        First {
+            ways: memory.ways.get(..self.plans).unwrap_or(&[]),
+            rows: memory.roles.get(..self.roles).unwrap_or(&[]),
+            keep: self.keep,
+            slots: memory.slots.get_mut(..self.tasks).unwrap_or(&mut []),
+            oracle: &mut self.oracle,
+        }
+    }
+
+    /// No solution is better than the best.
+    fn proven(&mut self) -> Outcome {
+        if self.best < self.ceiling {
+            return Outcome::Optimal { cost: self.parts(self.best) };
+        }
+        self.name_conflict(None);
+        Outcome::Infeasible { robots: self.contested }
+    }
+
+    fn parts(&self, cost: i64) -> u64 {
+        (cost >> self.shift).max(0).cast_unsigned()
+    }
+
+    fn unknown(&self, bound: i64) -> Outcome {
+        // Costs are multiples of a step: the bound rises to the next.
+        let up = (bound.max(0) + self.step - 1) / self.step * self.step;
+        let cost = (self.best < self.ceiling).then(|| self.parts(self.best));
+        Outcome::Unknown { cost, bound: self.parts(up) }
+    }
+}

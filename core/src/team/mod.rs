@@ -1,0 +1,32 @@
+//! Who does what in a team of robots (F. Rohrmüller, *Cooperative Action Selection*, dissertation,
+//! TU München 2011, ch. 3), at the least cost, with what proves it.
+//!
+//! - [`assign`]: rows to columns at the least sum, as roles to robots; who cannot has no cost,
+//!   which is a type; [`is_least`] proves an answer by its prices, [`conflict`] that there is none
+//! - [`bottleneck`]: the largest cost as small as can be, then the least sum
+//! - [`coalition`]: one task with several plans of several roles
+//! - [`joint`]: all tasks at once, within a step budget, with a true bound
+//! - [`thesis`]: what the thesis does, for comparison
+
+mod amount;
+mod assignment;
+mod bottleneck;
+mod coalition;
+mod cost;
+pub mod joint;
+mod memory;
+mod problem;
+mod proof;
+mod scan;
+mod task;
+pub mod thesis;
+
+pub use amount::Amount;
+pub use assignment::{Unassigned, assign};
+pub use bottleneck::{Bottleneck, bottleneck};
+pub use coalition::{Coalition, coalition};
+pub use cost::{Cost, Costs};
+pub use memory::{Fixed, Memory};
+pub use problem::{RobotSet, Team, TeamError};
+pub use proof::{Flaw, conflict, is_least};
+pub use task::{Combine, Plan, Task};

@@ -1,0 +1,136 @@
+//! All tasks at once, against all sets of robots.
+
+use crate::draw::Draw;
+use crate::teams::{Kind, Room, again, least_of_all, team};
+use cotama_core::team::Team;
+use cotama_core::team::joint::Outcome;
+
+/// A small team, of one kind after another.
+fn small(draw: &mut Draw) -> Kind {
+    Kind {
+        robots: draw.between(1, 8) as usize,
+        tasks: draw.between(0, 5) as usize,
+        roles: draw.between(2, 3),
+        plans: draw.between(1, 3),
+        most: [3, 20, 1_000_000][draw.between(0, 2) as usize],
+        missing: draw.between(0, 70),
+        must: [0, 50, 100][draw.between(0, 2) as usize],
+        skip: [5, 30, 1_000_000][draw.between(0, 2) as usize],
+        largest: draw.between(0, 4) == 0,
+    }
+}
+
+/// So many random teams have the answer of all sets.
+fn agree(seed: u64, count: usize) {
+    let (mut draw, mut feasible, mut conflicts) = (Draw::new(seed), 0, 0);
+    for _ in 0..count {
+        let kind = small(&mut draw);
+        let owned = team(&mut draw, kind);
+        owned.with(|team| {
+            let mut room = Room::<8>::new(team, 4_096);
+            let mut joint = room.joint();
+            let solved = joint.solve(team, 10_000_000).unwrap();
+            match least_of_all(team) {
+                Some(cost) => {
+                    assert_eq!(solved.outcome, Outcome::Optimal { cost });
+                    assert_eq!(again(team, &mut joint), cost);
+                    feasible += 1;
+                }
+                None => {
+                    let Outcome::Infeasible { robots } = solved.outcome else {
+                        panic!("{:?}", solved.outcome)
+                    };
+                    // Those tasks alone cannot be done either, nor by those robots among others.
+                    let tasks = team.tasks().iter().enumerate();
+                    let tasks = tasks.filter(|it| joint.in_conflict(it.0)).map(|it| *it.1);
+                    let tasks: Vec<_> = tasks.collect();
+                    assert!(tasks.iter().all(|it| it.skip.is_none()));
+                    assert!(robots < 1 << team.robots());
+                    let alone = Team::new(team.robots(), team.denominator(), &tasks).unwrap();
+                    assert_eq!(least_of_all(&alone), None);
+                    conflicts += 1;
+                }
+            }
+        });
+    }
+    assert!(feasible > count / 3 && conflicts > count / 20, "{feasible} {conflicts}");
+}
+
+#[test]
+fn all_tasks_at_once_cost_the_least_of_all_sets() {
+    agree(2_011, 2_000);
+}
+
+#[test]
+#[ignore = "five seconds; `all_tasks_at_once_cost_the_least_of_all_sets` has a tenth"]
+fn twenty_thousand_teams_cost_the_least_of_all_sets() {
+    agree(3_221, 20_000);
+}
+
+#[test]
+fn whatever_the_budget_and_the_memory_the_bound_is_true() {
+    let (mut draw, mut unknown) = (Draw::new(60), 0);
+    for number in 0..300 {
+        let kind = Kind { robots: 8, tasks: 6, must: 30, ..small(&mut draw) };
+        let owned = team(&mut draw, kind);
+        owned.with(|team| {
+            let least = least_of_all(team);
+            for (steps, columns) in [(0, 0), (200, 64), (1_000, 64), (5_000, 16), (100_000, 8)] {
+                let mut room = Room::<8>::new(team, columns);
+                let mut joint = room.joint();
+                let solved = joint.solve(team, steps).unwrap();
+                assert!(solved.steps <= steps);
+                match solved.outcome {
+                    Outcome::Optimal { cost } => assert_eq!(Some(cost), least),
+                    Outcome::Infeasible { .. } => assert_eq!(least, None),
+                    Outcome::Unknown { cost, bound } => {
+                        assert!(least.is_none_or(|it| bound <= it), "{number}");
+                        if let Some(cost) = cost {
+                            assert_eq!(again(team, &mut joint), cost);
+                            assert!(least.is_some_and(|it| it <= cost));
+                        }
+                        unknown += 1;
+                    }
+                }
+            }
+        });
+    }
+    assert!(unknown > 100, "{unknown}");
+}
+
+#[test]
+fn forty_robots_are_proven_twice_with_the_same_answer() {
+    let kind = Kind {
+        robots: 40,
+        tasks: 22,
+        roles: 3,
+        plans: 3,
+        most: 100,
+        missing: 40,
+        must: 50,
+        skip: 120,
+        largest: false,
+    };
+    let owned = team(&mut Draw::new(40), kind);
+    owned.with(|team| {
+        let solve = |columns| {
+            let mut room = Room::<64>::new(team, columns);
+            let mut joint = room.joint();
+            let solved = joint.solve(team, 20_000_000).unwrap();
+            let Outcome::Optimal { cost } = solved.outcome else { panic!("{solved:?}") };
+            assert_eq!(again(team, &mut joint), cost);
+            (solved, (0..22).map(|it| joint.chosen(it)).collect::<Vec<_>>())
+        };
+        assert_eq!(solve(50_000), solve(50_000));
+    });
+}
+
+#[test]
+fn memory_that_lacks_is_said() {
+    let kind = Kind { robots: 8, tasks: 3, ..small(&mut Draw::new(1)) };
+    let owned = team(&mut Draw::new(1), kind);
+    owned.with(|team| {
+        let mut room = Room::<4>::new(team, 10);
+        assert!(room.joint().solve(team, 100).is_err());
+    });
+}
