@@ -53,7 +53,7 @@ use crate::explicit::Limits;
 ///
 /// let net = philosophers(3).unwrap();
 /// let model = Model::from(&net.view().net());
-/// let asked = property::parse("EF deadlock", model.pt()).unwrap();
+/// let asked = property::parse("EF eat_1", model.pt()).unwrap();
 /// let answer = check(&model, &asked, &Options { engines: &[&Straight], ..Options::default() });
 /// assert_eq!((answer.verdict, answer.engine()), (Verdict::Holds(true), "straight"));
 /// ```

@@ -155,8 +155,8 @@ fn a_thousand_small_nets_are_as_the_book_says() {
 
 #[test]
 #[ignore = "a minute: CI runs it"]
-fn ten_thousand_small_nets_are_as_the_book_says() {
-    let counts = counts(10_000);
+fn twenty_thousand_small_nets_are_as_the_book_says() {
+    let counts = counts(20_000);
     assert_eq!(counts.unknown, BTreeMap::from([("structural", 8_198), ("stubborn", 20_000)]));
     for (choice, engine, least) in [
         ("auto", "structural", 40_000),
