@@ -1,4 +1,4 @@
-//! Who does what in a team of robots (F. Rohrmüller, *Cooperative Action Selection*, dissertation,
+//! Who does what in a team of robots (F. Rohrmueller, *Cooperative Action Selection*, dissertation,
 //! TU München 2011, ch. 3), at the least cost, with what proves it.
 //!
 //! - [`assign`]: rows to columns at the least sum, as roles to robots; who cannot has no cost,

@@ -1,4 +1,4 @@
-//! Tasks, their plans, and what a coalition costs (F. Rohrmüller, dissertation, TU München 2011,
+//! Tasks, their plans, and what a coalition costs (F. Rohrmueller, dissertation, TU München 2011,
 //! 3.3 and 3.4).
 
 use super::cost::{Cost, Costs};

@@ -1,4 +1,4 @@
-//! What the thesis does, for comparison only (F. Rohrmüller, dissertation, TU München 2011, ch. 3):
+//! What the thesis does, for comparison only (F. Rohrmueller, dissertation, TU München 2011, ch. 3):
 //! all coalitions, all orderings, greedy rounds, shares of coalitions, pruning by capability.
 //! [`coalition`](super::coalition) and [`joint`](super::joint) give the same optimum or a better
 //! one in far less time.
