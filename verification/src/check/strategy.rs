@@ -61,8 +61,11 @@ impl<'a, 'n> Strategy<'a, 'n> {
     /// The same, content with some of the transitions that never fire where they are enough.
     pub(super) fn solve_until(&mut self, task: Task<'_>, some: Enough<'_>) -> Finding {
         let first = self.among(self.net, task, 0..Bid::SEARCH, some);
-        if is_enough(task, &first) || self.budget.limits.is_over() {
+        if is_enough(task, &first) {
             return first;
+        }
+        if self.budget.limits.is_over() {
+            return better(first, Finding::stopped(Limit::Time, 0));
         }
         let smaller = (self.choice == Choice::Auto && self.net.time().is_none())
             .then(|| Smaller::new(self.net.pt(), task, &self.budget.limits))

@@ -1,11 +1,8 @@
 //! Checkers of nets with watches.
 
 use super::{Checker, Choice, Model, Options};
-use crate::engines::{Budget, Known};
+use crate::engines::{Budget, Known, STORED};
 use crate::explicit::{Limits, Watching};
-
-/// The most markings of a graph that is made because evidence asks for it.
-const STORED: u64 = 2_000_000;
 
 /// The same of a net with watches, where that of the net without is there: its markings are pairs
 /// of numbers, and take little time.

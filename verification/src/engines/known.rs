@@ -10,6 +10,9 @@ use std::cell::{Cell, OnceCell, RefCell, RefMut};
 use std::rc::Rc;
 use std::sync::Arc;
 
+/// The most markings of a graph that is made because evidence asks for it.
+pub(crate) const STORED: u64 = 2_000_000;
+
 /// Of the memory that may be used, a graph that is kept takes at most one of so many parts.
 const KEPT: u64 = 4;
 

@@ -21,6 +21,7 @@ pub mod tpn;
 
 pub use budget::Budget;
 pub use engine::{Bid, Engine};
+pub(crate) use known::STORED;
 pub use known::{Known, Made};
 pub use reason::Reason;
 pub use task::{Extent, Finding, Found, Task};

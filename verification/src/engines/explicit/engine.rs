@@ -2,7 +2,7 @@
 
 use super::{Goal, Graph, Reached, most, reach};
 use crate::certificate::{Evidence, most_markings};
-use crate::engines::{Bid, Budget, Engine, Extent, Finding, Found, Known, Reason, Task};
+use crate::engines::{Bid, Budget, Engine, Extent, Finding, Found, Known, Reason, STORED, Task};
 use crate::property::{Atom, Formula, Linear};
 
 /// Meets all reachable markings, one by one, breadth first.
@@ -19,9 +19,6 @@ pub struct Stored;
 
 /// Markings that are few enough to be met before anything cleverer is tried.
 const FEW: u64 = 600_000;
-
-/// The most markings of a graph that is made because evidence asks for it.
-const STORED: u64 = 2_000_000;
 
 /// Markings of a net whose graph is evidence: those that the small checker passes through in less
 /// than a minute.

@@ -5,7 +5,7 @@ use super::fairness::Fairness;
 use super::ltl::{all_runs, fair_runs, some_runs, stored_runs};
 use super::verdict::Verdict;
 use crate::certificate::Evidence;
-use crate::engines::{Bid, Budget, Engine, Finding, Found, Known, Task};
+use crate::engines::{Bid, Budget, Engine, Finding, Found, Known, STORED, Task};
 use crate::explicit::Limits;
 use crate::property::{Ctl, Formula};
 
@@ -20,9 +20,6 @@ pub struct Branching;
 /// The same on markings that are stored; stores them where evidence asks for it.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredBranching;
-
-/// The most markings of a graph that is made because evidence asks for it.
-const STORED: u64 = 2_000_000;
 
 const NAME: &str = "temporal";
 
