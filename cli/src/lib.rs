@@ -50,7 +50,8 @@ use output::Screen;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
-fn main() -> ExitCode {
+/// Does what the words of the command line say, and says how that ended.
+pub fn main() -> ExitCode {
     if let Some(code) = last_word::printed() {
         return code;
     }
