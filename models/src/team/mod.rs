@@ -21,6 +21,8 @@ mod capability;
 mod constraint;
 mod error_class;
 mod heterogeneity;
+#[cfg(feature = "std")]
+pub mod instance;
 mod pruning;
 mod ratio;
 mod reliability;
