@@ -37,6 +37,7 @@ pub mod cotama;
 pub mod fmeca;
 pub mod missions;
 pub mod nets;
+pub mod team;
 
 #[cfg(feature = "std")]
 mod names;
