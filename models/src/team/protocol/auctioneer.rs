@@ -6,7 +6,13 @@ use cotama_core::net::PlaceId;
 
 /// `.r1.r2`, as names of transitions end.
 pub(super) fn suffix(robots: &[usize]) -> String {
-    robots.iter().map(|r| format!(".r{}", r + 1)).collect()
+    numbered(".r", robots)
+}
+
+/// `.r1.r2`, or with another word.
+pub(super) fn numbered(word: &str, numbers: &[usize]) -> String {
+    let all: Vec<_> = numbers.iter().map(|at| format!("{word}{}", at + 1)).collect();
+    all.concat()
 }
 
 /// A robot, what is read of it, and a word for that.
@@ -118,10 +124,9 @@ impl Draft<'_> {
                         read.push(answers[r].0);
                     }
                 }
-                let mut name = format!("t{}.award{}", task + 1, suffix(&coalition));
-                if !outbid.is_empty() {
-                    name += &format!(".not{}", suffix(&outbid));
-                }
+                let not = if outbid.is_empty() { "" } else { ".not" };
+                let names = (suffix(&coalition), suffix(&outbid));
+                let name = format!("t{}.award{}{not}{}", task + 1, names.0, names.1);
                 self.add(&name, &take, &read, &give);
                 if self.has(Defect::NamesOldBidders)
                     && let Some(&first) = coalition.first()

@@ -1,7 +1,7 @@
 //! The net in the making: its places by what they mean, and how a transition is added.
 
 use super::team::{Defect, Team};
-use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Arc, PlaceId};
 
 /// What the net is.
@@ -87,6 +87,29 @@ impl<'t> Draft<'t> {
         let robots = (1..=team.robots).map(|r| robot(&mut net, r, team.tasks.len())).collect();
         let tasks = (0..team.tasks.len()).map(|t| task(&mut net, t, team)).collect();
         Self { team, net, robots, tasks, failures, failed, untimely }
+    }
+
+    /// What is claimed of the repaired protocol; a net with a defect breaks some of it.
+    pub(super) fn laws(&mut self) {
+        let invariant = |places: &[PlaceId]| OwnedLaw::Invariant {
+            sum: places.iter().map(|&place| Arc { place, weight: 1 }).collect(),
+            equals: 1,
+        };
+        let mut laws = vec![];
+        for it in &self.robots {
+            let busy = [&it.waiting[..], &it.executing].concat();
+            laws.push(invariant(&[&[it.idle, it.down][..], &busy].concat()));
+        }
+        for (t, it) in self.tasks.iter().enumerate() {
+            laws.push(invariant(&[&[it.vacant][..], &it.leader].concat()));
+            laws.push(OwnedLaw::NeverBoth(it.completed, it.announced));
+            for &r in &self.team.tasks[t].capable {
+                let work = self.robots[r].executing[t];
+                laws.push(OwnedLaw::NeverBoth(work, it.announced));
+                laws.push(OwnedLaw::NeverBoth(it.executing, it.answers[r].named));
+            }
+        }
+        self.net.laws = laws;
     }
 
     /// Whether the protocol has this defect.

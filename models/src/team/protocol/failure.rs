@@ -1,6 +1,6 @@
 //! What fails, and who takes over.
 
-use super::auctioneer::{subsets, suffix};
+use super::auctioneer::{numbered, subsets, suffix};
 use super::draft::Draft;
 use super::team::Defect;
 
@@ -27,7 +27,7 @@ impl Draft<'_> {
                         read.push(it.follower[r]);
                     }
                 }
-                let leads: String = led.iter().map(|t| format!(".leads.t{}", t + 1)).collect();
+                let leads = numbered(".leads.t", &led);
                 let name = format!("r{}.crash.{word}{leads}", r + 1);
                 self.add(&name, &take, &read, &give);
             }

@@ -2,9 +2,9 @@
 //! that loses, repeats and reorders messages, with robots that break down (F. Rohrmueller, TUM
 //! 2011, ch. 3: algorithms 3.1 and 3.2, section 3.4).
 //!
-//! [`net()`] makes the repaired protocol of a [`Team`], or that of the thesis's [`TEXT`], or one with
-//! single [`Defect`]s; [`requirements`] are what is asked of it: safety S1 to S9 and liveness L1 to
-//! L4.
+//! [`net()`] makes the repaired protocol of a [`Team`], or that of the thesis's [`TEXT`], or one
+//! with single [`Defect`]s; [`requirements`] are what is asked of it: safety S1 to S9 and liveness
+//! L1 to L4. `cotama check team:3` knows the first as [`TEAM`](crate::nets::families::TEAM).
 //!
 //! ```
 //! use cotama_models::team::protocol::{Team, net, requirements};
@@ -35,18 +35,24 @@
 //!
 //! # What is kept, what is left out
 //!
-//! | in the world | in the net | why that is enough |
-//! | --- | --- | --- |
-//! | a lossy, repeating, reordering network | what was sent in a round stays in the air: it is read never, once or again, in any order | more can happen than with mailboxes of two, or of any size |
-//! | numbers of rounds | this round, or an older one | they are only compared with the present one; so rounds are not limited |
-//! | messages of older rounds | for each robot: none, its Assign, its Ack as well; for ever | a bid comes before its Assign; other messages of older rounds do not count in any version but one, and there an Assign stands for its Release |
-//! | Announce, then a bid | a bid while the task is announced | a bid on an older Announce has an old number |
-//! | bids, the best coalition | any coalition of bidders may be the best one | the costs are left open |
-//! | the second Assign | the partner reads the first Ack | it is one step of the auctioneer that nobody else sees |
-//! | Alive messages | the auctioneer may see at any time from then on that a robot is down | the deadline is longer than what the network may take, and a robot that hears nobody for that long leaves its role |
-//! | deadlines that are too early | an award may be withdrawn at any time until the network settles | for safety all of time, for liveness a time without a limit |
-//! | work | it ends for all robots of a coalition at once | a handover |
-//! | copies of tasks | the next auctioneer knows what the one before knew | it writes the copy first |
+//! - *The network*: what was sent in a round stays in the air, and is read never, once or again, in
+//!   any order. That is loss, repetition and reordering; more can happen than with mailboxes of two
+//!   messages, or of any number. For liveness it means that a robot sends again while it waits.
+//! - *Numbers of rounds*: a message is of this round, or of an older one. Numbers are only compared
+//!   with the present one, so rounds are not limited.
+//! - *Messages of older rounds*: of each robot nothing, its Assign, or its Ack as well; for ever. A
+//!   bid comes before its Assign, and one defect takes an Assign for its Release. No other message
+//!   of an older round counts in any version.
+//! - *Announce* and the bid that answers it are one message: a bid on an older Announce has an old
+//!   number. So are a coalition's second Assign and the Ack before it, and "no" to an award and its
+//!   withdrawal take two steps of which anything may come between.
+//! - *Bids*: any coalition of bidders may be the best one; costs are left open.
+//! - *Alive*: from the time a robot is down the auctioneer may notice it. So its deadline is longer
+//!   than a message may take, and a robot that hears nobody for that long leaves its role.
+//! - *Early deadlines*: until the network settles an award may be withdrawn at any time; for safety
+//!   that is for ever.
+//! - *Work* ends for both robots of a coalition at once, as a handover does.
+//! - *Copies*: the next auctioneer knows what the one before knew, as that wrote the copy first.
 //!
 //! Liveness is asked of runs on which the network settles at last. Nothing else is assumed: a run
 //! goes on as long as something can happen, failures need not happen (`failure.spared`), and there
@@ -89,5 +95,6 @@ pub fn net(team: &Team) -> OwnedNet {
         draft.fails(r);
     }
     draft.settles();
+    draft.laws();
     draft.net
 }

@@ -4,6 +4,14 @@ use super::team::{Plan, Team};
 use cotama_core::net::owned::OwnedNet;
 
 /// A requirement.
+///
+/// ```
+/// use cotama_models::team::protocol::{Team, net, requirements};
+/// let team = Team::rivals();
+/// let last = requirements(&team, &net(&team)).pop().unwrap();
+/// assert_eq!(last.id, "L4");
+/// assert_eq!(last.text, "AF (failed > 0 | t1.done & t2.done) assuming weak(network.settles)");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Requirement {
     /// S1 to S9 are about what never happens, L1 to L4 about what happens at last.
@@ -35,6 +43,15 @@ struct Pair<'a> {
 }
 
 /// All requirements of a team, S1 first.
+///
+/// ```
+/// use cotama_models::team::protocol::{Team, net, requirements};
+/// let team = Team::new(2, 1);
+/// let asked = requirements(&team, &net(&team));
+/// let ids: Vec<_> = asked.iter().map(|it| it.id).collect();
+/// assert_eq!(ids.join(" "), "S1 S2 S3 S4 S5 S6 S7 S8 S9 L1 L2 L3 L4");
+/// assert_eq!(asked[5].text, "AG !(t1.completed & t1.announced | t2.completed & t2.announced)");
+/// ```
 pub fn requirements(team: &Team, net: &OwnedNet) -> Vec<Requirement> {
     let robots: Vec<_> = (1..=team.robots).collect();
     let tasks: Vec<_> = (1..=team.tasks.len()).collect();

@@ -48,13 +48,13 @@ pub struct Team {
 
 impl Team {
     /// Two tasks: one of two roles that everybody can fill, received by the first robot, and one of
-    /// a single role that only the last robot can fill, received by the second one. There are from
-    /// 2 to [`MOST_ROBOTS`] robots (else the nearest number), and at most so many failures: a robot
-    /// breaks down or gives its role up.
+    /// a single role that the last half of the robots can fill (of three the last one), received by
+    /// the second one. There are from 2 to [`MOST_ROBOTS`] robots (else the nearest number), and at
+    /// most so many failures: a robot breaks down or gives its role up.
     pub fn new(robots: usize, failures: u32) -> Self {
         let robots = robots.clamp(2, MOST_ROBOTS);
         let pair = Job { plan: Plan::Pair, capable: (0..robots).collect() };
-        let alone = Job { plan: Plan::Alone, capable: vec![robots - 1] };
+        let alone = Job { plan: Plan::Alone, capable: (robots - robots / 2..robots).collect() };
         let failures = failures.min(robots as u32);
         Self { robots, failures, tasks: vec![pair, alone], defects: Vec::new(), keeps_old: true }
     }
