@@ -11,5 +11,6 @@ mod reductions;
 mod statespace;
 mod structural;
 mod stubborn;
+mod team;
 mod temporal;
 mod tpn;

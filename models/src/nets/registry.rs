@@ -75,6 +75,9 @@ pub const fn all() -> &'static [ModelEntry] {
         family(&families::KANBAN),
         family(&families::FMS),
         family(&families::SWIMMING_POOL),
+        family(&families::TEAM),
+        family(&families::TEAM_OLD),
+        family(&families::TEAM_TEXT),
     ];
     ALL
 }

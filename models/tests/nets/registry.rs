@@ -8,7 +8,7 @@ fn every_net_is_found_and_sound() {
     assert_eq!(
         names.join(" "),
         "door watchdog charger crossing ace_request ace_selection ace_behaviour ace_accuracy \
-         philosophers token_ring kanban fms swimming_pool"
+         philosophers token_ring kanban fms swimming_pool team team_old team_text"
     );
     for entry in all() {
         let net = match entry.model {
@@ -41,7 +41,7 @@ fn a_wrong_name_gets_advice() {
         says("lift"),
         "there is no net `lift`; there are door, watchdog, charger, crossing, ace_request, \
          ace_selection, ace_behaviour, ace_accuracy, philosophers:N, token_ring:N, kanban:N, \
-         fms:N, swimming_pool:N"
+         fms:N, swimming_pool:N, team:N, team_old:N, team_text:N"
     );
     assert_eq!(says("kanban"), "`kanban` is a family of nets: say which one, as `kanban:5`");
     assert_eq!(says("door:5"), "`door` is one net and takes no number: say `door`");
@@ -55,5 +55,5 @@ fn a_wrong_name_gets_advice() {
     );
     assert_eq!(says("kanban:0"), "there is no kanban:0; n is from 1 to 65535");
     assert_eq!(says("token_ring:51"), "there is no token_ring:51; n is from 1 to 50");
-    assert_eq!(says(&"x\n".repeat(1_000)).len(), 283);
+    assert_eq!(says(&"x\n".repeat(1_000)).len(), 316);
 }

@@ -1,4 +1,5 @@
-//! Families of nets: one net for each number `n`, known in the literature with its counts.
+//! Families of nets: one net for each number `n`, known in the literature with its counts; and
+//! [teams](crate::team::protocol).
 //!
 //! They are plain place/transition nets, without events and time, to measure and to test checkers
 //! with. Played, they would fire for ever by themselves. What is known of them is stated as laws.
@@ -16,12 +17,14 @@ mod fms;
 mod kanban;
 mod philosophers;
 mod swimming_pool;
+mod team;
 mod token_ring;
 
 pub use fms::{FMS, fms};
 pub use kanban::{KANBAN, kanban};
 pub use philosophers::{PHILOSOPHERS, philosophers};
 pub use swimming_pool::{SWIMMING_POOL, swimming_pool};
+pub use team::{TEAM, TEAM_OLD, TEAM_TEXT};
 pub use token_ring::{TOKEN_RING, token_ring};
 
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
