@@ -2,6 +2,7 @@
 //! network that loses messages, by robots that fail (F. Rohrmueller, *Cooperative Action
 //! Selection*, dissertation, TU München 2011, ch. 3).
 mod allocate;
+pub mod campaign;
 mod driver;
 mod floor;
 mod message;
@@ -9,6 +10,7 @@ mod network;
 pub mod record;
 pub mod scenarios;
 pub mod task;
+pub mod trace;
 mod world;
 
 #[cfg(test)]

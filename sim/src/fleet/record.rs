@@ -60,9 +60,13 @@ pub enum Record {
     Fault {
         /// When, in ms.
         t_ms: u64,
-        /// The robot or the task that it is about.
-        of: usize,
-        /// The failure mode of a robot, `cup shifted` or `cup turned`.
+        /// The robot that it is about.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        robot: Option<usize>,
+        /// The task whose object it is about.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        task: Option<usize>,
+        /// The failure mode of a robot; `shifted` or `turned` of an object.
         what: String,
     },
     /// The decisional component of a robot found a failure.

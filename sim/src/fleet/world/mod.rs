@@ -187,7 +187,12 @@ impl<'s> World<'s> {
     fn fault(&mut self, number: usize) {
         match self.scenario.faults[number].what {
             FaultKind::Robot(robot, mode) => {
-                self.note(|t_ms| Record::Fault { t_ms, of: robot, what: mode.name().to_owned() });
+                self.note(|t_ms| Record::Fault {
+                    t_ms,
+                    robot: Some(robot),
+                    task: None,
+                    what: mode.name().to_owned(),
+                });
                 self.robots[robot].driver.fail(self.now, mode);
                 if self.robots[robot].driver.thinks() {
                     self.wake(robot);
@@ -196,11 +201,21 @@ impl<'s> World<'s> {
                 }
             }
             FaultKind::Shifted(task) => {
-                self.note(|t_ms| Record::Fault { t_ms, of: task, what: "shifted".into() });
+                self.note(|t_ms| Record::Fault {
+                    t_ms,
+                    robot: None,
+                    task: Some(task),
+                    what: "shifted".into(),
+                });
                 self.shifted(task);
             }
             FaultKind::Turned(task) => {
-                self.note(|t_ms| Record::Fault { t_ms, of: task, what: "turned".into() });
+                self.note(|t_ms| Record::Fault {
+                    t_ms,
+                    robot: None,
+                    task: Some(task),
+                    what: "turned".into(),
+                });
                 self.objects[task].handle = false;
                 self.turned(task);
             }
