@@ -30,3 +30,4 @@ mod schemas;
 mod screens;
 mod simulate;
 mod statespace;
+mod team;

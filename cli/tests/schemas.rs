@@ -4,10 +4,11 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "list",
     "plan",
     "run",
+    "run-team",
     "allocate",
     "replay",
     "models",

@@ -18,7 +18,7 @@ const PAUSE: u64 = 1_000;
 /// And so much if nothing was awarded and nothing has changed, in ms.
 const VAIN_PAUSE: u64 = 5_000;
 /// Who was not heard of for so long is not waited for, in ms.
-const SILENCE: u64 = 5_000;
+const SILENCE: u64 = 7_000;
 /// A task is reported after so many awards, and after so many auctions without a bid although
 /// nobody was busy who could bid later.
 const MOST_AWARDS: u32 = 10;

@@ -18,11 +18,11 @@ use auctioneer::Auctioneer;
 use robot::{Agent, Duty};
 
 /// A robot says so often how it is, and looks at its terms so often, in ms.
-pub(super) const BEAT: u64 = 1_000;
+pub(super) const BEAT: u64 = 2_000;
 /// The auctioneer looks at its tasks so often, in ms.
 pub(super) const TICK: u64 = 250;
 /// An award holds for so long after it was last prolonged, in ms.
-pub(super) const LEASE: u64 = 10_000;
+pub(super) const LEASE: u64 = 20_000;
 /// A run ends when nothing has become known, been done or been reported for so long, in ms.
 const STUCK: u64 = 3_600_000;
 
@@ -81,9 +81,9 @@ pub(super) struct World<'s> {
 impl<'s> World<'s> {
     pub(super) fn new(scenario: &'s Scenario, recorded: bool, variant: Option<Variant>) -> Self {
         let tasks = scenario.tasks.len();
-        let agent = |(robot, spec): (usize, &super::task::RobotSpec)| {
+        let agent = |spec: &super::task::RobotSpec| {
             let driver = Driver::new(variant == Some(Variant::EveryRound));
-            Agent::new(robot, driver, Spot::at(spec.start), spec.capabilities())
+            Agent::new(driver, Spot::at(spec.start), spec.capabilities())
         };
         let lies = |it: &super::task::TaskSpec| Object {
             at: Whereabouts::Lies(Spot::at(it.start)),
@@ -94,7 +94,7 @@ impl<'s> World<'s> {
             now: 0,
             queue: Queue::new(),
             network: Network::new(scenario.network, Streams::new(scenario.seed)),
-            robots: scenario.robots.iter().enumerate().map(agent).collect(),
+            robots: scenario.robots.iter().map(agent).collect(),
             auctioneer: Auctioneer::new(scenario),
             allocator: Allocator::default(),
             objects: scenario.tasks.iter().map(lies).collect(),

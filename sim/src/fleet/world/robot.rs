@@ -38,7 +38,6 @@ pub(super) struct Agent {
     pub(super) holds: Option<usize>,
     /// When its next round is.
     pub(super) next_round: Option<u64>,
-    beats: u64,
     was_fit: bool,
 }
 
@@ -84,12 +83,7 @@ impl Work {
 }
 
 impl Agent {
-    pub(super) fn new(
-        robot: usize,
-        driver: Driver,
-        spot: Spot,
-        capabilities: CapabilitySet,
-    ) -> Self {
+    pub(super) fn new(driver: Driver, spot: Spot, capabilities: CapabilitySet) -> Self {
         Self {
             driver,
             capabilities,
@@ -107,7 +101,6 @@ impl Agent {
             left: Vec::new(),
             holds: None,
             next_round: None,
-            beats: robot as u64,
             was_fit: true,
         }
     }
@@ -351,11 +344,11 @@ impl World<'_> {
             }
         }
         let agent = &mut self.robots[robot];
-        agent.beats += 1;
         let (fit, busy) = (agent.is_fit(), agent.work().is_some());
         let news = fit != agent.was_fit;
         agent.was_fit = fit;
-        if news || agent.beats.is_multiple_of(2) {
+        // Who works has said so already.
+        if news || !busy {
             self.send(me, desk, Message::Alive { busy, fit });
         }
         for (award, status) in self.robots[robot].finals.clone() {
