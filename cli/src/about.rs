@@ -7,6 +7,7 @@ use crate::answers::error::ErrorAnswer;
 use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
+use crate::answers::team::TeamAnswer;
 use crate::answers::{AllocateAnswer, ListAnswer, PlanAnswer, ReplayAnswer, RunAnswer};
 use crate::args::{self, Cli, CompletionsArgs, ManArgs, MissionArg, SchemaArgs, SchemaName};
 use crate::catalogue::{self, Kind};
@@ -14,6 +15,7 @@ use crate::exit::{Exit, Failure};
 use crate::file_schemas;
 use crate::mission;
 use crate::output::Screen;
+use crate::run::Team;
 use clap::CommandFactory;
 use clap::builder::PossibleValuesParser;
 use clap_complete::Shell;
@@ -41,6 +43,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::List => schemas.into_root_schema_for::<ListAnswer>(),
         SchemaName::Plan => schemas.into_root_schema_for::<PlanAnswer>(),
         SchemaName::Run => schemas.into_root_schema_for::<RunAnswer>(),
+        SchemaName::RunTeam => schemas.into_root_schema_for::<TeamAnswer>(),
         SchemaName::Allocate => schemas.into_root_schema_for::<AllocateAnswer>(),
         SchemaName::Assign => schemas.into_root_schema_for::<AssignAnswer>(),
         SchemaName::Replay => schemas.into_root_schema_for::<ReplayAnswer>(),
@@ -106,9 +109,10 @@ fn named(program: clap::Command) -> clap::Command {
     let commands = ["export", "check", "statespace", "simulate", "conform"];
     let program = commands.iter().fold(program, |it, command| of(command, "model", &models, it));
     let program = of("models", "name", &models, program);
-    ["plan", "run", "table"]
-        .iter()
-        .fold(program, |it, command| of(command, "mission", &missions, it))
+    let teams = Team::ALL.iter().map(|it| it.0.name());
+    let run: Vec<_> = missions.iter().copied().chain(teams).collect();
+    let program = of("run", "mission", &run, program);
+    ["plan", "table"].iter().fold(program, |it, command| of(command, "mission", &missions, it))
 }
 
 /// `cotama man`: a manual page.

@@ -8,6 +8,7 @@ pub(crate) mod fmeca;
 pub(crate) mod model;
 pub(crate) mod new;
 pub(crate) mod supervised;
+pub(crate) mod team;
 
 use schemars::JsonSchema;
 use serde::Serialize;

@@ -10,6 +10,7 @@ mod model;
 mod new;
 mod number;
 mod schema;
+mod team;
 
 pub(crate) use assign::AssignArgs;
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
@@ -22,6 +23,7 @@ pub(crate) use mission::{
 pub(crate) use model::{DrawnAs, ExportArgs, Format, ModelsArgs, SimulateArgs};
 pub(crate) use new::{NewArgs, NewKind};
 pub(crate) use schema::{SchemaArgs, SchemaName};
+pub(crate) use team::TeamArgs;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -91,11 +93,14 @@ Examples:
     /// The run is simulated and deterministic: the same mission, faults and seed give the same run.
     /// Margins (limit less used less planned) are watched; when one falls below zero, or planned
     /// hardware fails, the rest of the mission is planned anew. A mission with `[supervision]` is
-    /// driven by its supervisors, who find, judge and answer each failure, and ask the operator.
+    /// driven by its supervisors, who find, judge and answer each failure, and ask the operator. The
+    /// scenarios `fleet` and `service` are teams of such robots, which bid for tasks.
     #[command(after_long_help = "\
 Examples:
   $ cotama run patrol
   $ cotama run delivery
+  $ cotama run service
+  $ cotama run fleet --robots 12 --tasks 40 --loss 10
   $ cotama run patrol --faults none --report quiet-patrol
   $ cotama run patrol --lost laser:1 --allocator exact --json
   $ cotama run patrol --trace patrol.jsonl && cotama replay patrol.jsonl")]

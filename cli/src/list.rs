@@ -7,6 +7,7 @@ use crate::exit::{Exit, Failure};
 use crate::output::Screen;
 use crate::render::described;
 use crate::render::style::{HEADING, NAME};
+use crate::run::Team;
 use cotama_models::missions::embedded;
 use std::fmt::Write;
 
@@ -21,8 +22,11 @@ pub(crate) fn list(args: &ListArgs, screen: &Screen) -> Result<Exit, Failure> {
         .iter()
         .map(|it| Listed { name: it.shown_name(), description: it.sentence().to_owned() });
     let models = models.collect();
-    let answer =
-        ListAnswer { schema: "cotama/list/1", missions, models, scenarios: vec![], maps: vec![] };
+    let scenarios = Team::ALL
+        .iter()
+        .map(|it| Listed { name: it.0.name().to_owned(), description: it.1.to_owned() });
+    let scenarios = scenarios.collect();
+    let answer = ListAnswer { schema: "cotama/list/1", missions, models, scenarios, maps: vec![] };
     if args.json.json {
         Screen::json(&answer)?;
         return Ok(Exit::Success);

@@ -23,8 +23,10 @@ use std::path::{Path, PathBuf};
 
 mod body;
 mod supervised;
+mod team;
 
 pub(crate) use body::body;
+pub(crate) use team::Team;
 
 /// Plans a mission, runs it and reports.
 pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
@@ -34,6 +36,10 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
     if let Some(folder) = &args.report {
         output::report(folder)?;
     }
+    if let Some(team) = Team::named(&args.mission.mission) {
+        return team::run(args, team, screen);
+    }
+    team::none_given(args)?;
     let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
     let options = options(args, &loaded.mission)?;
     match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {

@@ -31,3 +31,4 @@ mod schemas;
 mod screens;
 mod simulate;
 mod statespace;
+mod team;

@@ -8,6 +8,7 @@ const COMMANDS: [&str; 18] = [
     "list",
     "plan",
     "run",
+    "run-team",
     "allocate",
     "assign",
     "replay",

@@ -1,7 +1,7 @@
 //! The command line of the commands about missions and plans.
 
 use super::number::{duration, energy, whole};
-use super::{Json, MissionArg};
+use super::{Json, MissionArg, TeamArgs};
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
@@ -86,6 +86,8 @@ pub(crate) struct RunArgs {
     pub(crate) trace: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) json: Json,
+    #[command(flatten)]
+    pub(crate) team: TeamArgs,
 }
 
 #[derive(Args, Debug)]

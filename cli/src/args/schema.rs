@@ -15,6 +15,8 @@ pub(crate) enum SchemaName {
     List,
     Plan,
     Run,
+    /// The answer of `run` for a team
+    RunTeam,
     Allocate,
     Assign,
     Replay,

@@ -18,6 +18,7 @@ pub(crate) mod statespace;
 pub(crate) mod style;
 pub(crate) mod supervised;
 pub(crate) mod table;
+pub(crate) mod team;
 pub(crate) mod verify;
 
 /// The command that suggests itself, if one does.

@@ -376,6 +376,12 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
         self.plannings_failed
     }
 
+    /// What is known to be broken; the next mission [resumes](Self::resume) with it.
+    #[must_use]
+    pub const fn health(&self) -> Health {
+        self.known.health
+    }
+
     /// The modules that can be used, as far as is known.
     #[must_use]
     pub const fn available(&self) -> Modules {

@@ -27,6 +27,7 @@ mod series;
 mod story;
 mod strip;
 mod svg;
+pub mod team;
 mod timeline;
 mod view;
 

@@ -86,7 +86,7 @@ pub const fn effect(mode: FailureMode) -> Effect {
 /// The flags that a failure raises while these modules observe: all that it always does, and of the
 /// others those that this simulation has. Encoders that lose ticks are seen by the filter on the
 /// wheels too, which tells them from a lost localisation (assumed).
-pub(super) fn raises(mode: FailureMode, observing: Modules) -> Flags {
+pub(crate) fn raises(mode: FailureMode, observing: Modules) -> Flags {
     let always = mode.rule().signature.always;
     match mode {
         FailureMode::Odo2 if Flags::seen_by(observing).covers(always) => {
@@ -97,7 +97,7 @@ pub(super) fn raises(mode: FailureMode, observing: Modules) -> Flags {
 }
 
 /// Whether the observer of a failure can see it now: what is not used is not observed.
-pub(super) fn observable(mode: FailureMode, situation: Situation, moving: bool) -> bool {
+pub(crate) fn observable(mode: FailureMode, situation: Situation, moving: bool) -> bool {
     use FailureMode as F;
     let running = situation.configuration();
     let uses = |module: Module| running.is_some_and(|it| it.facts().required.has(module));

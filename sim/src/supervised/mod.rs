@@ -22,6 +22,7 @@ mod world;
 
 pub use cotama_models::cotama::Judged;
 pub use effect::{Effect, Ends, Motion, effect};
+pub(crate) use effect::{observable, raises};
 pub use operator::Answers;
 pub use world::{PERIOD, PLANNING};
 

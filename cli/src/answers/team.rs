@@ -1,0 +1,122 @@
+//! The answer of `cotama run` for teams.
+
+use schemars::JsonSchema;
+use serde::Serialize;
+use std::collections::BTreeMap;
+
+/// The answer of `cotama run fleet` and `cotama run service`.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct TeamAnswer {
+    #[schemars(extend("const" = "cotama/run-team/1"))]
+    pub(crate) schema: &'static str,
+    /// `fleet` or `service`.
+    pub(crate) scenario: String,
+    /// `completed` if all tasks are done, else `reported`; `failed` if something did not hold that
+    /// must hold of every run.
+    pub(crate) outcome: &'static str,
+    pub(crate) seed: u64,
+    pub(crate) robots: u64,
+    pub(crate) tasks: u64,
+    pub(crate) loss_permille: u16,
+    /// One run; none where many seeds are compared.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) run: Option<TeamRun>,
+    /// Many runs, a row for each allocation.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) compared: Option<Compared>,
+}
+
+/// One run.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct TeamRun {
+    /// `optimal`, `rounds` or `one-by-one`.
+    pub(crate) allocation: &'static str,
+    pub(crate) done: u64,
+    pub(crate) reported: u64,
+    /// When the last task ended.
+    pub(crate) duration_ms: u64,
+    /// For how long robots worked, all together.
+    pub(crate) robot_time_ms: u64,
+    /// The same, with the utility of tasks that are not done.
+    pub(crate) cost_ms: u64,
+    /// From when a task became known until it was done, on average.
+    pub(crate) mean_time_ms: u64,
+    pub(crate) auctions: u64,
+    /// How often a task was put up again.
+    pub(crate) reopened: u64,
+    /// Robots that cannot work any more.
+    pub(crate) robots_out: u64,
+    /// Messages sent, by their kind.
+    pub(crate) messages: BTreeMap<&'static str, u64>,
+    pub(crate) messages_lost: u64,
+    /// Who was awarded what.
+    pub(crate) awards: Vec<AwardRow>,
+    /// Errors of robots in their tasks, by class.
+    pub(crate) errors: Vec<ErrorRow>,
+    /// Where the report is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) report: Option<String>,
+    /// Where the trace is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) trace: Option<String>,
+}
+
+/// An award.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct AwardRow {
+    pub(crate) t_ms: u64,
+    pub(crate) round: u32,
+    pub(crate) task: String,
+    pub(crate) plan: String,
+    /// The robot of each role.
+    pub(crate) robots: Vec<String>,
+    /// What each role is to cost.
+    pub(crate) costs_ms: Vec<u32>,
+}
+
+/// An error.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct ErrorRow {
+    pub(crate) t_ms: u64,
+    pub(crate) robot: String,
+    pub(crate) task: String,
+    /// `recoverable`, `semi-recoverable` or `non-recoverable`.
+    pub(crate) class: String,
+    pub(crate) why: String,
+}
+
+/// Many runs.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct Compared {
+    /// How many seeds were run with each allocation, from `seed` on.
+    pub(crate) seeds: u64,
+    /// The level of the intervals.
+    pub(crate) confidence_permille: u16,
+    pub(crate) allocations: Vec<ComparedRow>,
+}
+
+/// All runs with an allocation.
+#[derive(Debug, JsonSchema, Serialize)]
+pub(crate) struct ComparedRow {
+    pub(crate) allocation: &'static str,
+    /// Time of robots, with the utility of what is not done, a run.
+    pub(crate) cost_ms: Interval,
+    /// From when a task became known until it was done.
+    pub(crate) mean_time_ms: Interval,
+    /// Cost beyond that of the first allocation, seed by seed.
+    pub(crate) more_ms: Interval,
+    pub(crate) more_permille: Interval,
+    pub(crate) done: u64,
+    pub(crate) reported: u64,
+    pub(crate) reopened: u64,
+    /// Runs of which something did not hold that must hold of every run.
+    pub(crate) unsound: u64,
+}
+
+/// A mean, and its interval.
+#[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
+pub(crate) struct Interval {
+    pub(crate) mean: i64,
+    pub(crate) low: i64,
+    pub(crate) high: i64,
+}

@@ -1,0 +1,100 @@
+//! The options of `cotama run` for teams.
+
+use super::number::whole;
+use clap::{Args, ValueEnum};
+use cotama_sim::fleet::task::{MAX_ROBOTS, Method};
+
+const HEADING: &str = "Options of the scenarios `fleet` and `service`";
+
+#[derive(Args, Debug)]
+#[command(next_help_heading = HEADING)]
+pub(crate) struct TeamArgs {
+    /// How many messages get lost, in percent, with at most one decimal [default: 5 for `fleet`, 0
+    /// for `service`]
+    #[arg(long, value_name = "PERCENT", value_parser = loss)]
+    pub(crate) loss: Option<u16>,
+    /// How many robots the fleet has [default: 40]
+    #[arg(long, value_name = "N", value_parser = whole(1, MAX_ROBOTS as u64))]
+    pub(crate) robots: Option<u64>,
+    /// How many deliveries there are [default: 200]
+    #[arg(long, value_name = "N", value_parser = whole(1, 2_000))]
+    pub(crate) tasks: Option<u64>,
+    /// How many robots of the fleet fail for good; as many others have a lesser failure [default: 5,
+    /// but at most an eighth of the robots]
+    #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
+    pub(crate) failures: Option<u64>,
+    /// How tasks are given to the robots of the fleet [default: optimal]
+    #[arg(long, value_enum, value_name = "HOW", hide_possible_values = false)]
+    pub(crate) allocation: Option<Allocation>,
+    /// Runs so many seeds with each allocation, and compares; no report is written
+    #[arg(long, value_name = "N", value_parser = whole(1, 100_000), conflicts_with = "report")]
+    #[arg(conflicts_with = "trace")]
+    pub(crate) seeds: Option<u64>,
+    /// The cup of the service stands so that two fingers cannot grasp it
+    #[arg(long)]
+    pub(crate) hidden_handle: bool,
+}
+
+impl TeamArgs {
+    /// The first of these options that was given.
+    pub(crate) fn first(&self) -> Option<&'static str> {
+        let given = [("--loss", self.loss.is_some()), ("--hidden-handle", self.hidden_handle)];
+        given.into_iter().find(|it| it.1).map(|it| it.0).or(self.first_of_fleet())
+    }
+
+    /// The first of those for fleets.
+    pub(crate) fn first_of_fleet(&self) -> Option<&'static str> {
+        let given = [
+            ("--robots", self.robots.is_some()),
+            ("--tasks", self.tasks.is_some()),
+            ("--failures", self.failures.is_some()),
+            ("--allocation", self.allocation.is_some()),
+            ("--seeds", self.seeds.is_some()),
+        ];
+        given.into_iter().find(|it| it.1).map(|it| it.0)
+    }
+}
+
+/// How tasks are given to robots.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Allocation {
+    /// All open tasks at once, at the least cost
+    Optimal,
+    /// The rounds of the thesis: one task of several robots after the other, then all of one
+    Rounds,
+    /// One task after the other, each to who asks least
+    OneByOne,
+}
+
+impl From<Allocation> for Method {
+    fn from(it: Allocation) -> Self {
+        match it {
+            Allocation::Optimal => Self::Optimal,
+            Allocation::Rounds => Self::Rounds,
+            Allocation::OneByOne => Self::OneByOne,
+        }
+    }
+}
+
+/// A share in percent with at most one decimal, in thousandths.
+fn loss(text: &str) -> Result<u16, String> {
+    let (whole, tenth) = text.split_once('.').unwrap_or((text, "0"));
+    let digits = |it: &str| !it.is_empty() && it.bytes().all(|it| it.is_ascii_digit());
+    let number = (digits(whole) && digits(tenth) && tenth.len() == 1)
+        .then(|| Some(whole.parse::<u16>().ok()?.checked_mul(10)? + tenth.parse::<u16>().ok()?));
+    let number = number.flatten().filter(|it| *it <= 500);
+    number.ok_or_else(|| "a number from 0 to 50 with at most one decimal is needed".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::loss;
+
+    #[test]
+    fn losses_have_at_most_one_decimal() {
+        assert_eq!((loss("5"), loss("0.5"), loss("50")), (Ok(50), Ok(5), Ok(500)));
+        for wrong in ["", "-1", "50.1", "1.25", "5%", ".5", "5.", "x"] {
+            assert!(loss(wrong).is_err(), "{wrong}");
+        }
+    }
+}

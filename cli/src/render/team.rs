@@ -1,0 +1,199 @@
+//! The screens of `cotama run fleet` and `cotama run service`.
+
+use super::numbers::{count, grouped, milli, seconds};
+use super::style::{BAD, FAINT, GOOD, HEADING, NAME, NOTICE, PLAIN};
+use super::table::{Cell, Table};
+use crate::answers::team::{Interval, TeamAnswer, TeamRun};
+use cotama_sim::fleet::record::Record;
+use cotama_sim::fleet::scenarios::FleetOptions;
+use cotama_sim::fleet::trace::Trace;
+use std::fmt::Write;
+
+/// The most rows of what happened.
+const SHOWN: usize = 24;
+
+/// One run.
+pub(crate) fn screen(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
+    let Some(run) = &answer.run else { return String::new() };
+    let mut text = headline(answer, run);
+    text += &happened(answer, trace, width);
+    let _ = writeln!(text, "\n{HEADING}messages{HEADING:#}");
+    let mut table = Table::new(vec![]);
+    let sent: u64 = run.messages.values().sum();
+    for (kind, number) in run.messages.iter().filter(|it| *it.1 > 0) {
+        let number = Cell::plain(grouped(&number.to_string()));
+        table.row(vec![Cell::plain(format!("{kind:8}")), number]);
+    }
+    let lost = grouped(&run.messages_lost.to_string());
+    table.row(vec![
+        Cell::new("all", HEADING),
+        Cell::new(grouped(&sent.to_string()), HEADING),
+        Cell::faint(format!("{lost} of these lost")),
+    ]);
+    text += &table.render(width);
+    text.push('\n');
+    for (name, path) in [("report", &run.report), ("trace", &run.trace)] {
+        if let Some(path) = path {
+            let _ = writeln!(text, "{name}: {}", super::visible(path));
+        }
+    }
+    let next = match answer.scenario.as_str() {
+        "fleet" => "cotama run fleet --seeds 20",
+        _ if answer.loss_permille == 0 => "cotama run service --loss 10",
+        _ => "cotama run fleet",
+    };
+    let _ = writeln!(text, "next: {NAME}{next}{NAME:#}");
+    text
+}
+
+fn headline(answer: &TeamAnswer, run: &TeamRun) -> String {
+    let TeamAnswer { scenario, tasks, robots, .. } = answer;
+    let (style, word) = match answer.outcome {
+        "completed" => (GOOD, "completed"),
+        "failed" => (BAD, "failed"),
+        _ => (NOTICE, "not all done"),
+    };
+    let mut text = format!(
+        "{HEADING}{scenario}{HEADING:#} {style}{word}{style:#}: {} of {} done",
+        run.done,
+        count(*tasks, "task")
+    );
+    if run.reported > 0 {
+        let _ = write!(text, ", {} reported", run.reported);
+    }
+    let _ = writeln!(text, " by {} in {}", count(*robots, "robot"), seconds(run.duration_ms));
+    let _ = writeln!(
+        text,
+        "  {FAINT}allocation {}, {} % of messages lost, seed {}{FAINT:#}",
+        run.allocation,
+        milli(i128::from(answer.loss_permille) * 100, 1, ""),
+        answer.seed
+    );
+    let rows = [
+        ("a task takes", seconds(run.mean_time_ms), "on average, from when it is known"),
+        ("robots worked", seconds(run.robot_time_ms), "all together"),
+        ("auctions", run.auctions.to_string(), ""),
+        ("awards", run.awards.len().to_string(), ""),
+        ("put up again", run.reopened.to_string(), "given back, or the robot was silent"),
+        ("out of work", run.robots_out.to_string(), "robots, at the end"),
+    ];
+    let mut table = Table::new(vec![]).left(2);
+    for (name, value, words) in rows {
+        table.row(vec![Cell::plain(name), Cell::plain(value), Cell::faint(words)]);
+    }
+    text + &table.render(100)
+}
+
+/// What went wrong, and in a small run who was awarded what.
+fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
+    let small = answer.tasks <= 8;
+    let mut rows = Vec::new();
+    for record in &trace.records {
+        let row = match record {
+            Record::Awarded { t_ms, task, plan, robots, round, .. } if small => {
+                let robots: Vec<&str> = robots.iter().map(|it| trace.robot(*it)).collect();
+                let what = format!("auction {round}: <{plan}>");
+                (*t_ms, robots.join(", "), trace.task(*task), what, PLAIN)
+            }
+            Record::Done { t_ms, task, .. } if small => {
+                (*t_ms, String::new(), trace.task(*task), "done".to_owned(), GOOD)
+            }
+            Record::Fault { t_ms, robot, task, what } => {
+                let robot = robot.map_or("", |it| trace.robot(it)).to_owned();
+                let (task, what) = match task {
+                    Some(task) => (trace.task(*task), format!("its object is {what}")),
+                    None => ("", format!("fails: {what}")),
+                };
+                (*t_ms, robot, task, what, NOTICE)
+            }
+            Record::Error { t_ms, robot, task, class, why } => {
+                let (robot, task) = (trace.robot(*robot).to_owned(), trace.task(*task));
+                (*t_ms, robot, task, format!("{class}: {why}"), NOTICE)
+            }
+            Record::Silent { t_ms, robot, task } => {
+                let what = "is silent; its award has run out".to_owned();
+                (*t_ms, trace.robot(*robot).to_owned(), trace.task(*task), what, NOTICE)
+            }
+            Record::Reported { t_ms, task, why } => {
+                (*t_ms, String::new(), trace.task(*task), format!("reported: {why}"), BAD)
+            }
+            _ => continue,
+        };
+        rows.push(row);
+    }
+    if rows.is_empty() {
+        return String::new();
+    }
+    let title = if small { "what happened" } else { "what went wrong" };
+    let mut table = Table::new(vec![]).left(1).left(2).left(3);
+    for (t_ms, robot, task, what, style) in rows.iter().take(SHOWN) {
+        table.row(vec![
+            Cell::plain(seconds(*t_ms)),
+            Cell::plain(robot.as_str()),
+            Cell::plain(*task),
+            Cell::new(what.as_str(), *style),
+        ]);
+    }
+    let mut text = format!("\n{HEADING}{title}{HEADING:#}\n{}", table.render(width));
+    if rows.len() > SHOWN {
+        let _ = writeln!(text, "  {FAINT}and {} more: see the report{FAINT:#}", rows.len() - SHOWN);
+    }
+    text
+}
+
+/// Many seeds.
+pub(crate) fn compared(answer: &TeamAnswer, options: &FleetOptions, width: usize) -> String {
+    let Some(compared) = &answer.compared else { return String::new() };
+    let all = compared.allocations.iter();
+    let unsound: u64 = all.clone().map(|it| it.unsound).sum();
+    let (style, word) = if unsound == 0 {
+        (GOOD, "sound".to_owned())
+    } else {
+        (BAD, format!("{unsound} runs are not sound"))
+    };
+    let mut text = format!(
+        "{HEADING}fleet{HEADING:#} {style}{word}{style:#}: {}, {}, {}, each task done once or \
+         reported\n  {FAINT}{} fail for good, {} % of messages lost, seeds {} to {}{FAINT:#}\n\n",
+        count(compared.seeds, "seed"),
+        count(answer.robots, "robot"),
+        count(answer.tasks, "task"),
+        count(options.failures as u64, "robot"),
+        milli(i128::from(answer.loss_permille) * 100, 1, ""),
+        answer.seed,
+        answer.seed + compared.seeds - 1
+    );
+    let head = ["allocation", "robot time", "more than first", "", "a task takes", "reported"];
+    let mut table = Table::new(vec![head.iter().map(|it| Cell::new(*it, HEADING)).collect()]);
+    for it in &compared.allocations {
+        let first = it.more_ms.mean == 0 && it.more_ms.low == 0 && it.more_ms.high == 0;
+        let more = if first { "–".into() } else { interval(it.more_ms, " s") };
+        let share = if first { String::new() } else { percent(it.more_permille) };
+        table.row(vec![
+            Cell::plain(it.allocation),
+            Cell::plain(interval(it.cost_ms, " s")),
+            Cell::plain(more),
+            Cell::plain(share),
+            Cell::plain(interval(it.mean_time_ms, " s")),
+            Cell::plain(it.reported.to_string()),
+        ]);
+    }
+    text += &table.render(width);
+    let _ = writeln!(
+        text,
+        "  {FAINT}means with intervals of 95 %; robot time counts what is not done with its \
+         utility{FAINT:#}"
+    );
+    let _ = writeln!(text, "\nnext: {NAME}cotama run fleet --seed {}{NAME:#}", answer.seed);
+    text
+}
+
+fn interval(it: Interval, unit: &str) -> String {
+    let half = milli(i128::from(it.high - it.mean), 0, "");
+    format!("{} ± {half}{unit}", milli(it.mean.into(), 0, ""))
+}
+
+/// Thousandths as percent.
+fn percent(it: Interval) -> String {
+    let half = milli(i128::from(it.high - it.mean) * 100, 1, "");
+    format!("{} ± {half} %", milli(i128::from(it.mean) * 100, 1, ""))
+}

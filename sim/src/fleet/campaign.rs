@@ -1,0 +1,152 @@
+//! Many runs: what a way to give out tasks costs on average, and what it costs more than another
+//! one with the same seeds.
+
+use super::record::Fate;
+use super::run;
+use super::scenarios::{FleetOptions, fleet};
+use super::task::Method;
+use std::thread;
+
+/// A mean with the half width of its interval of 95 %, both rounded.
+///
+/// ```
+/// use cotama_sim::fleet::campaign::Spread;
+/// let spread = Spread::of(&[10, 20, 30, 40]).unwrap();
+/// assert_eq!((spread.mean, spread.half_width), (25, 13)); // 1.96 * 12.91 / 2 = 12.65
+/// assert_eq!(Spread::of(&[7]), Some(Spread { mean: 7, half_width: 0 }));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Spread {
+    /// The mean.
+    pub mean: i64,
+    /// The normal interval reaches so far to both sides.
+    pub half_width: u64,
+}
+
+impl Spread {
+    /// Of some values; none of none.
+    pub fn of(values: &[i64]) -> Option<Self> {
+        let count = i128::try_from(values.len()).ok().filter(|it| *it > 0)?;
+        let sum: i128 = values.iter().map(|it| i128::from(*it)).sum();
+        let half = if sum < 0 { -count / 2 } else { count / 2 };
+        let mean = i64::try_from((sum + half) / count).ok()?;
+        // The sum of squared deviations times the count is an integer.
+        let squares: i128 = values.iter().map(|it| i128::from(*it) * i128::from(*it)).sum();
+        let deviations = (squares * count - sum * sum).unsigned_abs();
+        let count = count.unsigned_abs();
+        // 1.96 times the root of deviations / (count² (count - 1)), rounded up.
+        let under = count * count * (count - 1).max(1) * 10_000;
+        let scaled = deviations.saturating_mul(196 * 196);
+        let root = scaled.div_ceil(under).isqrt();
+        let up = u128::from(root * root * under < scaled);
+        Some(Self { mean, half_width: u64::try_from(root + up).ok()? })
+    }
+}
+
+/// What a method came to over all seeds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Results {
+    /// The method.
+    pub method: Method,
+    /// For how long robots worked, with the utility of what was not done, in ms a run.
+    pub cost_ms: Spread,
+    /// From when a task became known until it was done, in ms a task.
+    pub waited_ms: Spread,
+    /// Its cost less that of the optimal method with the same seed, in ms a run.
+    pub more_ms: Spread,
+    /// The same in thousandths of the optimal cost.
+    pub more_permille: Spread,
+    /// Tasks done, and tasks reported, over all runs.
+    pub done: usize,
+    /// See `done`.
+    pub reported: usize,
+    /// Tasks that were put up again, over all runs.
+    pub reopened: u64,
+    /// Runs of which something did not hold: none, or the protocol is wrong.
+    pub unsound: usize,
+}
+
+/// One run.
+#[derive(Clone, Copy, Debug, Default)]
+struct One {
+    cost_ms: i64,
+    waited_ms: i64,
+    done: usize,
+    reported: usize,
+    reopened: u64,
+    sound: bool,
+}
+
+/// Runs so many seeds from that of the options on, with each method, on so many threads; the number
+/// of threads changes nothing. The first method is what the others are compared with.
+///
+/// ```
+/// use cotama_sim::fleet::{campaign::compare, scenarios::FleetOptions, task::Method};
+/// let options = FleetOptions { robots: 6, tasks: 8, failures: 1, ..FleetOptions::default() };
+/// let both = compare(&options, 2, &[Method::Optimal, Method::OneByOne], 2);
+/// assert_eq!(both.iter().map(|it| it.unsound).sum::<usize>(), 0);
+/// assert_eq!(both[0].more_ms.mean, 0);
+/// ```
+pub fn compare(
+    options: &FleetOptions,
+    seeds: u64,
+    methods: &[Method],
+    threads: usize,
+) -> Vec<Results> {
+    let mut first: Vec<One> = Vec::new();
+    let mut all = Vec::new();
+    for &method in methods {
+        let runs = runs(&FleetOptions { method, ..*options }, seeds, threads.max(1));
+        if first.is_empty() {
+            first.clone_from(&runs);
+        }
+        all.extend(results(method, &runs, &first));
+    }
+    all
+}
+
+fn runs(options: &FleetOptions, seeds: u64, threads: usize) -> Vec<One> {
+    let mut runs = vec![One::default(); usize::try_from(seeds).unwrap_or(usize::MAX)];
+    let part = runs.len().div_ceil(threads).max(1);
+    thread::scope(|scope| {
+        for (number, part_of) in runs.chunks_mut(part).enumerate() {
+            scope.spawn(move || {
+                for (at, it) in part_of.iter_mut().enumerate() {
+                    let seed = options.seed.wrapping_add((number * part + at) as u64);
+                    *it = one(&FleetOptions { seed, ..*options });
+                }
+            });
+        }
+    });
+    runs
+}
+
+fn one(options: &FleetOptions) -> One {
+    let run = run(&fleet(options));
+    let done = run.count(Fate::Done);
+    One {
+        cost_ms: i64::try_from(run.cost_ms).unwrap_or(i64::MAX),
+        waited_ms: i64::try_from(run.waited_ms / (done as u64).max(1)).unwrap_or(i64::MAX),
+        done,
+        reported: run.count(Fate::Reported),
+        reopened: u64::from(run.reopened),
+        sound: run.is_sound(),
+    }
+}
+
+fn results(method: Method, runs: &[One], first: &[One]) -> Option<Results> {
+    let spread = |value: &dyn Fn((&One, &One)) -> i64| {
+        Spread::of(&runs.iter().zip(first).map(value).collect::<Vec<_>>())
+    };
+    Some(Results {
+        method,
+        cost_ms: spread(&|it| it.0.cost_ms)?,
+        waited_ms: spread(&|it| it.0.waited_ms)?,
+        more_ms: spread(&|it| it.0.cost_ms - it.1.cost_ms)?,
+        more_permille: spread(&|it| (it.0.cost_ms - it.1.cost_ms) * 1_000 / it.1.cost_ms.max(1))?,
+        done: runs.iter().map(|it| it.done).sum(),
+        reported: runs.iter().map(|it| it.reported).sum(),
+        reopened: runs.iter().map(|it| it.reopened).sum(),
+        unsound: runs.iter().filter(|it| !it.sound).count(),
+    })
+}

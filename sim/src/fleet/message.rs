@@ -1,0 +1,170 @@
+//! What robots and auctioneers say to each other (F. Rohrmueller, dissertation, TU München 2011,
+//! Algorithms 3.1 and 3.2; `Release` and the terms of an award are ours).
+
+use super::task::{ErrorClass, Offer, Share};
+use cotama_core::team::RobotSet;
+use std::rc::Rc;
+
+/// Who speaks, or is spoken to: each robot has a broker, and one address an auctioneer too.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Party {
+    /// The broker of a robot, with its bidder.
+    Robot(usize),
+    /// The auctioneer at an address: that of a robot, or one more than all of them.
+    Auctioneer(usize),
+}
+
+impl Party {
+    pub(super) const fn address(self) -> usize {
+        match self {
+            Self::Robot(it) | Self::Auctioneer(it) => it,
+        }
+    }
+}
+
+/// An award: which task, and of which round.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct AwardId {
+    pub(super) task: usize,
+    pub(super) round: u32,
+}
+
+/// How it goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Status {
+    Progress,
+    Completed,
+    Failed(ErrorClass),
+}
+
+/// Why an award ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// It is withdrawn: everyone goes back to idle and says so by `Nack`.
+    Withdrawn,
+    /// That it is completed or failed has been heard.
+    Heard,
+}
+
+/// A message.
+#[derive(Clone, Debug)]
+pub(super) enum Message {
+    /// A robot is there. `fit` says whether it can work.
+    Alive { busy: bool, fit: bool },
+    /// From the auctioneer: it has heard of the award, which holds until then. `complete` says
+    /// that all members have acknowledged it.
+    Prolong { award: AwardId, until_ms: u64, complete: bool },
+    /// These tasks are open.
+    Announce { round: u32, tasks: Rc<[usize]> },
+    /// A broker asks a bidder for its costs.
+    Request { round: u32, tasks: Rc<[usize]> },
+    /// What a bidder answers.
+    Reply { round: u32, offers: Rc<[Offer]> },
+    /// Costs of the robot in roles, or the best coalition that the broker answers for.
+    Bid { round: u32, offers: Rc<[Offer]>, coalition: Option<Share> },
+    /// An award of which the robot is a member, or the news that it is in none of this round.
+    Assign { award: Option<Rc<Award>>, until_ms: u64 },
+    /// The award is accepted.
+    Ack { award: AwardId },
+    /// It is not, or no longer.
+    Nack { award: AwardId },
+    /// How a role goes.
+    Status { award: AwardId, status: Status },
+    /// The end of an award.
+    Release { award: AwardId, ending: Ending },
+}
+
+/// What a coalition is to do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Award {
+    pub(super) id: AwardId,
+    pub(super) plan: usize,
+    /// The robot of each role.
+    pub(super) robots: Vec<usize>,
+    /// What each role may cost, in ms: beyond it the robot gives the task back.
+    pub(super) pledges_ms: Vec<u64>,
+    pub(super) members: RobotSet,
+    pub(super) auctioneer: usize,
+}
+
+/// A message under way.
+#[derive(Clone, Debug)]
+pub(super) struct Letter {
+    pub(super) from: Party,
+    pub(super) to: Party,
+    pub(super) message: Message,
+}
+
+/// The kinds of messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Kind {
+    /// Who is there, and for how long an award holds.
+    Alive,
+    /// What is open.
+    Announce,
+    /// A broker asks a bidder.
+    Request,
+    /// A bidder answers.
+    Reply,
+    /// A broker bids.
+    Bid,
+    /// Who does what.
+    Assign,
+    /// Accepted.
+    Ack,
+    /// Not accepted, or given back on demand.
+    Nack,
+    /// How a role goes.
+    Status,
+    /// An award is withdrawn, or its end was heard.
+    Release,
+}
+
+impl Kind {
+    /// All of them.
+    pub const ALL: [Self; 10] = [
+        Self::Alive,
+        Self::Announce,
+        Self::Request,
+        Self::Reply,
+        Self::Bid,
+        Self::Assign,
+        Self::Ack,
+        Self::Nack,
+        Self::Status,
+        Self::Release,
+    ];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Alive => "Alive",
+            Self::Announce => "Announce",
+            Self::Request => "Request",
+            Self::Reply => "Reply",
+            Self::Bid => "Bid",
+            Self::Assign => "Assign",
+            Self::Ack => "Ack",
+            Self::Nack => "Nack",
+            Self::Status => "Status",
+            Self::Release => "Release",
+        }
+    }
+}
+
+impl Message {
+    pub(super) const fn kind(&self) -> Kind {
+        match self {
+            Self::Alive { .. } | Self::Prolong { .. } => Kind::Alive,
+            Self::Announce { .. } => Kind::Announce,
+            Self::Request { .. } => Kind::Request,
+            Self::Reply { .. } => Kind::Reply,
+            Self::Bid { .. } => Kind::Bid,
+            Self::Assign { .. } => Kind::Assign,
+            Self::Ack { .. } => Kind::Ack,
+            Self::Nack { .. } => Kind::Nack,
+            Self::Status { .. } => Kind::Status,
+            Self::Release { .. } => Kind::Release,
+        }
+    }
+}

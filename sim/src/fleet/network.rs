@@ -1,0 +1,74 @@
+//! The network: it delays, loses, copies and so reorders what robots say to each other.
+
+use super::message::{Kind, Letter};
+use crate::streams::{Stream, Streams};
+
+/// How good the network is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Quality {
+    /// The least delay of a message, in ms.
+    pub delay_ms: u64,
+    /// So much more it may take, evenly, in ms.
+    pub jitter_ms: u64,
+    /// How many of a thousand messages are lost.
+    pub loss_permille: u16,
+    /// How many of a thousand arrive twice.
+    pub copies_permille: u16,
+}
+
+impl Quality {
+    /// Nothing is lost or copied.
+    pub const PERFECT: Self =
+        Self { delay_ms: 5, jitter_ms: 0, loss_permille: 0, copies_permille: 0 };
+    /// A wireless network in an office, but for its loss: assumed.
+    pub const OFFICE: Self =
+        Self { delay_ms: 5, jitter_ms: 45, loss_permille: 0, copies_permille: 5 };
+}
+
+/// A network, and what it was given.
+#[derive(Clone, Debug)]
+pub(super) struct Network {
+    quality: Quality,
+    loss: Stream,
+    delay: Stream,
+    copies: Stream,
+    sent: [u64; Kind::ALL.len()],
+    lost: u64,
+}
+
+impl Network {
+    pub(super) fn new(quality: Quality, streams: Streams) -> Self {
+        Self {
+            quality,
+            loss: streams.stream("network loss"),
+            delay: streams.stream("network delay"),
+            copies: streams.stream("network copies"),
+            sent: [0; Kind::ALL.len()],
+            lost: 0,
+        }
+    }
+
+    /// When a letter arrives, each time that it does. Who writes to itself needs no network.
+    pub(super) fn carry(&mut self, now_ms: u64, letter: &Letter) -> impl Iterator<Item = u64> {
+        let Quality { delay_ms, jitter_ms, loss_permille, copies_permille } = self.quality;
+        self.sent[letter.message.kind() as usize] += 1;
+        let own = letter.from.address() == letter.to.address();
+        let lost = !own && self.loss.below(1_000) < u64::from(loss_permille);
+        let copied = !own && self.copies.below(1_000) < u64::from(copies_permille);
+        self.lost += u64::from(lost);
+        let mut takes = || {
+            if own { now_ms } else { now_ms + delay_ms + self.delay.below(jitter_ms + 1) }
+        };
+        let arrivals = [(!lost).then(&mut takes), (!lost && copied).then(&mut takes)];
+        arrivals.into_iter().flatten()
+    }
+
+    /// How many messages of each kind were sent, in the order of [`Kind::ALL`].
+    pub(super) const fn sent(&self) -> [u64; Kind::ALL.len()] {
+        self.sent
+    }
+
+    pub(super) const fn lost(&self) -> u64 {
+        self.lost
+    }
+}

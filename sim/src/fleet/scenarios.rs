@@ -1,0 +1,392 @@
+//! What can be run: the drink service of the thesis, an office with a fleet, and the worst cases of
+//! its table of messages.
+
+use super::floor::{Floor, Place};
+use super::network::Quality;
+use super::task::{
+    Fault, FaultKind, FaultTime, Formation, Give, MAX_ROBOTS, Method, PlanSpec, RobotSpec,
+    RoleSpec, Scenario, Stage, Take, TaskSpec,
+};
+use crate::streams::{Stream, Streams};
+use cotama_core::team::Combine;
+use cotama_models::cotama::FailureMode;
+use cotama_models::team::service::{self, DETECT, GRASP_2F, MOVE};
+use cotama_models::team::{Action, ActionPlan, Capability, Constraint, Role, Skill};
+
+/// May enter the secured wing.
+const BADGE: Capability = Capability::new(6).expect("it is a small number");
+
+const ANYBODY: Role<'static> = carries(&[Constraint::Has(MOVE), Constraint::Has(GRASP_2F)]);
+const WITH_BADGE: Role<'static> =
+    carries(&[Constraint::Has(MOVE), Constraint::Has(GRASP_2F), Constraint::Has(BADGE)]);
+
+const fn carries(needs: &'static [Constraint<'static>]) -> Role<'static> {
+    // One action stands for all, as they need the same.
+    match needs.len() {
+        2 => Role { name: "carry", plans: &[ActionPlan { name: "carry", actions: &ANY_ACTIONS }] },
+        _ => {
+            Role { name: "carry", plans: &[ActionPlan { name: "carry", actions: &BADGE_ACTIONS }] }
+        }
+    }
+}
+
+const ANY_ACTIONS: [Action<'static>; 1] = [Action {
+    name: "carry",
+    needs: Constraint::All(&[Constraint::Has(MOVE), Constraint::Has(GRASP_2F)]),
+}];
+const BADGE_ACTIONS: [Action<'static>; 1] = [Action {
+    name: "carry with a badge",
+    needs: Constraint::All(&[
+        Constraint::Has(MOVE),
+        Constraint::Has(GRASP_2F),
+        Constraint::Has(BADGE),
+    ]),
+}];
+
+/// A fleet in an office.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FleetOptions {
+    /// How many robots; at most [`MAX_ROBOTS`].
+    pub robots: usize,
+    /// How many deliveries.
+    pub tasks: usize,
+    /// How many robots fail for good; as many others have a lesser failure.
+    pub failures: usize,
+    /// How many of a thousand messages get lost.
+    pub loss_permille: u16,
+    /// How tasks are given to robots.
+    pub method: Method,
+    /// The seed of all random numbers.
+    pub seed: u64,
+}
+
+impl Default for FleetOptions {
+    fn default() -> Self {
+        let method = Method::Optimal;
+        Self { robots: 40, tasks: 200, failures: 5, loss_permille: 50, method, seed: 0 }
+    }
+}
+
+/// Failures after which a robot does not work any more: some it finds, some make it silent.
+const STOPS: [FailureMode; 7] = [
+    FailureMode::Mot1,
+    FailureMode::Est1,
+    FailureMode::Bat3,
+    FailureMode::Pwr1,
+    FailureMode::Sw3,
+    FailureMode::Odo1,
+    FailureMode::Bmp2,
+];
+/// Failures with which it goes on: slower, or after a while.
+const LESSER: [FailureMode; 5] =
+    [FailureMode::Son1, FailureMode::Son2, FailureMode::Hum1, FailureMode::Mot2, FailureMode::Cam1];
+
+/// Corridor nodes of one of the two corridors; each has two offices.
+const NODES: usize = 12;
+/// From here on the second corridor is the secured wing, behind a door.
+const SECURED: usize = 8;
+/// How long a robot works for a delivery on average, with its way there: for how many come in which
+/// time.
+const WORK: u64 = 240_000;
+
+/// A fleet in an office: deliveries from office to office come one after the other; those into the
+/// secured wing are carried by a robot with a badge alone, or handed over at its door.
+///
+/// ```
+/// use cotama_sim::fleet::{record::Fate, run, scenarios::{FleetOptions, fleet}};
+/// let options = FleetOptions { robots: 8, tasks: 12, failures: 1, ..FleetOptions::default() };
+/// let run = run(&fleet(&options));
+/// assert!(run.is_sound());
+/// assert_eq!(run.count(Fate::Done) + run.count(Fate::Reported), 12);
+/// ```
+pub fn fleet(options: &FleetOptions) -> Scenario {
+    let robots = options.robots.clamp(1, MAX_ROBOTS);
+    let streams = Streams::new(options.seed);
+    let floor = office();
+    let horizon = options.tasks as u64 * WORK / robots as u64;
+    let (mut places, mut times) = (streams.stream("fleet tasks"), streams.stream("fleet times"));
+    let mut arrivals: Vec<u64> = (0..options.tasks).map(|_| times.below(horizon + 1)).collect();
+    arrivals.sort_unstable();
+    let offices = 2 * NODES as u64 * 2;
+    let tasks = arrivals.iter().enumerate().map(|(number, &arrival_ms)| {
+        let start = places.below(offices) as usize;
+        let goal = (start + 1 + places.below(offices - 1) as usize) % offices as usize;
+        delivery(number, arrival_ms, start, goal)
+    });
+    let robot = |number: usize| RobotSpec {
+        name: format!("r{:02}", number + 1),
+        skills: [MOVE, DETECT, GRASP_2F]
+            .into_iter()
+            .chain((number.is_multiple_of(3)).then_some(BADGE))
+            .map(Skill::certain)
+            .collect(),
+        start: Place(number * 7 % (2 * NODES)),
+    };
+    Scenario {
+        name: "fleet".into(),
+        floor,
+        robots: (0..robots).map(robot).collect(),
+        tasks: tasks.collect(),
+        faults: faults(robots, options.failures, horizon, &mut streams.stream("fleet faults")),
+        network: Quality { loss_permille: options.loss_permille, ..Quality::OFFICE },
+        method: options.method,
+        formation: Formation::Central,
+        auctioneer: None,
+        slack_permille: 1_000,
+        second_best: false,
+        seed: options.seed,
+    }
+}
+
+/// Some robots fail for good, as many others in part.
+fn faults(robots: usize, failures: usize, horizon: u64, stream: &mut Stream) -> Vec<Fault> {
+    let mut order: Vec<usize> = (0..robots).collect();
+    for at in (1..robots).rev() {
+        order.swap(at, stream.below(at as u64 + 1) as usize);
+    }
+    let modes = [&STOPS[..], &LESSER[..]];
+    let each = order.iter().take(2 * failures).enumerate().map(|(number, &robot)| {
+        let modes = modes[usize::from(number >= failures)];
+        let mode = modes[stream.below(modes.len() as u64) as usize];
+        let when = FaultTime::At(stream.below(horizon + 1));
+        Fault { when, what: FaultKind::Robot(robot, mode) }
+    });
+    each.collect()
+}
+
+/// Two corridors of 72 m, joined at both ends and in the middle, with an office on each side of
+/// each corridor node.
+fn office() -> Floor {
+    let corridor = |it: usize| format!("{}{}", ["A", "B"][it / NODES], it % NODES + 1);
+    let mut names: Vec<String> = (0..2 * NODES).map(corridor).collect();
+    for it in 0..4 * NODES {
+        names.push(format!("{}{}", corridor(it / 2), ["l", "r"][it % 2]));
+    }
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let along = (0..2 * NODES - 1).filter(|it| it % NODES != NODES - 1);
+    let along = along.map(|it| (it, it + 1, 6_000));
+    let across = [0, NODES / 2, NODES - 1].map(|it| (it, it + NODES, 12_000));
+    let doors = (0..4 * NODES).map(|it| (it / 2, 2 * NODES + it, 3_000));
+    let ways: Vec<_> = along.chain(across).chain(doors).collect();
+    Floor::new(&names, &ways)
+}
+
+/// A delivery from one office to another.
+fn delivery(number: usize, arrival_ms: u64, start: usize, goal: usize) -> TaskSpec {
+    let secured = |office: usize| office / 2 >= NODES + SECURED;
+    let place = |office: usize| Place(2 * NODES + office);
+    // Just outside of the secured wing.
+    let door = Place(NODES + SECURED - 1);
+    let role = |role: &'static Role<'static>, take: Take, give: Give| RoleSpec {
+        role,
+        take,
+        give,
+        take_ms: 5_000,
+        give_ms: 5_000,
+    };
+    let alone = |it: &'static Role<'static>| PlanSpec {
+        name: "carry".into(),
+        extra_ms: 0,
+        roles: vec![role(it, Take::Object, Give::Goal)],
+    };
+    let plans = match (secured(start), secured(goal)) {
+        (false, false) => vec![alone(&ANYBODY)],
+        (false, true) => vec![
+            alone(&WITH_BADGE),
+            PlanSpec {
+                name: "hand over".into(),
+                extra_ms: 0,
+                roles: vec![
+                    role(&ANYBODY, Take::Object, Give::Partner(door)),
+                    role(&WITH_BADGE, Take::Partner(door), Give::Goal),
+                ],
+            },
+        ],
+        _ => vec![alone(&WITH_BADGE)],
+    };
+    TaskSpec {
+        name: format!("d{:03}", number + 1),
+        arrival_ms,
+        after: None,
+        start: place(start),
+        goal: place(goal),
+        utility_ms: 1_800_000,
+        combine: Combine::Sum,
+        plans,
+    }
+}
+
+/// The drink service.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ServiceOptions {
+    /// The cup stands so that two fingers cannot grasp it: run 1 of the thesis.
+    pub hidden_handle: bool,
+    /// The three disturbances of run 2.
+    pub disturbances: bool,
+    /// How many of a thousand messages get lost.
+    pub loss_permille: u16,
+    /// The seed of the network.
+    pub seed: u64,
+}
+
+/// The drink service (3.6): a person orders at the desk; a cup in the kitchen is to be served.
+/// Speeds are those of the delivery robot, distances and times of hands are assumed.
+///
+/// ```
+/// use cotama_sim::fleet::{record::Fate, run, scenarios::{ServiceOptions, service}};
+/// let run = run(&service(&ServiceOptions { disturbances: true, ..ServiceOptions::default() }));
+/// assert_eq!((run.rounds, run.count(Fate::Done), run.awards), (4, 2, vec![1, 3]));
+/// ```
+pub fn service(options: &ServiceOptions) -> Scenario {
+    let names = ["desk", "hall", "kitchen", "billiards", "lounge"];
+    let ways = [(0, 1, 4_000), (1, 2, 6_000), (1, 3, 9_000), (1, 4, 40_000)];
+    let [desk, hall, kitchen, billiards, lounge] = [0, 1, 2, 3, 4].map(Place);
+    let starts = [hall, lounge, lounge, billiards];
+    let named = |name: &str| format!("{}{}", name[..1].to_uppercase(), &name[1..]);
+    let robots = service::ROBOTS.iter().zip(starts).map(|(it, start)| RobotSpec {
+        name: named(it.name),
+        skills: it.skills.to_vec(),
+        start,
+    });
+    let ms = |seconds: u32| seconds * 1_000;
+    let task = |spec: &'static cotama_models::team::Task<'static>| {
+        let plans = spec.plans.iter().map(move |plan| PlanSpec {
+            name: plan.name.into(),
+            extra_ms: ms(plan.extra),
+            roles: plan
+                .roles
+                .iter()
+                .enumerate()
+                .map(|(place, role)| service_role(role, place, plan.roles.len(), desk))
+                .collect(),
+        });
+        TaskSpec {
+            name: spec.name.into(),
+            arrival_ms: 1_000,
+            after: None,
+            start: kitchen,
+            goal: desk,
+            utility_ms: ms(spec.utility),
+            combine: spec.combine,
+            plans: plans.collect(),
+        }
+    };
+    let serve = TaskSpec { after: Some(0), ..task(&service::SERVE) };
+    let (eddie, poppy) = (0, 2);
+    let takes = |time: u32, after_ms: u64, what: FaultKind| Fault {
+        when: FaultTime::During { robot: eddie, task: 1, stage: Stage::Takes, time, after_ms },
+        what,
+    };
+    let stop =
+        FaultTime::During { robot: poppy, task: 1, stage: Stage::ToGive, time: 1, after_ms: 5_000 };
+    let mut faults = Vec::new();
+    if options.hidden_handle {
+        faults.push(Fault { when: FaultTime::At(0), what: FaultKind::Turned(1) });
+    }
+    if options.disturbances {
+        faults.push(takes(1, 5_000, FaultKind::Shifted(1)));
+        faults.push(takes(2, 5_000, FaultKind::Turned(1)));
+        faults.push(Fault { when: stop, what: FaultKind::Robot(eddie, FailureMode::Est1) });
+    }
+    Scenario {
+        name: "service".into(),
+        floor: Floor::new(&names, &ways),
+        robots: robots.collect(),
+        tasks: vec![task(&service::ORDER), serve],
+        faults,
+        network: Quality { loss_permille: options.loss_permille, ..Quality::OFFICE },
+        method: Method::Optimal,
+        formation: Formation::Distributed,
+        auctioneer: Some(eddie),
+        slack_permille: 500,
+        second_best: true,
+        seed: options.seed,
+    }
+}
+
+/// A role of the service: where its cup comes from and goes to.
+fn service_role(role: &'static Role<'static>, place: usize, roles: usize, desk: Place) -> RoleSpec {
+    let last = place + 1 == roles;
+    let (take, give) = match role.name {
+        "order" => (Take::Words(desk), Give::Nobody),
+        _ => (
+            if place == 0 { Take::Object } else { Take::Partner(desk) },
+            if last { Give::Goal } else { Give::Partner(desk) },
+        ),
+    };
+    let (take_ms, give_ms) = match role.name {
+        "order" => (15_000, 0),
+        "fetch" => (10_000, 8_000),
+        _ => (10_000, 18_000), // with the talk
+    };
+    RoleSpec { role, take, give, take_ms, give_ms }
+}
+
+/// What the table of messages is counted on (Table 3.1).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Worst {
+    /// As many tasks of one robot as robots.
+    Singles,
+    /// One task for all robots at once.
+    Together,
+    /// The same, where brokers look for the coalition.
+    TogetherDistributed,
+}
+
+/// The worst case of a round for so many robots, over a perfect network.
+///
+/// ```
+/// use cotama_sim::fleet::{Kind, run, scenarios::{Worst, worst}};
+/// let run = run(&worst(Worst::Together, 4));
+/// assert_eq!([Kind::Announce, Kind::Bid, Kind::Assign, Kind::Ack].map(|it| run.sent(it)), [
+///     4, 4, 4, 16
+/// ]);
+/// ```
+pub fn worst(case: Worst, robots: usize) -> Scenario {
+    let names: Vec<String> = (0..=robots).map(|it| it.to_string()).collect();
+    let names: Vec<&str> = names.iter().map(String::as_str).collect();
+    let ways: Vec<_> = (1..=robots).map(|it| (0, it, 3_000)).collect();
+    let role = |place: usize| RoleSpec {
+        role: &ANYBODY,
+        take: Take::Words(Place(place)),
+        give: Give::Nobody,
+        take_ms: 1_000,
+        give_ms: 0,
+    };
+    let task = |number: usize, roles: Vec<RoleSpec>| TaskSpec {
+        name: format!("t{}", number + 1),
+        arrival_ms: 0,
+        after: None,
+        start: Place(0),
+        goal: Place(0),
+        utility_ms: 1_000_000,
+        combine: Combine::Mean,
+        plans: vec![PlanSpec { name: "go".into(), extra_ms: 0, roles }],
+    };
+    let tasks = match case {
+        Worst::Singles => (0..robots).map(|it| task(it, vec![role(it + 1)])).collect(),
+        _ => vec![task(0, (1..=robots).map(role).collect())],
+    };
+    let robot = |number: usize| RobotSpec {
+        name: format!("r{}", number + 1),
+        skills: vec![Skill::certain(MOVE), Skill::certain(GRASP_2F)],
+        start: Place(0),
+    };
+    Scenario {
+        name: "worst case of a round".into(),
+        floor: Floor::new(&names, &ways),
+        robots: (0..robots).map(robot).collect(),
+        tasks,
+        faults: Vec::new(),
+        network: Quality::PERFECT,
+        method: Method::Optimal,
+        formation: match case {
+            Worst::TogetherDistributed => Formation::Distributed,
+            _ => Formation::Central,
+        },
+        auctioneer: None,
+        slack_permille: 1_000,
+        second_best: false,
+        seed: 0,
+    }
+}

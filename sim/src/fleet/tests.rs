@@ -1,0 +1,132 @@
+//! What must hold of every run.
+
+use super::campaign::compare;
+use super::record::{Fate, Record, Run};
+use super::scenarios::{FleetOptions, ServiceOptions, Worst, fleet, service, worst};
+use super::task::Method;
+use super::world::{Variant, World};
+use super::{Kind, run, run_recorded};
+
+/// Table 3.1, worst case: 4n, n² + 3n and 3n² + 3n.
+#[test]
+fn simulated_messages_are_those_of_the_table() {
+    let table = [
+        (Worst::Singles, [16, 24, 32, 40, 48]),
+        (Worst::Together, [28, 54, 88, 130, 180]),
+        (Worst::TogetherDistributed, [60, 126, 216, 330, 468]),
+    ];
+    use Kind::{Ack, Announce, Assign, Bid, Reply, Request};
+    for (case, counts) in table {
+        for (n, count) in [4_u64, 6, 8, 10, 12].into_iter().zip(counts) {
+            let run = run(&worst(case, n as usize));
+            assert_eq!((run.rounds, run.count(Fate::Done)), (1, run.fates.len()), "{case:?} {n}");
+            let sent = |it| run.sent(it);
+            let kinds = [Announce, Request, Reply, Bid, Assign, Ack];
+            assert_eq!(kinds.into_iter().map(sent).sum::<u64>(), count, "{case:?} {n}");
+            let asked = if case == Worst::TogetherDistributed { n * n } else { 0 };
+            let acks = if case == Worst::Singles { n } else { n * n };
+            assert_eq!(kinds.map(sent), [n, asked, asked, n, n, acks], "{case:?} {n}");
+        }
+    }
+}
+
+fn names(scenario: &super::task::Scenario, robots: &[usize]) -> Vec<String> {
+    robots.iter().map(|it| scenario.robots[*it].name.clone()).collect()
+}
+
+/// Run 2 of the thesis (3.6, Fig. 3.7).
+#[test]
+fn disturbances_lead_to_the_auctions_and_errors_of_the_thesis() {
+    let scenario = service(&ServiceOptions { disturbances: true, ..ServiceOptions::default() });
+    let (run, records) = run_recorded(&scenario);
+    assert!(run.is_sound());
+    let mut awards = Vec::new();
+    let mut errors = Vec::new();
+    for it in &records {
+        match it {
+            Record::Awarded { task, plan, robots, .. } => {
+                awards.push((
+                    scenario.tasks[*task].name.as_str(),
+                    plan.as_str(),
+                    names(&scenario, robots),
+                ));
+            }
+            Record::Error { robot, class, .. } => {
+                errors.push((scenario.robots[*robot].name.as_str(), class.as_str()));
+            }
+            _ => {}
+        }
+    }
+    let team = |it: &[&str]| it.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>();
+    assert_eq!(
+        awards,
+        [
+            ("order", "order", team(&["Eddie"])),
+            ("serve", "bring", team(&["Eddie"])),
+            ("serve", "fetch-and-bring", team(&["Poppy", "Eddie"])),
+            ("serve", "fetch", team(&["Poppy"])),
+        ]
+    );
+    assert_eq!(
+        errors,
+        [("Eddie", "recoverable"), ("Eddie", "semi-recoverable"), ("Eddie", "semi-recoverable"),]
+    );
+    assert_eq!((run.rounds, run.awards), (4, vec![1, 3]));
+}
+
+fn check(run: &Run, what: &str) {
+    assert!(run.is_sound(), "{what}: {run:?}");
+}
+
+#[test]
+fn every_task_of_a_fleet_is_done_once_or_reported() {
+    for seed in 0..20 {
+        let loss_permille = [10, 50, 100, 200][seed as usize % 4];
+        let options = FleetOptions { seed, loss_permille, ..FleetOptions::default() };
+        check(&run(&fleet(&options)), &format!("{options:?}"));
+    }
+}
+
+#[test]
+fn the_same_seed_gives_the_same_run_and_silent_rounds_change_nothing() {
+    let options = FleetOptions { robots: 10, tasks: 30, failures: 3, ..FleetOptions::default() };
+    let scenario = fleet(&options);
+    let (first, records) = run_recorded(&scenario);
+    assert_eq!(run_recorded(&scenario), (first.clone(), records));
+    assert_eq!(run(&scenario), first);
+    let every_round = Some(Variant::EveryRound);
+    assert_eq!(World::new(&scenario, false, every_round).run().0, first);
+}
+
+/// How many of some runs with much loss are not sound.
+fn unsound(variant: Option<Variant>) -> usize {
+    let unsound = (0..30).filter(|&seed| {
+        let (robots, tasks, loss_permille) = (20, 40, 500);
+        let options =
+            FleetOptions { seed, robots, tasks, loss_permille, ..FleetOptions::default() };
+        !World::new(&fleet(&options), false, variant).run().0.is_sound()
+    });
+    unsound.count()
+}
+
+/// Without its terms the protocol fails, so the checks can.
+#[test]
+fn without_leases_or_deadlines_runs_are_not_sound() {
+    assert_eq!(unsound(None), 0);
+    assert!(unsound(Some(Variant::NoLease)) > 0);
+    assert!(unsound(Some(Variant::NoDeadline)) > 0);
+}
+
+#[test]
+#[ignore = "takes a minute"]
+fn every_task_is_done_once_or_reported_over_a_thousand_seeds() {
+    let threads = std::thread::available_parallelism().map_or(1, usize::from);
+    for (number, loss_permille) in [10, 20, 50, 100, 200].into_iter().enumerate() {
+        let seed = 1_000 * number as u64;
+        let options = FleetOptions { seed, loss_permille, ..FleetOptions::default() };
+        let results = compare(&options, 200, &[Method::Optimal], threads);
+        let (ended, unsound) = (results[0].done + results[0].reported, results[0].unsound);
+        assert_eq!((ended, unsound), (200 * 200, 0), "{loss_permille}: {results:?}");
+        println!("{loss_permille}: {results:?}");
+    }
+}

@@ -1,0 +1,597 @@
+//! The auctioneer: it announces, awards, watches, and puts up again.
+
+use super::{LEASE, TICK, Variant, World};
+use crate::fleet::allocate::{denominator, is_shared};
+use crate::fleet::message::{Award, AwardId, Ending, Kind, Message, Party, Status};
+use crate::fleet::record::{Fate, Record};
+use crate::fleet::task::{ErrorClass, Offer, Scenario, Share};
+use cotama_core::team::RobotSet;
+use cotama_models::team::Pledge;
+use std::rc::Rc;
+
+/// Bids are waited for so long, in ms; who is silent is asked again after a third of it.
+const BIDS: u64 = 1_500;
+/// Acknowledgements are waited for so long, in ms.
+const ACKS: u64 = 4_000;
+/// Between two auctions so much time passes at least, in ms.
+const PAUSE: u64 = 1_000;
+/// And so much if nothing was awarded and nothing has changed, in ms.
+const VAIN_PAUSE: u64 = 5_000;
+/// Who was not heard of for so long is not waited for, in ms.
+const SILENCE: u64 = 7_000;
+/// A task is reported after so many awards, and after so many auctions without a bid although
+/// nobody was busy who could bid later.
+const MOST_AWARDS: u32 = 10;
+const MOST_VAIN: u32 = 3;
+/// So many tasks are announced at once; the oldest first.
+const ANNOUNCED: usize = 32;
+
+/// Where a task is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum State {
+    Unknown,
+    Open,
+    Announced,
+    Awarded,
+    Executing,
+    /// The award is withdrawn: members confirm, or its time runs out.
+    Withdrawn,
+    Done,
+    Reported,
+}
+
+/// What the auctioneer knows of a task.
+#[derive(Clone, Debug)]
+struct Ticket {
+    state: State,
+    known_since: u64,
+    award: Option<Rc<Award>>,
+    acked: RobotSet,
+    completed: RobotSet,
+    gone: RobotSet,
+    /// Until when the award holds for each member, by its place.
+    until: Vec<u64>,
+    resend: u64,
+    deadline: u64,
+    awards: u32,
+    vain: u32,
+    /// An earlier award of it turned out to be completed.
+    finished: bool,
+    /// Why it is to be reported.
+    report: Option<&'static str>,
+    /// Awards before this one, with who completed.
+    past: Vec<(Rc<Award>, RobotSet)>,
+}
+
+/// An auction under way.
+#[derive(Clone, Debug)]
+struct Auction {
+    round: u32,
+    tasks: Rc<[usize]>,
+    /// Who is waited for, and who has bid.
+    wanted: RobotSet,
+    heard: RobotSet,
+    bids: Vec<(usize, Rc<[Offer]>)>,
+    shares: Vec<Share>,
+    resend: u64,
+    deadline: u64,
+}
+
+/// What the auctioneer knows.
+#[derive(Clone, Debug)]
+pub(super) struct Auctioneer {
+    address: usize,
+    round: u32,
+    auction: Option<Auction>,
+    next_auction: u64,
+    tickets: Vec<Ticket>,
+    /// Tasks that are neither unknown nor over.
+    live: Vec<usize>,
+    /// Of each robot when it was last heard of, and what it said.
+    last_heard: Vec<u64>,
+    busy: RobotSet,
+    unfit: RobotSet,
+}
+
+impl Auctioneer {
+    pub(super) fn new(scenario: &Scenario) -> Self {
+        let ticket = Ticket {
+            state: State::Unknown,
+            known_since: 0,
+            award: None,
+            acked: 0,
+            completed: 0,
+            gone: 0,
+            until: Vec::new(),
+            resend: 0,
+            deadline: 0,
+            awards: 0,
+            vain: 0,
+            finished: false,
+            report: None,
+            past: Vec::new(),
+        };
+        Self {
+            address: scenario.auctioneer.unwrap_or(scenario.robots.len()),
+            round: 0,
+            auction: None,
+            next_auction: 0,
+            tickets: vec![ticket; scenario.tasks.len()],
+            live: Vec::new(),
+            last_heard: vec![0; scenario.robots.len()],
+            busy: 0,
+            unfit: 0,
+        }
+    }
+
+    pub(super) const fn party(&self) -> Party {
+        Party::Auctioneer(self.address)
+    }
+
+    pub(super) fn known_since(&self, task: usize) -> u64 {
+        self.tickets[task].known_since
+    }
+
+    /// Something is open or somebody free: an auction may come to more than the last.
+    fn changed(&mut self, now: u64) {
+        self.next_auction = self.next_auction.min(now + PAUSE);
+    }
+
+    /// The robots with an award.
+    fn engaged(&self) -> RobotSet {
+        let awards = self.live.iter().filter_map(|it| {
+            let ticket = &self.tickets[*it];
+            let award = ticket.award.as_ref()?;
+            let works = matches!(ticket.state, State::Awarded | State::Executing);
+            works.then_some(award.members & !ticket.completed)
+        });
+        awards.fold(0, |all, it| all | it)
+    }
+}
+
+impl World<'_> {
+    /// A task becomes known.
+    pub(super) fn open(&mut self, task: usize) {
+        self.note(|t_ms| Record::Opened { t_ms, task });
+        let (now, ticket) = (self.now, &mut self.auctioneer.tickets[task]);
+        (ticket.state, ticket.known_since) = (State::Open, now);
+        self.auctioneer.live.push(task);
+        self.auctioneer.changed(now);
+    }
+
+    /// The auctioneer looks at its tasks.
+    pub(super) fn tick(&mut self) {
+        for task in self.auctioneer.live.clone() {
+            match self.auctioneer.tickets[task].state {
+                State::Awarded => self.watch_award(task),
+                State::Executing => self.watch_work(task),
+                State::Withdrawn => self.watch_withdrawal(task),
+                _ => {}
+            }
+        }
+        self.auctioneer.live.retain(|it| {
+            !matches!(self.auctioneer.tickets[*it].state, State::Done | State::Reported)
+        });
+        match &self.auctioneer.auction {
+            Some(auction) => {
+                let (resend, late) = (self.now >= auction.resend, self.now >= auction.deadline);
+                if late && self.variant != Some(Variant::NoDeadline) {
+                    self.award();
+                } else if resend {
+                    self.ask_again();
+                }
+            }
+            None if self.now >= self.auctioneer.next_auction => self.announce(),
+            None => {}
+        }
+    }
+
+    /// The bids of the open tasks are asked for.
+    fn announce(&mut self) {
+        let auctioneer = &self.auctioneer;
+        let open = auctioneer.live.iter().copied();
+        let open = open.filter(|it| auctioneer.tickets[*it].state == State::Open);
+        let mut open: Vec<usize> = open.collect();
+        if open.is_empty() {
+            return;
+        }
+        let all: RobotSet = (1 << self.robots.len()) - 1;
+        let heard = |it: &usize| auctioneer.last_heard[*it] + SILENCE >= self.now;
+        let wanted = (0..self.robots.len()).filter(heard).fold(0, |all, it| all | 1 << it);
+        let engaged = auctioneer.engaged();
+        if wanted & !engaged & !auctioneer.unfit == 0 && engaged != 0 {
+            return;
+        }
+        // Brokers share the coalitions of one task.
+        let several = |it: usize| self.scenario.tasks[it].plans.iter().any(|it| it.roles.len() > 1);
+        if is_shared(self.scenario)
+            && let Some(&first) = open.iter().find(|it| several(**it))
+        {
+            open = vec![first];
+        }
+        open.truncate(ANNOUNCED);
+        self.auctioneer.round += 1;
+        let (round, tasks): (u32, Rc<[usize]>) = (self.auctioneer.round, open.into());
+        for &task in &*tasks {
+            self.auctioneer.tickets[task].state = State::Announced;
+        }
+        self.auctioneer.auction = Some(Auction {
+            round,
+            tasks,
+            wanted,
+            heard: 0,
+            bids: Vec::new(),
+            shares: Vec::new(),
+            resend: self.now + BIDS / 3,
+            deadline: self.now + BIDS,
+        });
+        self.run.rounds += 1;
+        self.announce_to(all);
+    }
+
+    fn announce_to(&mut self, robots: RobotSet) {
+        let Some(auction) = &self.auctioneer.auction else { return };
+        let (round, tasks) = (auction.round, Rc::clone(&auction.tasks));
+        for robot in (0..self.robots.len()).filter(|it| robots >> it & 1 == 1) {
+            let (from, tasks) = (self.auctioneer.party(), Rc::clone(&tasks));
+            self.send(from, Party::Robot(robot), Message::Announce { round, tasks });
+        }
+    }
+
+    fn ask_again(&mut self) {
+        let Some(auction) = &mut self.auctioneer.auction else { return };
+        auction.resend = self.now + BIDS / 3;
+        let silent = auction.wanted & !auction.heard;
+        self.announce_to(silent);
+    }
+
+    /// Who does what, from the bids that have come.
+    fn award(&mut self) {
+        let Some(mut auction) = self.auctioneer.auction.take() else { return };
+        auction.bids.sort_by_key(|it| it.0);
+        let tickets = &self.auctioneer.tickets;
+        let open = auction.tasks.iter().copied();
+        let open: Vec<usize> = open.filter(|it| !tickets[*it].finished).collect();
+        let waited: Vec<u64> = open.iter().map(|&it| self.now - tickets[it].known_since).collect();
+        let bids: Vec<(usize, &[Offer])> = auction.bids.iter().map(|it| (it.0, &*it.1)).collect();
+        let (chosen, second) = if auction.shares.is_empty() {
+            let chosen = self.allocator.choose(self.scenario, &open, &waited, &bids);
+            let second = chosen.iter().map(|it| second_best(self.scenario, it, &bids)).collect();
+            (chosen, second)
+        } else {
+            best_share(self.scenario, &auction.shares)
+        };
+        let (round, heard) = (auction.round, auction.heard.count_ones() as usize);
+        let (tasks, awards) = (auction.tasks.to_vec(), chosen.len());
+        self.note(|t_ms| Record::Round { t_ms, round, tasks, bids: heard, awards });
+        // Who bids the same again is asked again when something has changed, or later.
+        self.auctioneer.next_auction = self.now + if awards > 0 { PAUSE } else { VAIN_PAUSE };
+        let mut told: RobotSet = 0;
+        for (share, second) in chosen.iter().zip(&second) {
+            told |= self.award_to(share, round, *second);
+        }
+        for robot in (0..self.robots.len()).filter(|it| told >> it & 1 == 0) {
+            let (from, until_ms) = (self.auctioneer.party(), 0);
+            let message = Message::Assign { award: None, until_ms };
+            self.send(from, Party::Robot(robot), message);
+        }
+        for &task in &*auction.tasks {
+            if self.auctioneer.tickets[task].state == State::Announced {
+                self.not_awarded(task, &auction);
+            }
+        }
+    }
+
+    /// A task got no award in an auction.
+    fn not_awarded(&mut self, task: usize, auction: &Auction) {
+        let offered = auction.bids.iter().any(|it| it.1.iter().any(|it| it.task == task));
+        let offered = offered || !auction.shares.is_empty();
+        let engaged = self.auctioneer.engaged() | self.auctioneer.busy;
+        let ticket = &mut self.auctioneer.tickets[task];
+        ticket.state = State::Open;
+        if ticket.finished {
+            self.close(task);
+            return;
+        }
+        let complete = auction.wanted & !auction.heard == 0;
+        ticket.vain = if offered || engaged != 0 || !complete { 0 } else { ticket.vain + 1 };
+        if ticket.vain >= MOST_VAIN {
+            ticket.report = Some("nobody who is left can do it");
+            self.close(task);
+        }
+    }
+
+    /// An award goes to its members; who they are.
+    fn award_to(&mut self, share: &Share, round: u32, second: Option<u64>) -> RobotSet {
+        let members = share.robots.iter().fold(0, |all: RobotSet, it| all | 1 << it.0);
+        // A partner waits for the slowest.
+        let slowest = share.robots.iter().map(|it| u64::from(it.1)).max().unwrap_or(0);
+        let alone = share.robots.len() == 1 && self.scenario.second_best;
+        let pledge = Pledge::of(slowest, second.filter(|_| alone), self.scenario.slack_permille);
+        let pledges_ms = vec![pledge.most; share.robots.len()];
+        let award = Rc::new(Award {
+            id: AwardId { task: share.task, round },
+            plan: share.plan,
+            robots: share.robots.iter().map(|it| it.0).collect(),
+            pledges_ms: pledges_ms.clone(),
+            members,
+            auctioneer: self.auctioneer.address,
+        });
+        let plan = self.scenario.tasks[share.task].plans[share.plan].name.clone();
+        let (task, robots) = (share.task, award.robots.clone());
+        let costs_ms = share.robots.iter().map(|it| it.1).collect();
+        self.note(|t_ms| Record::Awarded { t_ms, task, round, plan, robots, costs_ms, pledges_ms });
+        self.run.awards[task] += 1;
+        let ticket = &mut self.auctioneer.tickets[task];
+        if let Some(before) = ticket.award.take() {
+            ticket.past.push((before, ticket.completed));
+        }
+        (ticket.state, ticket.acked, ticket.completed, ticket.gone) = (State::Awarded, 0, 0, 0);
+        (ticket.until, ticket.vain) = (vec![0; award.robots.len()], 0);
+        ticket.awards += 1;
+        ticket.deadline = self.now + ACKS;
+        ticket.award = Some(award);
+        self.assign(task);
+        members
+    }
+
+    /// Tells those members of their award who have not acknowledged.
+    fn assign(&mut self, task: usize) {
+        let (until_ms, from) = (self.now + LEASE, self.auctioneer.party());
+        let ticket = &mut self.auctioneer.tickets[task];
+        ticket.resend = self.now + 2 * TICK;
+        let Some(award) = ticket.award.clone() else { return };
+        for (place, &robot) in award.robots.iter().enumerate() {
+            if self.auctioneer.tickets[task].acked >> robot & 1 == 1 {
+                continue;
+            }
+            self.auctioneer.tickets[task].until[place] = until_ms;
+            let message = Message::Assign { award: Some(Rc::clone(&award)), until_ms };
+            self.send(from, Party::Robot(robot), message);
+        }
+    }
+
+    fn watch_award(&mut self, task: usize) {
+        let ticket = &self.auctioneer.tickets[task];
+        if self.now >= ticket.deadline {
+            self.withdraw(task);
+        } else if self.now >= ticket.resend {
+            self.assign(task);
+        }
+    }
+
+    /// Whether a member was not heard of for so long that its award has run out.
+    fn watch_work(&mut self, task: usize) {
+        let ticket = &self.auctioneer.tickets[task];
+        let Some(award) = ticket.award.clone() else { return };
+        let over = |it: &(usize, &usize)| {
+            ticket.completed >> it.1 & 1 == 0 && self.now > ticket.until[it.0]
+        };
+        let silent: Vec<usize> =
+            award.robots.iter().enumerate().filter(over).map(|it| *it.1).collect();
+        if silent.is_empty() {
+            return;
+        }
+        for &robot in &silent {
+            self.note(|t_ms| Record::Silent { t_ms, robot, task });
+        }
+        self.withdraw(task);
+    }
+
+    /// Takes an award back.
+    fn withdraw(&mut self, task: usize) {
+        let ticket = &mut self.auctioneer.tickets[task];
+        (ticket.state, ticket.resend) = (State::Withdrawn, self.now);
+        self.watch_withdrawal(task);
+    }
+
+    /// When all members have left, or their time is over, the task is open again.
+    fn watch_withdrawal(&mut self, task: usize) {
+        let now = self.now;
+        let ticket = &mut self.auctioneer.tickets[task];
+        let Some(award) = ticket.award.clone() else { return };
+        let left = ticket.gone | ticket.completed;
+        let lease = self.variant != Some(Variant::NoLease);
+        let held = award.robots.iter().enumerate().filter(|it| left >> it.1 & 1 == 0);
+        let held: Vec<usize> =
+            held.filter(|it| lease && now <= ticket.until[it.0]).map(|it| *it.1).collect();
+        if held.is_empty() {
+            let all = ticket.completed & award.members == award.members;
+            ticket.finished |= all;
+            if !ticket.finished {
+                if ticket.awards >= MOST_AWARDS {
+                    ticket.report.get_or_insert("it was given back too often");
+                }
+                if ticket.report.is_none() {
+                    ticket.state = State::Open;
+                    self.auctioneer.changed(now);
+                    self.run.reopened += 1;
+                    self.note(|t_ms| Record::Reopened { t_ms, task });
+                    return;
+                }
+            }
+            self.close(task);
+        } else if now >= ticket.resend {
+            ticket.resend = now + 2 * TICK;
+            for robot in held {
+                self.release(robot, award.id, Ending::Withdrawn);
+            }
+        }
+    }
+
+    /// The task is over.
+    fn close(&mut self, task: usize) {
+        self.auctioneer.changed(self.now);
+        let ticket = &mut self.auctioneer.tickets[task];
+        if ticket.finished {
+            ticket.state = State::Done;
+            let robots = ticket.award.as_ref().map_or(Vec::new(), |it| it.robots.clone());
+            self.note(|t_ms| Record::Done { t_ms, task, robots });
+            self.ends(task, Fate::Done);
+        } else {
+            let why = ticket.report.unwrap_or("it cannot be done");
+            ticket.state = State::Reported;
+            self.note(|t_ms| Record::Reported { t_ms, task, why: why.to_owned() });
+            self.ends(task, Fate::Reported);
+        }
+    }
+
+    /// What the auctioneer hears.
+    pub(super) fn auctioneer_hears(&mut self, robot: usize, message: Message) {
+        let (now, auctioneer) = (self.now, &mut self.auctioneer);
+        let bit: RobotSet = 1 << robot;
+        auctioneer.last_heard[robot] = now;
+        debug_assert!(message.kind() != Kind::Announce);
+        match message {
+            Message::Alive { busy, fit } => {
+                auctioneer.busy = auctioneer.busy & !bit | if busy { bit } else { 0 };
+                auctioneer.unfit = auctioneer.unfit & !bit | if fit { 0 } else { bit };
+            }
+            Message::Bid { round, offers, coalition } => {
+                let Some(auction) = &mut auctioneer.auction else { return };
+                if auction.round != round || auction.heard & bit != 0 {
+                    return;
+                }
+                auction.heard |= bit;
+                auction.bids.push((robot, offers));
+                auction.shares.extend(coalition);
+                if auction.wanted & !auction.heard == 0 {
+                    self.award();
+                }
+            }
+            Message::Ack { award } => self.acked(robot, award),
+            Message::Nack { award } => self.refused(robot, award),
+            Message::Status { award, status } => match status {
+                Status::Progress => self.prolong(robot, award),
+                Status::Completed => self.completed(robot, award),
+                Status::Failed(class) => self.failed(robot, award, class),
+            },
+            _ => {}
+        }
+    }
+
+    /// The ticket of an award, if it is the one in force.
+    fn in_force(&mut self, award: AwardId) -> Option<&mut Ticket> {
+        let ticket = self.auctioneer.tickets.get_mut(award.task)?;
+        let same = ticket.award.as_ref().is_some_and(|it| it.id == award);
+        let live = matches!(ticket.state, State::Awarded | State::Executing | State::Withdrawn);
+        (same && live).then_some(ticket)
+    }
+
+    fn acked(&mut self, robot: usize, award: AwardId) {
+        if let Some(ticket) = self.in_force(award) {
+            ticket.acked |= 1 << robot;
+            let all = ticket.award.as_ref().is_some_and(|it| it.members & !ticket.acked == 0);
+            if all && ticket.state == State::Awarded {
+                ticket.state = State::Executing;
+            }
+        }
+        self.prolong(robot, award);
+    }
+
+    /// The award holds for longer, as its member was heard of.
+    fn prolong(&mut self, robot: usize, award: AwardId) {
+        let until_ms = self.now + LEASE;
+        let Some(ticket) = self.in_force(award).filter(|it| it.state != State::Withdrawn) else {
+            self.release(robot, award, Ending::Withdrawn);
+            return;
+        };
+        let members = ticket.award.as_ref().map_or(&[][..], |it| &it.robots);
+        let Some(place) = members.iter().position(|it| *it == robot) else { return };
+        ticket.until[place] = ticket.until[place].max(until_ms);
+        let complete = ticket.state == State::Executing;
+        let message = Message::Prolong { award, until_ms, complete };
+        self.send(self.auctioneer.party(), Party::Robot(robot), message);
+    }
+
+    /// A member does not accept, or no longer.
+    fn refused(&mut self, robot: usize, award: AwardId) {
+        let Some(ticket) = self.in_force(award) else { return };
+        ticket.gone |= 1 << robot;
+        if ticket.state == State::Withdrawn {
+            self.watch_withdrawal(award.task);
+        } else {
+            self.withdraw(award.task);
+        }
+    }
+
+    fn completed(&mut self, robot: usize, award: AwardId) {
+        self.release(robot, award, Ending::Heard);
+        let Some(ticket) = self.in_force(award) else {
+            self.completed_late(robot, award);
+            return;
+        };
+        ticket.completed |= 1 << robot;
+        let all = ticket.award.as_ref().is_some_and(|it| it.members & !ticket.completed == 0);
+        if ticket.state == State::Withdrawn {
+            self.watch_withdrawal(award.task);
+        } else if all {
+            ticket.finished = true;
+            self.close(award.task);
+        }
+    }
+
+    /// News of an award that was withdrawn: what is done is done.
+    fn completed_late(&mut self, robot: usize, award: AwardId) {
+        let ticket = &mut self.auctioneer.tickets[award.task];
+        if ticket.award.as_ref().is_some_and(|it| it.id == award) {
+            ticket.completed |= 1 << robot;
+            let all = ticket.award.as_ref().is_some_and(|it| it.members & !ticket.completed == 0);
+            ticket.finished |= all;
+        }
+        for (past, completed) in ticket.past.iter_mut().filter(|it| it.0.id == award) {
+            *completed |= 1 << robot;
+            ticket.finished |= past.members & !*completed == 0;
+        }
+        if !ticket.finished {
+            return;
+        }
+        match ticket.state {
+            State::Open => self.close(award.task),
+            State::Awarded | State::Executing => self.withdraw(award.task),
+            _ => {}
+        }
+    }
+
+    fn failed(&mut self, robot: usize, award: AwardId, class: ErrorClass) {
+        self.release(robot, award, Ending::Heard);
+        let Some(ticket) = self.in_force(award) else { return };
+        ticket.gone |= 1 << robot;
+        if class == ErrorClass::NonRecoverable {
+            ticket.report.get_or_insert("a robot says that it cannot be done");
+        }
+        if ticket.state == State::Withdrawn {
+            self.watch_withdrawal(award.task);
+        } else {
+            self.withdraw(award.task);
+        }
+    }
+}
+
+/// The second-best bid for a task of one robot, in ms.
+fn second_best(scenario: &Scenario, share: &Share, bids: &[(usize, &[Offer])]) -> Option<u64> {
+    if !scenario.second_best || share.robots.len() != 1 {
+        return None;
+    }
+    let costs = bids.iter().flat_map(|it| it.1.iter().map(move |offer| (it.0, offer)));
+    let others = costs.filter(|it| {
+        it.1.task == share.task && it.1.plan == share.plan && it.0 != share.robots[0].0
+    });
+    others.map(|it| u64::from(it.1.cost_ms)).min()
+}
+
+/// The best of the coalitions that brokers bid, and what the second best costs.
+fn best_share(scenario: &Scenario, shares: &[Share]) -> (Vec<Share>, Vec<Option<u64>>) {
+    let mut shares: Vec<&Share> = shares.iter().collect();
+    shares.sort_by_key(|it| (it.cost, it.robots.len(), it.robots.clone(), it.plan));
+    let Some(best) = shares.first() else { return (Vec::new(), Vec::new()) };
+    let spec = &scenario.tasks[best.task];
+    let parts = u64::from(denominator(spec));
+    if best.cost >= u64::from(spec.utility_ms) * parts {
+        return (Vec::new(), Vec::new());
+    }
+    // The utility that a plan yields less is no time of the robot.
+    let extra = u64::from(spec.plans[best.plan].extra_ms);
+    let second = shares.get(1).map(|it| (it.cost / parts).saturating_sub(extra));
+    (vec![(*best).clone()], vec![second])
+}

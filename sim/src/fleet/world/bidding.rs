@@ -1,0 +1,220 @@
+//! Bidders and brokers: what a robot asks for a role, and which coalition a broker bids.
+
+use super::robot::{Asking, Duty};
+use super::{Event, World};
+use crate::fleet::allocate::is_shared;
+use crate::fleet::floor::Spot;
+use crate::fleet::message::{Message, Party};
+use crate::fleet::task::{Give, Offer, RoleSpec, Take, Whereabouts};
+use crate::supervised::PLANNING;
+use cotama_models::team::{Bid, CapabilitySet, Robot, service};
+use std::rc::Rc;
+
+/// A broker asks again after so long, in ms, and bids at the third time with what it has.
+const ASK_AGAIN: u64 = 200;
+const TRIES: u32 = 3;
+/// What the rounds of the decisional component take between the parts of a task, all together.
+const ROUNDS: u64 = 1_500;
+
+impl World<'_> {
+    /// Tasks are announced: the broker bids, or asks bidders first.
+    pub(super) fn announced(&mut self, robot: usize, round: u32, tasks: &Rc<[usize]>) {
+        let agent = &mut self.robots[robot];
+        if round < agent.heard {
+            return;
+        }
+        agent.heard = round;
+        let several = tasks
+            .iter()
+            .any(|&it| self.scenario.tasks[it].plans.iter().any(|it| it.roles.len() > 1));
+        if !(several && is_shared(self.scenario)) {
+            let offers = self.offers(robot, tasks);
+            self.robots[robot].offered = round;
+            self.bid(robot, round, offers.into(), None);
+            return;
+        }
+        match &self.robots[robot].asking {
+            Some(it) if it.round == round && it.answered => self.bid_for_coalition(robot),
+            Some(it) if it.round == round => {}
+            _ => {
+                let (replies, tries, answered) = (Vec::new(), 0, false);
+                let tasks = Rc::clone(tasks);
+                self.robots[robot].asking = Some(Asking { round, tasks, replies, tries, answered });
+                self.ask(robot);
+            }
+        }
+    }
+
+    /// Asks the bidders that have not replied.
+    fn ask(&mut self, robot: usize) {
+        let Some(asking) = &self.robots[robot].asking else { return };
+        let (round, tasks) = (asking.round, Rc::clone(&asking.tasks));
+        let silent = |it: &usize| !asking.replies.iter().any(|reply| reply.0 == *it);
+        let silent: Vec<usize> = (0..self.robots.len()).filter(silent).collect();
+        for other in silent {
+            let tasks = Rc::clone(&tasks);
+            let to = Party::Robot(other);
+            self.send(Party::Robot(robot), to, Message::Request { round, tasks });
+        }
+        self.queue.push(self.now + ASK_AGAIN, 1, Event::Replies(robot, round));
+    }
+
+    /// A bidder replied; when all have, the broker bids.
+    pub(super) fn replied(&mut self, robot: usize, from: usize, round: u32, offers: Rc<[Offer]>) {
+        let all = self.robots.len();
+        let Some(asking) = &mut self.robots[robot].asking else { return };
+        if asking.round != round || asking.replies.iter().any(|it| it.0 == from) {
+            return;
+        }
+        asking.replies.push((from, offers));
+        if asking.replies.len() == all && !asking.answered {
+            self.bid_for_coalition(robot);
+        }
+    }
+
+    pub(super) fn replies_are_due(&mut self, robot: usize, round: u32) {
+        if !self.robots[robot].driver.thinks() {
+            return;
+        }
+        let Some(asking) = &mut self.robots[robot].asking else { return };
+        if asking.round != round || asking.answered {
+            return;
+        }
+        asking.tries += 1;
+        if asking.tries < TRIES {
+            self.ask(robot);
+        } else {
+            self.bid_for_coalition(robot);
+        }
+    }
+
+    /// The best coalition among those that the broker answers for.
+    fn bid_for_coalition(&mut self, robot: usize) {
+        let Some(asking) = &mut self.robots[robot].asking else { return };
+        asking.answered = true;
+        asking.replies.sort_by_key(|it| it.0);
+        let replies: Vec<(usize, &[Offer])> =
+            asking.replies.iter().map(|it| (it.0, &*it.1)).collect();
+        let Some(&task) = asking.tasks.first() else { return };
+        let best = self.allocator.best_of_shares(self.scenario, robot, task, &replies);
+        let round = asking.round;
+        self.bid(robot, round, Rc::new([]), best);
+    }
+
+    fn bid(
+        &mut self,
+        robot: usize,
+        round: u32,
+        offers: Rc<[Offer]>,
+        coalition: Option<crate::fleet::task::Share>,
+    ) {
+        let message = Message::Bid { round, offers, coalition };
+        self.send(Party::Robot(robot), self.auctioneer.party(), message);
+    }
+
+    /// What a robot asks for the roles of these tasks: nothing where it cannot, or is busy.
+    pub(super) fn offers(&self, robot: usize, tasks: &[usize]) -> Vec<Offer> {
+        let agent = &self.robots[robot];
+        if !matches!(agent.duty, Duty::Free) || !agent.is_fit() {
+            return Vec::new();
+        }
+        // Who has an object on board works for its task only.
+        let tasks = tasks.iter().copied().filter(|it| agent.holds.is_none_or(|held| held == *it));
+        let tasks = tasks.filter(|it| !agent.left.contains(it));
+        let mut offers = Vec::new();
+        for task in tasks {
+            for (plan, spec) in self.scenario.tasks[task].plans.iter().enumerate() {
+                for (role, spec) in spec.roles.iter().enumerate() {
+                    if let Some(cost_ms) = self.cost(robot, task, spec) {
+                        offers.push(Offer { task, plan, role, cost_ms });
+                    }
+                }
+            }
+        }
+        offers
+    }
+
+    /// What a robot can do with the object of a task.
+    pub(super) fn able(&self, robot: usize, task: usize, role: &RoleSpec) -> CapabilitySet {
+        let able = self.robots[robot].capabilities;
+        let takes = role.take == Take::Object && self.robots[robot].holds != Some(task);
+        if takes && !self.objects[task].handle {
+            return able.without(CapabilitySet::of(&[service::GRASP_2F]));
+        }
+        able
+    }
+
+    /// What a role costs a robot, in ms; none where it cannot.
+    fn cost(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<u32> {
+        let agent = &self.robots[robot];
+        let able = self.able(robot, task, role);
+        if !role.role.possible(able) {
+            return None;
+        }
+        let pace = agent.driver.pace()?;
+        let [takes, gives] = self.places(robot, task, role)?;
+        let drive = |from: Spot, to: Spot| {
+            Some(PLANNING.0 + self.scenario.floor.distance(from, to)? * 1_000 / pace)
+        };
+        let holds = role.take == Take::Object && agent.holds == Some(task);
+        let costs = [
+            drive(agent.spot, takes)? + ROUNDS,
+            if holds { 0 } else { role.take_ms },
+            drive(takes, gives)?,
+            role.give_ms,
+        ];
+        let skills = &self.scenario.robots[robot].skills;
+        let certain = cotama_models::team::Reliability::CERTAIN;
+        if skills.iter().all(|it| it.reliability == certain) {
+            return u32::try_from(costs.iter().sum::<u64>()).ok();
+        }
+        // Failures are counted in; what follows the last step costs nothing more.
+        let usable: Vec<_> = skills.iter().filter(|it| able.has(it.capability)).copied().collect();
+        let who = Robot { name: &self.scenario.robots[robot].name, skills: &usable };
+        let bid = Bid::for_role(&who, role.role, |_, at| {
+            costs.get(at).map_or(0, |it| u32::try_from(*it).unwrap_or(u32::MAX))
+        });
+        u32::try_from(bid?.price()).ok()
+    }
+
+    /// Where a robot takes and gives in a role; none where the object is delivered.
+    pub(super) fn places(&self, robot: usize, task: usize, role: &RoleSpec) -> Option<[Spot; 2]> {
+        let takes = match role.take {
+            Take::Partner(place) | Take::Words(place) => Spot::at(place),
+            Take::Object => match self.objects[task].at {
+                Whereabouts::Lies(spot) => spot,
+                Whereabouts::Held(other) if other == robot => self.robots[robot].spot,
+                Whereabouts::Held(other) => self.spot(other),
+                Whereabouts::Delivered => return None,
+            },
+        };
+        let gives = match role.give {
+            Give::Goal => Spot::at(self.scenario.tasks[task].goal),
+            Give::Partner(place) => Spot::at(place),
+            Give::Nobody => takes,
+        };
+        Some([takes, gives])
+    }
+
+    /// Whether some robots that can work can do a task together.
+    pub(super) fn others_can(&mut self, task: usize) -> bool {
+        let fit = (0..self.robots.len()).filter(|it| self.robots[*it].is_fit());
+        let fit: Vec<usize> = fit.collect();
+        let spec = &self.scenario.tasks[task];
+        let can: Vec<Vec<Vec<bool>>> = spec
+            .plans
+            .iter()
+            .map(|plan| {
+                let of = |role: &RoleSpec| {
+                    let able = |it: &usize| role.role.possible(self.able(*it, task, role));
+                    fit.iter().map(able).collect()
+                };
+                plan.roles.iter().map(of).collect()
+            })
+            .collect();
+        let place = |robot: usize| fit.iter().position(|it| *it == robot);
+        self.allocator.can_staff(spec, &fit, |plan, role, robot| {
+            place(robot).is_some_and(|at| can[plan][role][at])
+        })
+    }
+}

@@ -1,0 +1,279 @@
+//! A run: robots, auctioneer and network, from event to event.
+
+mod auctioneer;
+mod bidding;
+mod robot;
+mod working;
+
+use super::allocate::Allocator;
+use super::driver::Driver;
+use super::floor::Spot;
+use super::message::{Ending, Letter, Message, Party};
+use super::network::Network;
+use super::record::{Fate, Record, Run};
+use super::task::{FaultKind, FaultTime, Object, Scenario, Stage, Whereabouts};
+use crate::kernel::Queue;
+use crate::streams::Streams;
+use auctioneer::Auctioneer;
+use robot::{Agent, Duty};
+
+/// A robot says so often how it is, and looks at its terms so often, in ms.
+pub(super) const BEAT: u64 = 2_000;
+/// The auctioneer looks at its tasks so often, in ms.
+pub(super) const TICK: u64 = 250;
+/// An award holds for so long after it was last prolonged, in ms.
+pub(super) const LEASE: u64 = 20_000;
+/// A run ends when nothing has become known, been done or been reported for so long, in ms.
+const STUCK: u64 = 3_600_000;
+
+/// What comes next.
+#[derive(Clone, Debug)]
+enum Event {
+    /// A letter arrives.
+    Arrives(Box<Letter>),
+    /// A round of the decisional component of a robot.
+    Round(usize),
+    /// A robot says how it is.
+    Beat(usize),
+    /// The auctioneer looks at its tasks.
+    Tick,
+    /// A broker looks at the replies of this round.
+    Replies(usize, u32),
+    /// A task becomes known.
+    Opens(usize),
+    /// Something goes wrong: the number of the fault.
+    Fault(usize),
+}
+
+/// How a run may differ from what it should be, for tests.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Variant {
+    /// Awards do not end by themselves: a robot that hears nothing works on.
+    NoLease,
+    /// The auctioneer waits for all bids, however long.
+    NoDeadline,
+    /// Rounds of decisional components in which nothing happens are taken too.
+    EveryRound,
+}
+
+/// A run under way.
+#[derive(Debug)]
+pub(super) struct World<'s> {
+    scenario: &'s Scenario,
+    now: u64,
+    queue: Queue<Event>,
+    network: Network,
+    robots: Vec<Agent>,
+    auctioneer: Auctioneer,
+    allocator: Allocator,
+    objects: Vec<Object>,
+    /// How often a robot came to a stage of a task: for faults that wait for it.
+    visits: Vec<(usize, usize, Stage, u32)>,
+    records: Option<Vec<Record>>,
+    run: Run,
+    /// Tasks that are neither done nor reported.
+    open: usize,
+    /// When a task last became known or ended.
+    stirred: u64,
+    variant: Option<Variant>,
+}
+
+impl<'s> World<'s> {
+    pub(super) fn new(scenario: &'s Scenario, recorded: bool, variant: Option<Variant>) -> Self {
+        let tasks = scenario.tasks.len();
+        let agent = |spec: &super::task::RobotSpec| {
+            let driver = Driver::new(variant == Some(Variant::EveryRound));
+            Agent::new(driver, Spot::at(spec.start), spec.capabilities())
+        };
+        let lies = |it: &super::task::TaskSpec| Object {
+            at: Whereabouts::Lies(Spot::at(it.start)),
+            handle: true,
+        };
+        let mut world = Self {
+            scenario,
+            now: 0,
+            queue: Queue::new(),
+            network: Network::new(scenario.network, Streams::new(scenario.seed)),
+            robots: scenario.robots.iter().map(agent).collect(),
+            auctioneer: Auctioneer::new(scenario),
+            allocator: Allocator::default(),
+            objects: scenario.tasks.iter().map(lies).collect(),
+            visits: Vec::new(),
+            records: recorded.then(Vec::new),
+            run: Run {
+                fates: vec![Fate::Open; tasks],
+                ended_ms: vec![0; tasks],
+                deliveries: vec![0; tasks],
+                awards: vec![0; tasks],
+                ..Run::default()
+            },
+            open: tasks,
+            stirred: scenario.tasks.iter().map(|it| it.arrival_ms).max().unwrap_or(0),
+            variant,
+        };
+        for (task, spec) in scenario.tasks.iter().enumerate().filter(|it| it.1.after.is_none()) {
+            world.queue.push(spec.arrival_ms, 0, Event::Opens(task));
+        }
+        for (number, fault) in scenario.faults.iter().enumerate() {
+            if let FaultTime::At(at) = fault.when {
+                world.queue.push(at, 0, Event::Fault(number));
+            }
+        }
+        let count = scenario.robots.len() as u64;
+        for robot in 0..scenario.robots.len() {
+            world.queue.push(robot as u64 * BEAT / count.max(1), 1, Event::Beat(robot));
+        }
+        world.queue.push(0, 2, Event::Tick);
+        world
+    }
+
+    /// Runs until each task is done or reported.
+    pub(super) fn run(mut self) -> (Run, Vec<Record>) {
+        while let Some((now, event)) = self.queue.pop() {
+            if now > self.stirred + STUCK || self.open == 0 {
+                break;
+            }
+            self.now = now;
+            match event {
+                Event::Arrives(letter) => self.deliver(*letter),
+                Event::Round(robot) => self.round(robot),
+                Event::Beat(robot) => self.beat(robot),
+                Event::Tick => {
+                    self.tick();
+                    self.queue.push(now + TICK, 2, Event::Tick);
+                }
+                Event::Replies(robot, round) => self.replies_are_due(robot, round),
+                Event::Opens(task) => self.open(task),
+                Event::Fault(number) => self.fault(number),
+            }
+        }
+        let tasks = self.scenario.tasks.iter().zip(&self.run.fates);
+        let undone = tasks.filter(|it| *it.1 != Fate::Done).map(|it| u64::from(it.0.utility_ms));
+        self.run.cost_ms = self.run.busy_ms + undone.sum::<u64>();
+        self.run.end_ms = self.run.ended_ms.iter().copied().max().unwrap_or(0);
+        (self.run.messages, self.run.lost) = (self.network.sent(), self.network.lost());
+        self.run.out = self.robots.iter().filter(|it| !it.is_fit()).count();
+        (self.run, self.records.unwrap_or_default())
+    }
+
+    fn note(&mut self, record: impl FnOnce(u64) -> Record) {
+        if let Some(records) = &mut self.records {
+            records.push(record(self.now));
+        }
+    }
+
+    fn send(&mut self, from: Party, to: Party, message: Message) {
+        let letter = Letter { from, to, message };
+        for at in self.network.carry(self.now, &letter) {
+            self.queue.push(at, 1, Event::Arrives(Box::new(letter.clone())));
+        }
+    }
+
+    fn deliver(&mut self, letter: Letter) {
+        match letter.to {
+            Party::Robot(robot) if self.robots[robot].driver.thinks() => {
+                self.hear(robot, letter.from, letter.message);
+            }
+            Party::Auctioneer(_) => {
+                if let Party::Robot(robot) = letter.from {
+                    self.auctioneer_hears(robot, letter.message);
+                }
+            }
+            Party::Robot(_) => {}
+        }
+    }
+
+    /// Something goes wrong.
+    fn fault(&mut self, number: usize) {
+        match self.scenario.faults[number].what {
+            FaultKind::Robot(robot, mode) => {
+                self.note(|t_ms| Record::Fault {
+                    t_ms,
+                    robot: Some(robot),
+                    task: None,
+                    what: mode.name().to_owned(),
+                });
+                self.robots[robot].driver.fail(self.now, mode);
+                if self.robots[robot].driver.thinks() {
+                    self.wake(robot);
+                } else {
+                    self.dies(robot);
+                }
+            }
+            FaultKind::Shifted(task) => {
+                self.note(|t_ms| Record::Fault {
+                    t_ms,
+                    robot: None,
+                    task: Some(task),
+                    what: "shifted".into(),
+                });
+                self.shifted(task);
+            }
+            FaultKind::Turned(task) => {
+                self.note(|t_ms| Record::Fault {
+                    t_ms,
+                    robot: None,
+                    task: Some(task),
+                    what: "turned".into(),
+                });
+                self.objects[task].handle = false;
+                self.turned(task);
+            }
+        }
+    }
+
+    /// A task is done or reported: nobody is to work for it any more.
+    fn ends(&mut self, task: usize, fate: Fate) {
+        if self.run.fates[task] != Fate::Open {
+            return;
+        }
+        self.run.fates[task] = fate;
+        self.open -= 1;
+        self.stirred = self.stirred.max(self.now);
+        self.run.ended_ms[task] = self.now;
+        if fate == Fate::Done {
+            self.run.waited_ms += self.now - self.auctioneer.known_since(task);
+        } else if let Whereabouts::Held(robot) = self.objects[task].at {
+            // Somebody comes for it: the robot is free for others.
+            self.objects[task].at = Whereabouts::Lies(self.spot(robot));
+            self.robots[robot].holds = None;
+        }
+        let follows = |it: &(usize, &super::task::TaskSpec)| it.1.after == Some(task);
+        let after: Vec<usize> =
+            self.scenario.tasks.iter().enumerate().filter(follows).map(|it| it.0).collect();
+        for next in after {
+            if fate == Fate::Done {
+                self.queue.push(self.now, 0, Event::Opens(next));
+            } else {
+                self.note(|t_ms| Record::Reported {
+                    t_ms,
+                    task: next,
+                    why: "the task before it was not done".into(),
+                });
+                self.ends(next, Fate::Reported);
+            }
+        }
+    }
+
+    /// Where a robot is.
+    fn spot(&self, robot: usize) -> Spot {
+        let agent = &self.robots[robot];
+        let Some(goal) = agent.drives_to() else { return agent.spot };
+        self.scenario.floor.gone(agent.spot, goal, agent.driver.driven_mm(self.now))
+    }
+
+    /// The robots that somebody works with on an award of a task.
+    fn workers(&self, task: usize) -> impl Iterator<Item = (usize, u32)> + '_ {
+        self.robots.iter().enumerate().filter_map(move |(robot, it)| match &it.duty {
+            Duty::Executing(work) if work.award.id.task == task => {
+                Some((robot, work.award.id.round))
+            }
+            _ => None,
+        })
+    }
+
+    fn release(&mut self, robot: usize, award: super::message::AwardId, ending: Ending) {
+        let (from, to) = (self.auctioneer.party(), Party::Robot(robot));
+        self.send(from, to, Message::Release { award, ending });
+    }
+}

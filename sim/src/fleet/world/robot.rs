@@ -1,0 +1,363 @@
+//! A robot of the team: what its broker hears and says.
+
+use super::{BEAT, Variant, World};
+use crate::fleet::driver::Driver;
+use crate::fleet::floor::Spot;
+use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
+use crate::fleet::record::Record;
+use crate::fleet::task::{ErrorClass, Offer, Stage};
+use cotama_core::team::RobotSet;
+use cotama_models::team::{CapabilitySet, Pledge};
+use std::rc::Rc;
+
+/// A robot.
+#[derive(Clone, Debug)]
+pub(super) struct Agent {
+    pub(super) driver: Driver,
+    pub(super) capabilities: CapabilitySet,
+    /// Where it stands, or began to drive.
+    pub(super) spot: Spot,
+    /// Where it takes and gives in its task.
+    pub(super) goals: [Spot; 2],
+    pub(super) stage: Stage,
+    pub(super) stage_since: u64,
+    pub(super) duty: Duty,
+    /// Ends of awards that the auctioneer has not yet heard of.
+    pub(super) finals: Vec<(AwardId, Status)>,
+    /// The last round in which it bid, the last it heard of.
+    pub(super) offered: u32,
+    pub(super) heard: u32,
+    /// The round of its last award.
+    taken: u32,
+    /// Acknowledgements that came before the award.
+    early: Vec<(AwardId, usize)>,
+    pub(super) asking: Option<Asking>,
+    /// Tasks that took it longer than it had pledged: it leaves them to others.
+    pub(super) left: Vec<usize>,
+    /// The task whose object it has on board.
+    pub(super) holds: Option<usize>,
+    /// When its next round is.
+    pub(super) next_round: Option<u64>,
+    was_fit: bool,
+}
+
+/// What a broker asked bidders, and what they replied.
+#[derive(Clone, Debug)]
+pub(super) struct Asking {
+    pub(super) round: u32,
+    pub(super) tasks: Rc<[usize]>,
+    pub(super) replies: Vec<(usize, Rc<[Offer]>)>,
+    pub(super) tries: u32,
+    pub(super) answered: bool,
+}
+
+/// What a robot is about.
+#[derive(Clone, Debug)]
+pub(super) enum Duty {
+    Free,
+    /// It waits until all partners have acknowledged.
+    Waiting(Work),
+    Executing(Work),
+}
+
+/// A role in an award.
+#[derive(Clone, Debug)]
+pub(super) struct Work {
+    pub(super) award: Rc<Award>,
+    pub(super) role: usize,
+    acked: RobotSet,
+    /// The award holds until then.
+    until_ms: u64,
+    /// Since when.
+    pub(super) since: u64,
+    /// The object went from partner to partner.
+    pub(super) handed: bool,
+    /// How often the same error was answered.
+    pub(super) repeats: u32,
+}
+
+impl Work {
+    pub(super) fn pledge(&self) -> Pledge {
+        Pledge { most: self.award.pledges_ms[self.role] }
+    }
+}
+
+impl Agent {
+    pub(super) fn new(driver: Driver, spot: Spot, capabilities: CapabilitySet) -> Self {
+        Self {
+            driver,
+            capabilities,
+            spot,
+            goals: [spot; 2],
+            stage: Stage::Rests,
+            stage_since: 0,
+            duty: Duty::Free,
+            finals: Vec::new(),
+            offered: 0,
+            heard: 0,
+            taken: 0,
+            early: Vec::new(),
+            asking: None,
+            left: Vec::new(),
+            holds: None,
+            next_round: None,
+            was_fit: true,
+        }
+    }
+
+    pub(super) fn work(&self) -> Option<&Work> {
+        match &self.duty {
+            Duty::Free => None,
+            Duty::Waiting(it) | Duty::Executing(it) => Some(it),
+        }
+    }
+
+    pub(super) fn work_mut(&mut self) -> Option<&mut Work> {
+        match &mut self.duty {
+            Duty::Free => None,
+            Duty::Waiting(it) | Duty::Executing(it) => Some(it),
+        }
+    }
+
+    fn has(&self, award: AwardId) -> bool {
+        self.work().is_some_and(|it| it.award.id == award)
+    }
+
+    /// Where it drives to, while it does.
+    pub(super) fn drives_to(&self) -> Option<Spot> {
+        match (&self.duty, self.stage) {
+            (Duty::Executing(_), Stage::ToTake) => Some(self.goals[0]),
+            (Duty::Executing(_), Stage::ToGive) => Some(self.goals[1]),
+            _ => None,
+        }
+    }
+
+    /// Whether it can work.
+    pub(super) fn is_fit(&self) -> bool {
+        self.driver.thinks() && self.driver.pace().is_some()
+    }
+}
+
+impl World<'_> {
+    /// What a broker hears.
+    pub(super) fn hear(&mut self, robot: usize, from: Party, message: Message) {
+        let me = Party::Robot(robot);
+        match message {
+            Message::Announce { round, tasks } => self.announced(robot, round, &tasks),
+            Message::Request { round, tasks } => {
+                let offers = self.offers(robot, &tasks);
+                self.robots[robot].offered = self.robots[robot].offered.max(round);
+                self.send(me, from, Message::Reply { round, offers: offers.into() });
+            }
+            Message::Reply { round, offers } => self.replied(robot, from.address(), round, offers),
+            Message::Assign { award: Some(award), until_ms } => {
+                self.assigned(robot, &award, until_ms);
+            }
+            Message::Ack { award } => self.partner_acked(robot, from.address(), award),
+            Message::Nack { award } => {
+                let waits = matches!(self.robots[robot].duty, Duty::Waiting(_));
+                if waits && self.robots[robot].has(award) {
+                    self.leave(robot);
+                }
+            }
+            Message::Prolong { award, until_ms, complete } => {
+                if !self.robots[robot].has(award) {
+                    self.answer_for(robot, award);
+                } else if let Some(work) = self.robots[robot].work_mut() {
+                    work.until_ms = work.until_ms.max(until_ms);
+                    if complete {
+                        work.acked = work.award.members;
+                        self.start_if_all_acked(robot);
+                    }
+                }
+            }
+            Message::Status { award, status: Status::Failed(_) } => {
+                // A partner has failed: everybody leaves the role.
+                if self.robots[robot].has(award) {
+                    self.leave(robot);
+                }
+            }
+            Message::Release { award, ending: Ending::Heard } => {
+                self.robots[robot].finals.retain(|it| it.0 != award);
+            }
+            Message::Release { award, ending: Ending::Withdrawn } => {
+                if self.robots[robot].has(award) {
+                    self.leave(robot);
+                }
+                self.answer_for(robot, award);
+            }
+            Message::Assign { award: None, .. }
+            | Message::Status { .. }
+            | Message::Alive { .. }
+            | Message::Bid { .. } => {}
+        }
+    }
+
+    /// Says how an award ended that the robot has no longer, or never had.
+    fn answer_for(&mut self, robot: usize, award: AwardId) {
+        let known = self.robots[robot].finals.iter().find(|it| it.0 == award);
+        let message = match known {
+            Some(&(award, status)) => Message::Status { award, status },
+            None => Message::Nack { award },
+        };
+        self.send(Party::Robot(robot), self.auctioneer.party(), message);
+    }
+
+    /// An award: it is accepted by who bid in its round and is free.
+    fn assigned(&mut self, robot: usize, award: &Rc<Award>, until_ms: u64) {
+        let (round, agent) = (award.id.round, &mut self.robots[robot]);
+        if agent.has(award.id) {
+            if let Some(work) = agent.work_mut() {
+                work.until_ms = work.until_ms.max(until_ms);
+            }
+            self.acknowledge(robot, award);
+            return;
+        }
+        if agent.finals.iter().any(|it| it.0 == award.id) {
+            self.answer_for(robot, award.id);
+            return;
+        }
+        let bid = agent.offered == round;
+        // No award is taken twice, and none whose time is over before the robot looks again.
+        let new = round > agent.taken;
+        let holds = until_ms > self.now + BEAT || self.variant == Some(Variant::NoLease);
+        let free = matches!(agent.duty, Duty::Free) && agent.is_fit() && new;
+        let role = award.robots.iter().position(|it| *it == robot);
+        let Some(role) = role.filter(|_| bid && holds && free) else {
+            let others = award.robots.iter().filter(|it| **it != robot);
+            let partners = others.map(|it| Party::Robot(*it)).collect::<Vec<_>>();
+            for to in partners.into_iter().chain([self.auctioneer.party()]) {
+                self.send(Party::Robot(robot), to, Message::Nack { award: award.id });
+            }
+            return;
+        };
+        let agent = &mut self.robots[robot];
+        let early = agent.early.iter().filter(|it| it.0 == award.id).map(|it| 1 << it.1);
+        let acked = early.fold(1 << robot, |all: RobotSet, it: RobotSet| all | it);
+        agent.early.clear();
+        agent.taken = round;
+        let (since, handed, repeats) = (self.now, false, 0);
+        let own = Rc::clone(award);
+        agent.duty =
+            Duty::Waiting(Work { award: own, role, acked, until_ms, since, handed, repeats });
+        self.acknowledge(robot, award);
+        self.start_if_all_acked(robot);
+    }
+
+    /// To the auctioneer and to all partners.
+    fn acknowledge(&mut self, robot: usize, award: &Award) {
+        let others = award.robots.iter().filter(|it| **it != robot).map(|it| Party::Robot(*it));
+        for to in others.chain([Party::Auctioneer(award.auctioneer)]) {
+            self.send(Party::Robot(robot), to, Message::Ack { award: award.id });
+        }
+    }
+
+    fn partner_acked(&mut self, robot: usize, partner: usize, award: AwardId) {
+        let agent = &mut self.robots[robot];
+        if !agent.has(award) {
+            if !agent.early.contains(&(award, partner)) && agent.early.len() < 64 {
+                agent.early.push((award, partner));
+            }
+            return;
+        }
+        if let Some(work) = agent.work_mut() {
+            work.acked |= 1 << partner;
+        }
+        self.start_if_all_acked(robot);
+    }
+
+    /// Nobody executes a role before every member has acknowledged.
+    fn start_if_all_acked(&mut self, robot: usize) {
+        let Duty::Waiting(work) = &self.robots[robot].duty else { return };
+        if work.acked & work.award.members == work.award.members {
+            let work = work.clone();
+            self.execute(robot, work);
+        }
+    }
+
+    /// The robot leaves its role, and stands.
+    pub(super) fn leave(&mut self, robot: usize) {
+        self.stop_short(robot);
+        let (now, agent) = (self.now, &mut self.robots[robot]);
+        if let Duty::Executing(work) = &agent.duty {
+            self.run.busy_ms += now - work.since;
+        }
+        agent.duty = Duty::Free;
+        agent.driver.forget(now);
+        let stage = agent.driver.stage();
+        self.enter(robot, stage);
+        self.wake(robot);
+    }
+
+    /// The laptop of a robot is down: it stands, and says nothing any more.
+    pub(super) fn dies(&mut self, robot: usize) {
+        self.stop_short(robot);
+        let (now, agent) = (self.now, &mut self.robots[robot]);
+        if let Duty::Executing(work) = &agent.duty {
+            self.run.busy_ms += now - work.since;
+        }
+        agent.duty = Duty::Free;
+        self.enter(robot, Stage::Safe);
+    }
+
+    /// The robot gives its task back, and says so until it is heard.
+    pub(super) fn give_back(&mut self, robot: usize, class: ErrorClass, why: &str) {
+        let Some(work) = self.robots[robot].work() else { return };
+        let award = Rc::clone(&work.award);
+        let (task, name) = (award.id.task, class.name().to_owned());
+        self.note(|t_ms| Record::Error { t_ms, robot, task, class: name, why: why.to_owned() });
+        self.leave(robot);
+        self.say_final(robot, &award, Status::Failed(class));
+    }
+
+    /// The end of a role, to the auctioneer and to partners; again and again to the auctioneer.
+    pub(super) fn say_final(&mut self, robot: usize, award: &Award, status: Status) {
+        self.robots[robot].finals.push((award.id, status));
+        let others = award.robots.iter().filter(|it| **it != robot).map(|it| Party::Robot(*it));
+        for to in others.chain([Party::Auctioneer(award.auctioneer)]) {
+            self.send(Party::Robot(robot), to, Message::Status { award: award.id, status });
+        }
+    }
+
+    /// The robot says how it is.
+    pub(super) fn beat(&mut self, robot: usize) {
+        self.queue.push(self.now + BEAT, 1, super::Event::Beat(robot));
+        if !self.robots[robot].driver.thinks() {
+            return;
+        }
+        let (me, desk) = (Party::Robot(robot), self.auctioneer.party());
+        if let Some(work) = self.robots[robot].work() {
+            if self.now + BEAT > work.until_ms && self.variant != Some(Variant::NoLease) {
+                self.give_back(robot, ErrorClass::SemiRecoverable, "it hears nothing any more");
+            } else {
+                let award = Rc::clone(&work.award);
+                if matches!(self.robots[robot].duty, Duty::Waiting(_)) {
+                    self.acknowledge(robot, &award);
+                } else if !self.breaks_its_pledge(robot) {
+                    let status = Status::Progress;
+                    let others = award.robots.iter().filter(|it| **it != robot);
+                    let others = others.map(|it| Party::Robot(*it));
+                    for to in others.chain([desk]) {
+                        self.send(me, to, Message::Status { award: award.id, status });
+                    }
+                }
+            }
+        }
+        let agent = &mut self.robots[robot];
+        let (fit, busy) = (agent.is_fit(), agent.work().is_some());
+        let news = fit != agent.was_fit;
+        agent.was_fit = fit;
+        // Who works has said so already.
+        if news || !busy {
+            self.send(me, desk, Message::Alive { busy, fit });
+        }
+        for (award, status) in self.robots[robot].finals.clone() {
+            self.send(me, desk, Message::Status { award, status });
+        }
+    }
+
+    /// The drive is cut short: the robot stands where it is.
+    fn stop_short(&mut self, robot: usize) {
+        self.robots[robot].spot = self.spot(robot);
+    }
+}
