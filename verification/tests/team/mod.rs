@@ -2,6 +2,7 @@
 //! thesis's text breaks them as foreseen (P1 to P5), and each seeded defect breaks one.
 
 mod mutants;
+mod supervised;
 mod text;
 
 use cotama_core::net::Arc;

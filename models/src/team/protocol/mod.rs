@@ -66,9 +66,11 @@ mod draft;
 mod failure;
 mod member;
 mod requirement;
+mod supervised;
 mod team;
 
 pub use requirement::{Requirement, requirements};
+pub use supervised::{supervised, supervised_requirements};
 pub use team::{Defect, MOST_ROBOTS, Plan, TEXT, Team};
 
 use cotama_core::net::owned::OwnedNet;
@@ -82,6 +84,10 @@ use draft::Draft;
 /// assert!(text.transitions.iter().any(|it| it.name == "t1.all_acked.r1_by_old_ack.r2"));
 /// ```
 pub fn net(team: &Team) -> OwnedNet {
+    drafted(team).net
+}
+
+fn drafted(team: &Team) -> Draft<'_> {
     let mut draft = Draft::new(team);
     for task in 0..team.tasks.len() {
         draft.auctioneer(task);
@@ -96,5 +102,5 @@ pub fn net(team: &Team) -> OwnedNet {
     }
     draft.settles();
     draft.laws();
-    draft.net
+    draft
 }

@@ -29,7 +29,7 @@ pub struct Requirement {
 /// Steps that nobody is obliged to: failures, and deadlines that are too early.
 const ENVIRONMENT: [&str; 4] = [".crash.", ".give_up.", ".deadline", "failure."];
 
-fn any(parts: impl IntoIterator<Item = String>) -> String {
+pub(super) fn any(parts: impl IntoIterator<Item = String>) -> String {
     let parts: Vec<_> = parts.into_iter().collect();
     if parts.is_empty() { "false".to_owned() } else { format!("({})", parts.join(" | ")) }
 }
