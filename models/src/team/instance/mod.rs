@@ -123,4 +123,16 @@ impl Instance {
         let tasks: Vec<_> = self.tasks.iter().zip(&plans).map(task).collect();
         Ok(act(&Team::new(self.robots.len(), self.denominator, &tasks)?))
     }
+
+    /// What a task that is done costs, in parts; none where a robot is not capable of its role.
+    pub fn cost_of(&self, done: &Done) -> Option<u64> {
+        let task = self.tasks.get(done.task)?;
+        let plan = task.plans.get(done.plan)?;
+        let roles = plan.table()?;
+        let costs = done.robots.iter().enumerate().map(|(role, it)| roles.cost(role, *it));
+        let costs = costs.collect::<Option<Vec<_>>>()?;
+        let of = Task { skip: task.skip, combine: task.combine, plans: &[] };
+        let plan = Plan { roles, extra: plan.extra };
+        Some(of.cost(&plan, self.denominator, costs.into_iter()))
+    }
 }
