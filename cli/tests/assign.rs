@@ -141,15 +141,12 @@ fn certified(instance: &Value, answer: &Value) {
                     list(&row["roles"]).iter().map(|it| place(&plan["roles"], it)).collect()
                 };
                 if let Some(cost) = row["cost"].as_u64() {
-                    let joint = match row["threshold"].as_u64() {
-                        Some(limit) => {
-                            in_conflict(instance, &roles, &own(), &row["robots"], limit);
-                            parts * limit
-                        }
-                        None => {
-                            let sum = roles.least_at(&prices(&row["robot_prices"]));
-                            sum * (parts / roles.0.len() as u64)
-                        }
+                    let joint = if let Some(limit) = row["threshold"].as_u64() {
+                        in_conflict(instance, &roles, &own(), &row["robots"], limit);
+                        parts * limit
+                    } else {
+                        let sum = roles.least_at(&prices(&row["robot_prices"]));
+                        sum * (parts / roles.0.len() as u64)
                     };
                     assert_eq!(joint + parts * extra, cost);
                     least = Some(least.map_or(cost, |it| it.min(cost)));

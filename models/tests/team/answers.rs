@@ -77,8 +77,10 @@ proptest! {
     ) {
         let mut tasks = vec![];
         for (number, (skip, costs)) in table.iter().enumerate() {
-            let (skip, costs) = (skip.map_or("null".into(), |it| it.to_string()), list(&costs[..robots]));
-            tasks.push(format!("{{\"name\": \"t{number}\", \"skip_cost\": {skip}, \"cost\": {costs}}}"));
+            let skip = skip.map_or("null".into(), |it| it.to_string());
+            let costs = list(&costs[..robots]);
+            let name = format!("\"name\": \"t{number}\"");
+            tasks.push(format!("{{{name}, \"skip_cost\": {skip}, \"cost\": {costs}}}"));
         }
         let text = text("single", 3, robots, &tasks.join(", "));
         let single = Instance::parse("", &text).unwrap();
@@ -121,7 +123,8 @@ proptest! {
                 all.push(format!("{{\"name\": \"{role}\", \"cost\": {}}}", list(&costs[..robots])));
             }
             plans.push(format!(
-                "{{\"name\": \"{number}\", \"extra_cost\": {extra}, \"roles\": [{}]}}", all.join(", ")
+                "{{\"name\": \"{number}\", \"extra_cost\": {extra}, \"roles\": [{}]}}",
+                all.join(", ")
             ));
         }
         let (combine, kind) =
@@ -150,12 +153,14 @@ proptest! {
             match proof {
                 PlanProof::Prices { cost, prices } => {
                     let pays = |it| {
-                        let costs = (0..robots).filter_map(|robot| Some(role(it, robot)? + prices[robot]));
+                        let cost = |robot| Some(role(it, robot)? + prices[robot]);
+                        let costs = (0..robots).filter_map(cost);
                         costs.min().unwrap()
                     };
                     let sum = (0..plan.roles.len()).map(pays).sum::<u64>();
                     let sum = sum - prices.iter().sum::<u64>();
-                    prop_assert_eq!(sum * (12 / plan.roles.len() as u64) + 12 * u64::from(plan.extra), *cost);
+                    let sum = sum * (12 / plan.roles.len() as u64);
+                    prop_assert_eq!(sum + 12 * u64::from(plan.extra), *cost);
                     prop_assert!(answer.cost().unwrap() <= *cost);
                 }
                 PlanProof::Threshold { cost, largest, roles, robots: few } => {

@@ -74,7 +74,8 @@ proptest! {
         let skills: Vec<_> = sets.iter().map(|it| skills(*it)).collect();
         let robots: Vec<_> = skills.iter().map(|skills| Robot { name: "", skills }).collect();
         let actions: Vec<_> = needs.iter().map(|it| [Action { name: "", needs: *it }]).collect();
-        let plans: Vec<_> = actions.iter().map(|it| [ActionPlan { name: "", actions: it }]).collect();
+        let plan = |actions| [ActionPlan { name: "", actions }];
+        let plans: Vec<_> = actions.iter().map(|it| plan(it)).collect();
         let roles: Vec<_> = plans.iter().map(|it| Role { name: "", plans: it }).collect();
         let plan = TaskPlan { name: "", roles: &roles, extra: 0 };
         let Some(found) = capable(&plan, &robots) else { return Ok(()) };

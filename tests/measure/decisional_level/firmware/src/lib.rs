@@ -1,4 +1,5 @@
-//! The entry points of the decisional level, and of teams of eight robots: linked alone, each keeps its own code and tables only.
+//! The entry points of the decisional level, and of teams of eight robots: linked alone, each keeps
+//! its own code and tables only.
 #![no_std]
 
 use core::panic::PanicInfo;
