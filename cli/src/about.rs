@@ -1,5 +1,6 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
+use crate::answers::assign::AssignAnswer;
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
 use crate::answers::conform::ConformAnswer;
 use crate::answers::error::ErrorAnswer;
@@ -41,6 +42,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Plan => schemas.into_root_schema_for::<PlanAnswer>(),
         SchemaName::Run => schemas.into_root_schema_for::<RunAnswer>(),
         SchemaName::Allocate => schemas.into_root_schema_for::<AllocateAnswer>(),
+        SchemaName::Assign => schemas.into_root_schema_for::<AssignAnswer>(),
         SchemaName::Replay => schemas.into_root_schema_for::<ReplayAnswer>(),
         SchemaName::Models => schemas.into_root_schema_for::<ModelsAnswer>(),
         SchemaName::Simulate => schemas.into_root_schema_for::<SimulateAnswer>(),

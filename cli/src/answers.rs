@@ -1,5 +1,6 @@
 //! The answers in JSON: types that are written, and from which the schemas in `schemas/` are made.
 
+pub(crate) mod assign;
 pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod error;

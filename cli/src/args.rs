@@ -1,5 +1,6 @@
 //! The command line.
 
+mod assign;
 mod check;
 mod conform;
 mod fitted;
@@ -10,6 +11,7 @@ mod new;
 mod number;
 mod schema;
 
+pub(crate) use assign::AssignArgs;
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use conform::ConformArgs;
 pub(crate) use fitted::command;
@@ -115,6 +117,14 @@ Examples:
   $ cotama allocate small.json --objective min-energy --json
   $ cotama allocate - --allocator panorama < small.json")]
     Allocate(AllocateArgs),
+    /// Says which robots do which tasks, alone or together, at the least cost
+    ///
+    /// A task is done by one robot, or by several in the roles of one of its plans; a robot has one
+    /// role at most. A cost is a whole number, `null` where a robot is not capable. A task with
+    /// `skip_cost` null must be done; another one may be left undone at that cost. The answer comes
+    /// with what proves it, or with the tasks and robots in conflict.
+    #[command(after_long_help = assign::ASSIGN_EXAMPLES)]
+    Assign(AssignArgs),
     /// Runs a stored trace or fault scenario again and compares
     ///
     /// A trace holds everything that its run needs: it is run again and both are compared, record

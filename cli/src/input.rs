@@ -10,7 +10,7 @@ use std::path::Path;
 pub(crate) const MISSION_BYTES: u64 = 4 << 20;
 /// The most bytes of an FMECA.
 pub(crate) const FMECA_BYTES: u64 = 4 << 20;
-/// The most bytes of an allocation instance.
+/// The most bytes of an allocation instance, or of a team with its tasks.
 pub(crate) const INSTANCE_BYTES: u64 = 64 << 20;
 /// The most bytes of a trace.
 pub(crate) const TRACE_BYTES: u64 = 256 << 20;

@@ -20,6 +20,7 @@ pub(crate) enum Kind {
     Certificate,
     Trace,
     Instance,
+    Team,
 }
 
 /// The kinds that hold a model.
@@ -59,6 +60,10 @@ impl Kind {
             ("cotama-certificate/", Self::Certificate),
             ("cotama-trace/", Self::Trace),
         ];
+        let format = start.split_once("\"format\"").map(|it| it.1.trim_start_matches([':', ' ']));
+        if format.is_some_and(|it| it.starts_with("\"cotama-team-assignment/")) {
+            return Some(Self::Team);
+        }
         let named = start.split_once("\"schema\"").map(|it| it.1.trim_start_matches([':', ' ']));
         let schema = named.map(|it| it.trim_start_matches('"'));
         let known = schema.and_then(|it| schemas.into_iter().find(|known| it.starts_with(known.0)));
@@ -79,6 +84,7 @@ impl Kind {
             Self::Certificate => "a certificate",
             Self::Trace => "a trace",
             Self::Instance => "an allocation instance",
+            Self::Team => "a team with its tasks",
         }
     }
 
@@ -94,6 +100,7 @@ impl Kind {
             Self::Certificate => "`cotama check MODEL --certificate FILE` writes one",
             Self::Trace => "`cotama run MISSION --trace FILE` writes one",
             Self::Instance => "`cotama help allocate` shows one",
+            Self::Team => "`cotama help assign` shows one",
         }
     }
 
@@ -107,6 +114,7 @@ impl Kind {
             Self::Certificate => format!("cotama verify {file}"),
             Self::Trace => format!("cotama replay {file}"),
             Self::Instance => format!("cotama allocate {file}"),
+            Self::Team => format!("cotama assign {file}"),
         }
     }
 }
@@ -185,6 +193,7 @@ mod tests {
             ("{\"schema\":\"cotama-certificate/1\",", Kind::Certificate),
             ("{\"schema\":\"cotama-trace/1\",", Kind::Trace),
             ("{\"limits\":{},\"activities\":[]}", Kind::Instance),
+            ("{\"format\": \"cotama-team-assignment/1\",", Kind::Team),
             ("# lamp\nnet lamp\ntr on off -> lit", Kind::Tina),
         ];
         for (text, expected) in cases {

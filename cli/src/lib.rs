@@ -8,6 +8,7 @@ mod about;
 mod allocate;
 mod answers;
 mod args;
+mod assign;
 mod budget;
 mod catalogue;
 mod check;
@@ -95,6 +96,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Plan(args) => plan::plan(&args, screen),
         Command::Run(args) => run::run(&args, screen),
         Command::Allocate(args) => allocate::allocate(&args, screen),
+        Command::Assign(args) => assign::assign(&args, screen),
         Command::Replay(args) => replay::replay(&args, screen),
         Command::Models(args) => models::models(&args, screen),
         Command::Export(args) => export::export(&args, screen),

@@ -2,11 +2,12 @@
 
 use crate::common::Folder;
 
-pub(crate) const COMMANDS: [&str; 19] = [
+pub(crate) const COMMANDS: [&str; 20] = [
     "list",
     "plan",
     "run",
     "allocate",
+    "assign",
     "replay",
     "models",
     "export",

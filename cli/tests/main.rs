@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod allocate;
+mod assign;
 mod bad_input;
 mod book;
 mod broken_pnml;

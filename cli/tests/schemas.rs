@@ -4,11 +4,12 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 17] = [
+const COMMANDS: [&str; 18] = [
     "list",
     "plan",
     "run",
     "allocate",
+    "assign",
     "replay",
     "models",
     "simulate",

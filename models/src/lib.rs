@@ -13,8 +13,10 @@
 //! they switch, what can fail and how it is seen, and the requirements. `fmeca` (feature `std`)
 //! reads such an analysis of any robot from a file, and says how critical each row is.
 //!
-//! Without the feature `std` only [`cotama`], the tables of missions ([`missions::tables`]) and the
-//! ready [`nets`] remain, without heap, for firmware.
+//! [`team`] is what robots can do together: capabilities, tasks, bids, errors.
+//!
+//! Without the feature `std` only [`cotama`], [`team`], the tables of missions
+//! ([`missions::tables`]) and the ready [`nets`] remain, without heap, for firmware.
 //!
 //! ```
 //! # #[cfg(feature = "std")] {

@@ -3,6 +3,7 @@
 mod conformance;
 mod doc_examples;
 mod first_program;
+mod greedy;
 mod once_wrong;
 mod patrol;
 mod players;

@@ -94,13 +94,13 @@ fn example(lines: &mut String, command: &str, width: usize) {
         let _ = writeln!(lines, "{EXAMPLE}{command}");
         return;
     }
-    let (mut rest, mut indent) = (alone.trim_end(), EXAMPLE);
+    let (mut rest, mut indent, mut open) = (alone.trim_end(), EXAMPLE, None);
     while indent.len() + rest.chars().count() > width {
         // Two characters are kept for the backslash.
-        let Some((at, is_quoted)) = break_at(rest, width.saturating_sub(indent.len() + 2)) else {
-            break;
-        };
-        let end = if is_quoted { "" } else { " \\" };
+        let room = width.saturating_sub(indent.len() + 2);
+        let Some((at, quote)) = break_at(rest, room, open) else { break };
+        open = quote;
+        let end = if quote.is_some() { "" } else { " \\" };
         let _ = writeln!(lines, "{indent}{}{end}", &rest[..at]);
         (rest, indent) = (&rest[at + 1..], CONTINUED);
     }
@@ -111,17 +111,18 @@ fn example(lines: &mut String, command: &str, width: usize) {
     }
 }
 
-/// The last space within so many characters, better one outside of quotes, and whether it is
-/// quoted. A quoted one becomes a new line in what is quoted, so that must bear it.
-fn break_at(command: &str, room: usize) -> Option<(usize, bool)> {
-    let (mut quote, mut plain, mut quoted) = (None, None, None);
+/// The last space within so many characters, better one outside of quotes, and the quote that it is
+/// in; `quote` is that of the beginning. A quoted one becomes a new line in what is quoted, so that
+/// must bear it.
+fn break_at(command: &str, room: usize, mut quote: Option<char>) -> Option<(usize, Option<char>)> {
+    let (mut plain, mut quoted) = (None, None);
     for (count, (at, c)) in command.char_indices().enumerate() {
         if count > room {
             break;
         }
         match (c, quote) {
-            (' ', None) => plain = Some((at, false)),
-            (' ', Some(_)) => quoted = Some((at, true)),
+            (' ', None) => plain = Some((at, None)),
+            (' ', Some(_)) => quoted = Some((at, quote)),
             ('\'' | '"', None) => quote = Some(c),
             (_, Some(open)) if open == c => quote = None,
             _ => {}
@@ -145,6 +146,8 @@ mod tests {
         assert_eq!(fitted(text, 80), text);
         let long = "  $ echo '{\"a\": [1, 2, 3, 4, 5, 6, 7, 8, 9]}'";
         assert_eq!(fitted(long, 30), "  $ echo '{\"a\": [1, 2, 3, 4,\n      5, 6, 7, 8, 9]}'");
+        let three = "  $ echo '1 2 3 \"4\" 5 6 7 \"8\" 9'";
+        assert_eq!(fitted(three, 18), "  $ echo '1 2 3\n      \"4\" 5 6 7\n      \"8\" 9'");
     }
 
     #[test]

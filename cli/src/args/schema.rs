@@ -16,6 +16,7 @@ pub(crate) enum SchemaName {
     Plan,
     Run,
     Allocate,
+    Assign,
     Replay,
     Models,
     Simulate,

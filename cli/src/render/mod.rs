@@ -1,6 +1,7 @@
 //! What people see.
 
 pub(crate) mod allocate;
+pub(crate) mod assign;
 pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod fmeca;

@@ -74,6 +74,11 @@ impl Table {
         self.rows.push(cells);
     }
 
+    /// How many rows it has without its head.
+    pub(crate) fn len(&self) -> usize {
+        self.rows.len() - self.head
+    }
+
     /// The table, in blocks no wider than `width` as far as that can be, with a line break at the
     /// end of each line.
     pub(crate) fn render(&self, width: usize) -> String {

@@ -11,9 +11,14 @@ use cotama_core::team::{Amount, Cost, Costs, Fixed, Memory, assign};
 use draw::Draw;
 use rustix::time::{ClockId, clock_gettime};
 use std::hint::black_box;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 fn main() {
+    let mut arguments = std::env::args().skip_while(|it| it != "--export").skip(1);
+    if let Some(folder) = arguments.next().map(PathBuf::from) {
+        return export(&folder);
+    }
     println!("n x n, costs          ours i32    ours i64       lapjv   i32/lapjv   i64/lapjv");
     let sizes = std::env::args().skip(1).filter_map(|it| it.parse().ok());
     let mut sizes: Vec<usize> = sizes.collect();
@@ -35,6 +40,34 @@ fn main() {
     rectangles::<8, 8>();
     rectangles::<8, 64>();
     rectangles::<16, 64>();
+}
+
+/// Writes squares as 32-bit numbers, and a line of JSON for each with its total and its time, for
+/// `../teams.py`.
+fn export(folder: &Path) {
+    std::fs::create_dir_all(folder).expect("the folder can be made");
+    let mut results = String::new();
+    for n in [100, 500, 1_000, 2_000] {
+        for most in [100, 1_000_000] {
+            let entries = table(&mut Draw::new(n as u64 + most), n, n, most, 0);
+            let costs = Costs::new(&entries, n).expect("a square");
+            let mut room = Room::<i32>::new(n);
+            let runs =
+                (0..if n > 500 { 5 } else { 25 }).map(|_| timed(|| room.assign(black_box(&costs))));
+            let (times, totals): (Vec<_>, Vec<_>) = runs.unzip();
+            let total = totals[0].expect("a full table has an assignment");
+            let bytes = entries.iter().flat_map(|it| it.map_or(0, Cost::get).to_le_bytes());
+            let name = format!("{n}-{most}");
+            let file = folder.join(format!("{name}.bin"));
+            std::fs::write(file, bytes.collect::<Vec<_>>()).expect("it can be written");
+            let seconds = median(times) / 1e6;
+            results += &format!(
+                "{{\"name\": \"{name}\", \"n\": {n}, \"most\": {most}, \"total\": {total}, \
+                 \"seconds\": {seconds:.9}}}\n"
+            );
+        }
+    }
+    std::fs::write(folder.join("results.jsonl"), results).expect("it can be written");
 }
 
 /// A table of so many rows and columns, with a share of its edges missing.

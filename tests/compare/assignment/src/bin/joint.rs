@@ -2,6 +2,8 @@
 //! each number of robots, beside what the thesis does.
 //!
 //! `joint [SEEDS]`: one setting for all. Teams are crowded: about as many roles as robots.
+//! `joint SEEDS --export DIR`: those of 20 to 60 robots, as files, with what came out and how long
+//! it took, for `../teams.py`.
 #![allow(clippy::cast_precision_loss)] // a gap in percent needs no more than a double's digits
 
 #[path = "../../../../../core/tests/common/draw.rs"]
@@ -15,7 +17,9 @@ use cotama_core::team::thesis::{all_coalitions, all_orderings};
 use cotama_core::team::{Combine, Cost, Fixed, Team, coalition};
 use draw::Draw;
 use rustix::time::{ClockId, clock_gettime};
+use std::fmt::Write;
 use std::hint::black_box;
+use std::path::{Path, PathBuf};
 use teams::{Kind, OwnedPlan, OwnedTask, OwnedTeam, Room, again, team};
 
 /// The processor's time so far.
@@ -26,6 +30,11 @@ fn seconds() -> f64 {
 
 fn main() {
     let seeds: u64 = std::env::args().nth(1).and_then(|it| it.parse().ok()).unwrap_or(3);
+    let mut arguments = std::env::args().skip_while(|it| it != "--export").skip(1);
+    let folder = arguments.next().map(PathBuf::from);
+    if let Some(folder) = folder {
+        return export(seeds, &folder);
+    }
     println!("n   one task, µs   all coalitions, µs   ratio   all orderings, µs");
     (4..=12).for_each(one_task);
     println!(
@@ -34,30 +43,108 @@ fn main() {
     let sizes = [6, 8, 10, 12, 20, 30, 40, 40, 48, 60, 80, 100];
     let tasks = [4, 5, 7, 8, 11, 16, 18, 22, 22, 30, 40, 50];
     for (robots, tasks) in sizes.into_iter().zip(tasks) {
-        for (name, largest, must) in [("mixed", false, 50), ("must", false, 100), ("max", true, 50)]
-        {
+        for name in KINDS {
             for seed in 0..seeds {
-                let kind = Kind {
-                    robots,
-                    tasks,
-                    roles: 3,
-                    plans: 3,
-                    most: 100,
-                    missing: 40,
-                    must,
-                    skip: 120,
-                    largest,
-                };
-                let owned = team(&mut Draw::new(seed * 1000 + robots as u64), kind);
-                let line = owned.with(prove);
+                let line = drawn(robots, tasks, name, seed).with(prove).line;
                 println!("{robots:6}, {tasks:5} {name:>6} {seed:5}  {line}");
             }
         }
     }
 }
 
-/// Proves the best answer; a line of what came out.
-fn prove(team: &Team<'_>) -> String {
+/// Half of the tasks must be done; all must; only the largest cost of a role counts.
+const KINDS: [&str; 3] = ["mixed", "must", "max"];
+
+/// A crowded team.
+fn drawn(robots: usize, tasks: usize, kind: &str, seed: u64) -> OwnedTeam {
+    let must = if kind == "must" { 100 } else { 50 };
+    let kind = Kind {
+        robots,
+        tasks,
+        roles: 3,
+        plans: 3,
+        most: 100,
+        missing: 40,
+        must,
+        skip: 120,
+        largest: kind == "max",
+    };
+    team(&mut Draw::new(seed * 1000 + robots as u64), kind)
+}
+
+/// Writes teams, and a line of JSON for each with the answer and its time.
+fn export(seeds: u64, folder: &Path) {
+    std::fs::create_dir_all(folder).expect("the folder can be made");
+    let mut results = String::new();
+    for (robots, tasks) in [(20, 11), (30, 16), (40, 22), (48, 22), (60, 30)] {
+        for kind in KINDS {
+            for seed in 0..seeds {
+                let name = format!("{robots}-{tasks}-{kind}-{seed}");
+                let owned = drawn(robots, tasks, kind, seed);
+                let Proven { line, said, cost, seconds } = owned.with(prove);
+                println!("{name:<16} {line}");
+                let file = folder.join(format!("{name}.json"));
+                std::fs::write(file, instance(&name, &owned)).expect("it can be written");
+                let cost = cost.map_or("null".into(), |it| it.to_string());
+                let _ = writeln!(
+                    results,
+                    "{{\"name\": \"{name}\", \"status\": \"{said}\", \"cost\": {cost}, \
+                     \"seconds\": {seconds:.9}}}"
+                );
+            }
+        }
+    }
+    std::fs::write(folder.join("results.jsonl"), results).expect("it can be written");
+}
+
+/// A team as a `cotama-team-assignment/1` file.
+fn instance(name: &str, team: &OwnedTeam) -> String {
+    let names = |what: &str, count: usize| -> Vec<String> {
+        (0..count).map(|it| format!("\"{what}{it}\"")).collect()
+    };
+    let number = |it: Option<Cost>| it.map_or("null".into(), |it| it.get().to_string());
+    let tasks = team.tasks.iter().enumerate().map(|(task, it)| {
+        let plans = it.plans.iter().enumerate().map(|(plan, it)| {
+            let roles = it.costs.chunks(team.robots).enumerate().map(|(role, costs)| {
+                let costs: Vec<_> = costs.iter().map(|it| number(*it)).collect();
+                format!("{{\"name\": \"r{role}\", \"cost\": [{}]}}", costs.join(","))
+            });
+            let roles: Vec<_> = roles.collect();
+            let (extra, roles) = (it.extra, roles.join(","));
+            format!("{{\"name\": \"p{plan}\", \"extra_cost\": {extra}, \"roles\": [{roles}]}}")
+        });
+        let combine = match it.combine {
+            Combine::Sum => "sum",
+            Combine::Mean => "mean",
+            Combine::Max => "max",
+        };
+        let (skip, plans) = (number(it.skip), plans.collect::<Vec<_>>().join(","));
+        format!(
+            "{{\"name\": \"t{task}\", \"skip_cost\": {skip}, \"combine\": \"{combine}\", \
+             \"plans\": [{plans}]}}"
+        )
+    });
+    let (robots, tasks) = (names("", team.robots), tasks.collect::<Vec<_>>());
+    format!(
+        "{{\"format\": \"cotama-team-assignment/1\", \"name\": \"{name}\", \
+         \"kind\": \"simultaneous\", \"cost_denominator\": {}, \"robots\": [{}], \
+         \"tasks\": [{}]}}\n",
+        team.denominator,
+        robots.join(","),
+        tasks.join(",\n")
+    )
+}
+
+/// What came out.
+struct Proven {
+    line: String,
+    said: &'static str,
+    cost: Option<u64>,
+    seconds: f64,
+}
+
+/// Proves the best answer.
+fn prove(team: &Team<'_>) -> Proven {
     let mut room = Room::<128>::new(team, 400_000);
     let mut joint = room.joint();
     let start = seconds();
@@ -72,8 +159,10 @@ fn prove(team: &Team<'_>) -> String {
     if let Some(cost) = cost {
         assert_eq!(again(team, &mut joint), cost);
     }
-    let (cost, steps, nodes) = (cost.unwrap_or(0), solved.steps, solved.nodes);
-    format!("{said:<10} {cost:>10} {gap:>7.3} {time:>10.3} {steps:>9} {nodes:>6}")
+    let (steps, nodes) = (solved.steps, solved.nodes);
+    let told = cost.unwrap_or(0);
+    let line = format!("{said:<10} {told:>10} {gap:>7.3} {time:>10.3} {steps:>9} {nodes:>6}");
+    Proven { line, said, cost, seconds: time / 1e3 }
 }
 
 /// The median time of a few runs, each of so many.

@@ -1,10 +1,13 @@
-//! The entry points of the decisional level: linked alone, each keeps its own code and tables only.
+//! The entry points of the decisional level, and of teams of eight robots: linked alone, each keeps its own code and tables only.
 #![no_std]
 
 use core::panic::PanicInfo;
+use cotama_core::allocation::MemoryError;
 use cotama_core::executive::Happening;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Request;
+use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Slot, Solved, Way};
+use cotama_core::team::{Bottleneck, Costs, Memory, Team, Unassigned, assign, bottleneck};
 use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word};
@@ -52,6 +55,52 @@ entries! {
     /// A plan by the exact allocator.
     robot_plan_exactly(robot: &mut Robot, first: usize, rest: Rest, units: Equipment) -> bool =
         robot.mission().plan_exactly(first, rest, units);
+    /// Roles to robots at the least sum.
+    robot_assign(
+        costs: &Costs<'_>, memory: &mut Memory<'_, i32>
+    ) -> Result<u64, Unassigned> = assign(costs, memory);
+    /// Roles to robots with the largest cost as small as can be.
+    robot_bottleneck(
+        costs: &Costs<'_>, memory: &mut Memory<'_, i32>
+    ) -> Result<Bottleneck, Unassigned> = bottleneck(costs, memory);
+    /// All tasks of eight robots at once.
+    robot_joint(
+        team: &Team<'_>, memory: JointMemory<'_, 8>, steps: u64
+    ) -> Result<Solved, MemoryError> = Joint::new(memory).solve(team, steps);
+}
+
+/// Memory for eight robots and four tasks of two roles.
+pub struct TeamRoom {
+    roles: [[i64; 8]; 8],
+    ways: [Way; 4],
+    slots: [Slot; 4],
+    columns: [Column; 256],
+    open: [Open; 17],
+    levels: [Level<8>; 9],
+}
+
+impl TeamRoom {
+    /// Unused.
+    pub const EMPTY: Self = Self {
+        roles: [[0; 8]; 8],
+        ways: [Way::EMPTY; 4],
+        slots: [Slot::EMPTY; 4],
+        columns: [Column::EMPTY; 256],
+        open: [Open::EMPTY; 17],
+        levels: [Level::EMPTY; 9],
+    };
+
+    /// The memory.
+    pub fn memory(&mut self) -> JointMemory<'_, 8> {
+        JointMemory {
+            roles: &mut self.roles,
+            ways: &mut self.ways,
+            slots: &mut self.slots,
+            columns: &mut self.columns,
+            open: &mut self.open,
+            levels: &mut self.levels,
+        }
+    }
 }
 
 #[panic_handler]

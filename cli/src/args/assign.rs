@@ -1,0 +1,51 @@
+//! The command line of `cotama assign`.
+
+use super::Json;
+use super::number::whole;
+use clap::Args;
+
+/// The usual limit of a search over all tasks at once: some tens of seconds.
+const STEPS: u64 = 200_000_000;
+
+pub(crate) const ASSIGN_EXAMPLES: &str = "\
+Kinds of instances:
+  single           each task has `cost`, one entry a robot
+  coalition-mean   one task; the mean of the costs of its roles counts: how fast it is
+  coalition-max    one task; the largest counts: the slowest member
+  simultaneous     any tasks at once, each with its own `combine`: sum, mean or max
+
+Instance:
+  {\"format\":\"cotama-team-assignment/1\", \"name\":\"home\", \"kind\":\"simultaneous\",
+   \"cost_denominator\":1, \"robots\":[\"anna\",\"ben\"],
+   \"tasks\":[{\"name\":\"mop\", \"skip_cost\":30, \"cost\":[8,null]},
+            {\"name\":\"carry\", \"skip_cost\":null, \"combine\":\"max\", \"plans\":[
+              {\"name\":\"both\", \"extra_cost\":0, \"roles\":[
+                {\"name\":\"left\", \"cost\":[5,6]}, {\"name\":\"right\", \"cost\":[4,9]}]}]}]}
+
+`cost_denominator` D is a multiple of the number of roles of each plan whose mean counts, and 1 \
+where there is none: all costs of the answer are in parts, D of which make a unit. `extra_cost` is \
+what a plan yields less than the best one.
+
+Examples:
+  $ echo '{\"format\": \"cotama-team-assignment/1\", \"name\": \"home\", \"kind\": \"single\", \
+\"cost_denominator\": 1, \"robots\": [\"anna\", \"ben\"], \"tasks\": [{\"name\": \"mop\", \
+\"skip_cost\": null, \"cost\": [3, 2]}, {\"name\": \"cook\", \"skip_cost\": 9, \"cost\": \
+[null, 1]}]}' > home.json
+  $ cotama assign home.json
+  $ cotama assign home.json --greedy
+  $ cotama assign - --json < home.json";
+
+#[derive(Args, Debug)]
+pub(crate) struct AssignArgs {
+    /// The instance, a JSON file, or `-`
+    pub(crate) instance: String,
+    /// The most steps of a search over all tasks at once
+    #[arg(long, value_name = "N", default_value_t = STEPS)]
+    #[arg(value_parser = whole(1, u64::MAX))]
+    pub(crate) steps: u64,
+    /// Also says what greedy rounds cost: one task after another, the dearest to leave first
+    #[arg(long)]
+    pub(crate) greedy: bool,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}

@@ -1,0 +1,117 @@
+//! `cotama assign`: which robots do which tasks.
+
+use crate::answers::assign::{
+    AssignAnswer, AssignStatus, Certificate, DoneRow, GreedyRow, PlanRow, WhyInfeasible,
+};
+use crate::args::AssignArgs;
+use crate::exit::{Exit, Failure};
+use crate::input;
+use crate::kind::{self, Kind};
+use crate::names::quoted;
+use crate::output::Screen;
+use crate::render;
+use cotama_models::team::instance::{
+    Assignment, Instance, InstancePlan, PlanProof, Proof, Verdict,
+};
+
+/// Solves one instance.
+pub(crate) fn assign(args: &AssignArgs, screen: &Screen) -> Result<Exit, Failure> {
+    let what = "a team with its tasks";
+    let text = kind::text(&args.instance, what, input::INSTANCE_BYTES, &[Kind::Team])?;
+    let instance = Instance::parse(input::name(&args.instance), &text)?;
+    drop(text);
+    let found = instance.solve(args.steps).map_err(|error| Failure::new(error.to_string()))?;
+    let answer = answer(&instance, &found, args.greedy);
+    if args.json.json {
+        Screen::json(&answer)?;
+    } else {
+        let searched = matches!(answer.certificate, Certificate::Search { .. });
+        let next = (answer.status == AssignStatus::Unknown && searched).then(|| {
+            let steps = args.steps.saturating_mul(10);
+            format!("cotama assign {} --steps {steps}", quoted(&args.instance))
+        });
+        screen.print(&render::assign::screen(&instance, &answer, next, screen.width()))?;
+    }
+    Ok(match answer.status {
+        AssignStatus::Optimal => Exit::Success,
+        AssignStatus::Infeasible => Exit::Violated,
+        AssignStatus::Unknown => Exit::Unknown,
+    })
+}
+
+fn answer(instance: &Instance, found: &Assignment, greedy: bool) -> AssignAnswer {
+    let robots = |list: &[usize]| names(&instance.robots, list);
+    let done = found.done.iter().filter_map(|it| {
+        let task = instance.tasks.get(it.task)?;
+        let plan = task.plans.get(it.plan).filter(|_| task.is_for_several);
+        Some(DoneRow {
+            task: task.name.clone(),
+            plan: plan.map(|it| it.name.clone()),
+            robots: robots(&it.robots),
+            cost: instance.cost_of(it).unwrap_or(0),
+        })
+    });
+    let (status, why_infeasible) = match &found.verdict {
+        Verdict::Optimal { .. } => (AssignStatus::Optimal, None),
+        Verdict::Unknown { .. } => (AssignStatus::Unknown, None),
+        Verdict::Infeasible(reason) => {
+            let tasks = reason.tasks.iter().filter_map(|it| instance.tasks.get(*it));
+            let tasks = tasks.map(|it| it.name.clone()).collect();
+            let why = WhyInfeasible { tasks, robots: robots(&reason.robots) };
+            (AssignStatus::Infeasible, Some(why))
+        }
+    };
+    let greedy = if greedy { instance.greedy() } else { None };
+    AssignAnswer {
+        schema: "cotama/assign/1",
+        name: instance.name.clone(),
+        status,
+        cost: found.cost(),
+        cost_denominator: instance.denominator,
+        lower_bound: found.bound(),
+        assignment: done.collect(),
+        why_infeasible,
+        certificate: certificate(instance, &found.proof),
+        greedy: greedy.map(|it| GreedyRow {
+            cost: it.cost,
+            unserved: it.unserved,
+            rounds: it.rounds,
+        }),
+    }
+}
+
+fn certificate(instance: &Instance, proof: &Proof) -> Certificate {
+    match proof {
+        Proof::Prices(prices) => Certificate::Prices { robot_prices: prices.clone() },
+        Proof::Hall => Certificate::Hall,
+        Proof::Search { steps, nodes } => Certificate::Search { steps: *steps, nodes: *nodes },
+        Proof::TooLarge { limit } => Certificate::Limit { limit: limit.clone() },
+        Proof::Plans(proofs) => {
+            let plans = instance.tasks.first().map_or(&[][..], |it| &it.plans);
+            let plans = plans.iter().zip(proofs).map(|(plan, it)| row(instance, plan, it));
+            Certificate::Plans { plans: plans.collect() }
+        }
+    }
+}
+
+fn row(instance: &Instance, plan: &InstancePlan, proof: &PlanProof) -> PlanRow {
+    let conflict = |roles: &[usize], robots: &[usize]| {
+        (Some(names(&plan.roles, roles)), Some(names(&instance.robots, robots)))
+    };
+    let row = PlanRow { plan: plan.name.clone(), cost: proof.cost(), ..PlanRow::default() };
+    match proof {
+        PlanProof::Prices { prices, .. } => PlanRow { robot_prices: Some(prices.clone()), ..row },
+        PlanProof::Threshold { largest, roles, robots, .. } => {
+            let (roles, robots) = conflict(roles, robots);
+            PlanRow { threshold: Some(*largest), roles, robots, ..row }
+        }
+        PlanProof::Impossible { roles, robots } => {
+            let (roles, robots) = conflict(roles, robots);
+            PlanRow { roles, robots, ..row }
+        }
+    }
+}
+
+fn names(all: &[String], list: &[usize]) -> Vec<String> {
+    list.iter().filter_map(|it| all.get(*it)).cloned().collect()
+}

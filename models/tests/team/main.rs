@@ -1,0 +1,8 @@
+//! Teams as data: laws of capabilities and bids; instances from files, and their answers.
+#![allow(missing_docs)]
+
+#[cfg(feature = "std")]
+mod answers;
+#[cfg(feature = "std")]
+mod broken;
+mod laws;
