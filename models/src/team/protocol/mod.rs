@@ -70,7 +70,7 @@ mod requirement;
 mod team;
 
 pub use requirement::{Requirement, requirements};
-pub use team::{Defect, MOST_ROBOTS, Plan, TEXT, Team};
+pub use team::{Defect, MOST_ROBOTS, TEXT, Team};
 
 use cotama_core::net::owned::OwnedNet;
 use draft::Draft;
