@@ -11,7 +11,7 @@
 //! What follows from these: [`mutual_heterogeneity`] and [`team_heterogeneity`], whether a
 //! coalition [is capable](capable), the [`failure_aware_cost`] that a robot bids, the [`Pledge`] of
 //! the winner, and the [`ErrorClass`] of what goes wrong. [`service`] is the thesis's drink
-//! service; [`protocol`] the messages by which robots agree, as checked nets.
+//! service; `protocol` (feature `std`) is how robots agree on who does what, as nets.
 //!
 //! No floating point, no heap: probabilities are counted in parts per 10⁹ and rounded down, costs
 //! are integers and rounded up, so that no robot promises more than it can hold.

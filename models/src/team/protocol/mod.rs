@@ -55,9 +55,10 @@
 //! - *Copies*: the next auctioneer knows what the one before knew, as that wrote the copy first.
 //!
 //! Liveness is asked of runs on which the network settles at last. Nothing else is assumed: a run
-//! goes on as long as something can happen, failures need not happen (`failure.spared`), and there
-//! is no cycle in which somebody could be kept from a step for ever. Where there is one, in the text
-//! and in mutants, [`Requirement::fair`] leaves the unfair runs out.
+//! goes on as long as something can happen, failures need not happen (`failure.spared`), and no
+//! cycle keeps anybody from a step for ever. The text and mutants have such cycles:
+//! [`Requirement::fair`] leaves the unfair runs out. MuRoCo-D's requests of brokers to bidders are
+//! left out, and a broker and its bidder are one robot.
 //!
 //! Names: `r2.waiting.t1` is robot 2 in task 1, `t1.named.r2` what task 1's round holds of robot 2.
 
@@ -71,7 +72,7 @@ mod team;
 
 pub use requirement::{Requirement, requirements};
 pub use supervised::{supervised, supervised_requirements};
-pub use team::{Defect, MOST_ROBOTS, Plan, TEXT, Team};
+pub use team::{Defect, MOST_ROBOTS, TEXT, Team};
 
 use cotama_core::net::owned::OwnedNet;
 use draft::Draft;

@@ -5,7 +5,7 @@ pub const MOST_ROBOTS: usize = 6;
 
 /// How many robots a task's plan needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Plan {
+pub(super) enum Plan {
     /// One.
     Alone,
     /// Two at once.
@@ -14,7 +14,7 @@ pub enum Plan {
 
 impl Plan {
     /// How many roles it has.
-    pub const fn roles(self) -> usize {
+    pub(super) const fn roles(self) -> usize {
         match self {
             Self::Alone => 1,
             Self::Pair => 2,
@@ -91,6 +91,12 @@ impl Team {
 }
 
 /// A departure from the repaired protocol.
+///
+/// ```
+/// use cotama_models::team::protocol::{Defect, TEXT};
+/// assert_eq!((Defect::ALL.len(), TEXT.len()), (26, 10));
+/// assert!(TEXT.iter().all(|it| Defect::ALL.contains(it)));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Defect {
     /// The auctioneer awards when all who were alive have answered, and has no deadline (P1).
