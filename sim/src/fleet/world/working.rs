@@ -49,7 +49,10 @@ impl World<'_> {
         let done = self.hands_are_done(robot);
         let now = self.now;
         let driven = self.robots[robot].driver.round(now, done);
-        if let Some(mode) = driven.found {
+        if let Some(mode) = driven.found
+            && !self.robots[robot].found.contains(&mode)
+        {
+            self.robots[robot].found.push(mode);
             self.note(|t_ms| Record::Found { t_ms, robot, mode: mode.name().to_owned() });
         }
         let (stage, before) = (self.robots[robot].driver.stage(), self.robots[robot].stage);
@@ -296,7 +299,9 @@ impl World<'_> {
     fn estimate(&self, robot: usize) -> Option<u64> {
         let agent = &self.robots[robot];
         let Duty::Executing(work) = &agent.duty else { return None };
-        let (role, pace) = (self.role(work), agent.driver.pace()?);
+        let role = self.role(work);
+        // Who cannot drive is stopped, or asks the operator, by its supervisors: that takes time.
+        let Some(pace) = agent.driver.pace() else { return Some(self.now - work.since) };
         let [takes, gives] = agent.goals;
         let second = self.scenario.floor.distance(takes, gives)? * 1_000 / pace;
         let left = agent.driver.left_mm(self.now) * 1_000 / pace;
