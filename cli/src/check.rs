@@ -146,8 +146,16 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         }
         // Requirements name cells that are never reached on purpose.
         if !args.mcc && requirement.is_none() {
-            row.vacuous = explained::vacuity(checker, subject, property, &found, &options);
+            let vacuous = explained::vacuity(checker, subject, property, &found, &options);
             progress.clear();
+            match vacuous {
+                explained::Vacuous::Because(reason) => row.vacuous = Some(reason),
+                explained::Vacuous::Not => {}
+                explained::Vacuous::Unsettled => screen.note(&format!(
+                    "{}: whether it holds vacuously was tried for some of its parts only",
+                    visible(&property.name)
+                )),
+            }
         }
         if shows {
             let (unit, width) = (subject.time_unit(), screen.width());

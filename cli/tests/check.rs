@@ -89,6 +89,20 @@ fn a_property_that_holds_for_no_good_reason_is_named() {
 }
 
 #[test]
+fn vacuity_that_is_not_found_out_is_said() {
+    let folder = Folder::new("check_vacuous_parts");
+    let who = |it| format!("(think_{it} | with_left_{it} | with_right_{it} | eat_{it})");
+    let said = |number: usize| {
+        let all: Vec<_> = (1..=number).map(who).collect();
+        let ended = check(&folder, "philosophers:3", &[&format!("AG ({})", all.join(" & "))], &[]);
+        assert_eq!(ended.code, Some(0));
+        ended.stderr
+    };
+    assert_eq!(said(2), "", "eight parts");
+    assert!(said(3).contains("whether it holds vacuously was tried for some of its parts only"));
+}
+
+#[test]
 fn time_is_measured_where_there_are_intervals() {
     let folder = Folder::new("check_time");
     folder.write("race.net", "tr fast [1,2] idle -> won  tr late [5,7] won -> done  pl idle (1)");

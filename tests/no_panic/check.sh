@@ -14,7 +14,8 @@ CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/no_pan
 cd "$here"
 target=${1:-}
 build=(cargo build --quiet --locked --release)
-nm=nm link=(cc -nostartfiles "-Wl,--gc-sections") pass=-Wl,
+# The compiler's own division of 128 bits has tables for unwinding, which nothing here does.
+nm=nm link=(cc -nostartfiles "-Wl,--gc-sections,--defsym=rust_eh_personality=0") pass=-Wl,
 if [ -n "$target" ]; then
     export PATH=/usr/bin:/bin
     unset CARGO RUSTC RUSTDOC RUSTFLAGS RUSTUP_TOOLCHAIN

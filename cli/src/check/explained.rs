@@ -124,7 +124,7 @@ pub(super) fn vacuity(
     property: &Property,
     answer: &Answer,
     options: &Options<'_>,
-) -> Option<String> {
+) -> Vacuous {
     let limits = Limits { states: options.limits.states.min(MARKINGS), ..options.limits };
     let options = Options { limits, evidence: false, ..*options };
     let holds = |question| {
@@ -135,16 +135,34 @@ pub(super) fn vacuity(
         (Question::Formula(formula), Verdict::Holds(true)) => formula,
         (Question::Fair(_, assumed), Verdict::Holds(true)) => {
             let never = Formula::All(Formula::Finally(Formula::FALSE.into()).into());
-            return holds(Question::Fair(never, assumed.clone()))
-                .then(|| "no run is as it is assumed to be".to_owned());
+            let none = holds(Question::Fair(never, assumed.clone()));
+            return if none {
+                Vacuous::Because("no run is as it is assumed to be".to_owned())
+            } else {
+                Vacuous::Not
+            };
         }
-        _ => return None,
+        _ => return Vacuous::Not,
     };
-    let found = vacuous(formula)
-        .asked
-        .into_iter()
-        .take(QUESTIONS)
-        .find(|stronger| holds(Question::Formula(stronger.formula.clone())))?;
-    let pt = subject.model.pt();
-    Some(found.words(&property.question.display(pt).to_string(), pt))
+    let variants = vacuous(formula);
+    let is_complete = variants.is_complete && variants.asked.len() <= QUESTIONS;
+    let mut asked = variants.asked.into_iter().take(QUESTIONS);
+    match asked.find(|stronger| holds(Question::Formula(stronger.formula.clone()))) {
+        Some(found) => {
+            let pt = subject.model.pt();
+            Vacuous::Because(found.words(&property.question.display(pt).to_string(), pt))
+        }
+        None if is_complete => Vacuous::Not,
+        None => Vacuous::Unsettled,
+    }
+}
+
+/// Whether a property holds vacuously.
+pub(super) enum Vacuous {
+    /// For this reason.
+    Because(String),
+    /// No, or it was not found out among few markings.
+    Not,
+    /// It has more parts than are asked about, and does not because of those that were.
+    Unsettled,
 }

@@ -76,6 +76,7 @@ pub fn assign<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Resul
     if costs.rows() > costs.columns() {
         return Err(work.all_in_conflict());
     }
+    work.can_all_have_one()?;
     work.assign()
 }
 
@@ -127,7 +128,7 @@ impl<'w, N: Amount> Work<'w, N> {
     }
 
     /// A row gets a column that nobody has any more.
-    fn give(&mut self, row: u32, column: usize) {
+    pub(super) fn give(&mut self, row: u32, column: usize) {
         if let Some(it) = self.memory.row_of.get_mut(column) {
             *it = row.wrapping_add(1);
         }

@@ -87,6 +87,8 @@ pub struct Costs<'a> {
     least: i32,
     /// No entry that counts is stored as less.
     lowest: i32,
+    /// Whether an entry may be missing.
+    lacks_any: bool,
 }
 
 impl<'a> Costs<'a> {
@@ -99,7 +101,9 @@ impl<'a> Costs<'a> {
             it => it,
         };
         let lowest = entries.iter().map(stored).fold(Cost::TOP, i32::min);
-        (whole || entries.is_empty()).then_some(Self { entries, columns, least: 1, lowest })
+        let lacks_any = entries.iter().fold(false, |lacks, it| lacks | it.is_none());
+        let table = Self { entries, columns, least: 1, lowest, lacks_any };
+        (whole || entries.is_empty()).then_some(table)
     }
 
     /// The same table, in which everything above `limit` is missing.
@@ -116,12 +120,18 @@ impl<'a> Costs<'a> {
 
     fn stored_from(self, least: i32) -> Self {
         let least = least.max(self.least);
-        Self { least, lowest: self.lowest.max(least).min(Cost::TOP), ..self }
+        let lacks_any = self.lacks_any || self.lowest < least;
+        Self { least, lowest: self.lowest.max(least).min(Cost::TOP), lacks_any, ..self }
     }
 
     /// No cost is above this.
     pub const fn most(&self) -> u32 {
         Cost::number(self.lowest).cast_unsigned()
+    }
+
+    /// Whether an entry may be missing.
+    pub(super) const fn lacks_any(&self) -> bool {
+        self.lacks_any
     }
 
     /// How many rows there are.

@@ -14,6 +14,7 @@ mod bottleneck;
 mod coalition;
 mod cost;
 pub mod joint;
+mod matching;
 mod memory;
 mod problem;
 mod proof;

@@ -119,6 +119,30 @@ fn large_tables_are_proven_too_with_half_of_their_edges_missing() {
 }
 
 #[test]
+fn large_tables_that_are_nearly_empty_are_assigned_or_in_conflict() {
+    let (mut draw, mut feasible) = (Draw::new(21), 0);
+    let mut fixed = Fixed::<i32, 90, 100>::new();
+    for _ in 0..400 {
+        let rows = 64 + below(&mut draw, 27) as usize;
+        let columns = rows + below(&mut draw, 11) as usize;
+        let missing = 91 + below(&mut draw, 6);
+        let mut entries = table(&mut draw, rows, columns, 1_000, missing);
+        // The last rows have few columns among themselves, just enough or one too few.
+        let (few, own) = (rows / 8, rows / 8 - below(&mut draw, 2) as usize);
+        for row in rows - few..rows {
+            for column in 0..columns {
+                entries[row * columns + column] = Cost::new(column as u32).filter(|_| column < own);
+            }
+        }
+        let costs = Costs::new(&entries, columns).unwrap();
+        let found = proven(&costs, &mut fixed.memory());
+        assert!(found.is_none() || own == few);
+        feasible += usize::from(found.is_some());
+    }
+    assert!((100..200).contains(&feasible), "{feasible}");
+}
+
+#[test]
 fn too_large_for_half_the_width_is_said_and_the_whole_width_has_an_answer() {
     let entries = of([Some(Cost::MOST), Some(0), Some(Cost::MOST), Some(1)]);
     let costs = Costs::new(&entries, 2).unwrap();

@@ -86,7 +86,7 @@ fn root_team_new<'a>(
 }
 
 #[unsafe(no_mangle)]
-fn open_team_joint(
+fn root_team_joint(
     team: &Team<'_>,
     memory: JointMemory<'_, N>,
     steps: u64,
@@ -97,7 +97,7 @@ fn open_team_joint(
 }
 
 #[unsafe(no_mangle)]
-fn open_team_all_coalitions(
+fn root_team_all_coalitions(
     task: &Task<'_>,
     entries: &mut [Option<Cost>],
     memory: &mut Memory<'_, i32>,
@@ -111,7 +111,7 @@ fn root_team_all_orderings(task: &Task<'_>, chosen: &mut [usize]) -> Formed {
 }
 
 #[unsafe(no_mangle)]
-fn open_team_greedy(
+fn root_team_greedy(
     team: &Team<'_>,
     states: &mut [State],
     entries: &mut [Option<Cost>],
@@ -121,7 +121,7 @@ fn open_team_greedy(
 }
 
 #[unsafe(no_mangle)]
-fn open_team_shares(shares: &mut Shares<N>) -> Option<(RobotSet, usize)> {
+fn root_team_shares(shares: &mut Shares<N>) -> Option<(RobotSet, usize)> {
     shares.next()
 }
 

@@ -157,31 +157,20 @@ impl Numbered {
     /// # Errors
     /// Why it cannot be played.
     pub fn play(&self, start: Millis, then: &mut Then<'_>) -> Result<(), NotPlayed> {
-        self.with_system(|system| match words(system) {
-            Some(0..=4) => self.with_words::<4>(system, start, then),
-            Some(5..=16) => self.with_words::<16>(system, start, then),
-            Some(17..=MOST_WORDS) => self.with_words::<MOST_WORDS>(system, start, then),
-            Some(words) => {
+        self.with_system(|system| match (words(system), clocks(system)) {
+            // Each size is a program of its own to compile: a small one and the largest do.
+            (Some(0..=16), 0..=16) => self.with::<16, 16>(system, start, then),
+            (Some(0..=MOST_WORDS), 0..=MOST_CLOCKS) => {
+                self.with::<MOST_WORDS, MOST_CLOCKS>(system, start, then)
+            }
+            (Some(0..=MOST_WORDS), clocks) => Err(NotPlayed::Clocks(clocks)),
+            (Some(words), _) => {
                 let mut places = system.components.iter().flat_map(|it| it.net.places);
                 let unbounded = places.any(|it| it.bound == Place::UNBOUNDED);
                 Err(NotPlayed::Words { words, unbounded })
             }
-            None => Err(NotPlayed::Parts),
+            (None, _) => Err(NotPlayed::Parts),
         })
-    }
-
-    fn with_words<const W: usize>(
-        &self,
-        system: &System<'_>,
-        start: Millis,
-        then: &mut Then<'_>,
-    ) -> Result<(), NotPlayed> {
-        match clocks(system) {
-            0 => self.with::<W, 0>(system, start, then),
-            1..=16 => self.with::<W, 16>(system, start, then),
-            17..=MOST_CLOCKS => self.with::<W, MOST_CLOCKS>(system, start, then),
-            clocks => Err(NotPlayed::Clocks(clocks)),
-        }
     }
 
     fn with<const W: usize, const C: usize>(

@@ -44,13 +44,13 @@ impl<const N: usize> Listing<'_, N> {
         columns: &mut [Column],
         budget: &mut Budget,
     ) -> Option<usize> {
-        let mut count = 0;
-        for (task, slot) in (0_u16..).zip(self.slots) {
+        let mut count = 0_usize;
+        for (task, slot) in (0..self.slots.len() as u16).zip(self.slots) {
             let limit = slot.least.saturating_add(loss);
             if slot.skip <= limit {
                 let none = Column { set: 0, cost: slot.skip, task, plan: NO_PLAN };
                 *columns.get_mut(count)? = none;
-                count += 1;
+                count = count.wrapping_add(1);
             }
             let ways = self.ways.iter().filter(|it| it.task == task && !slot.idle);
             for way in ways {
@@ -73,12 +73,12 @@ impl<const N: usize> Listing<'_, N> {
         let rows = way.rows(self.rows);
         if let [row] = rows {
             budget.take(1)?;
-            for (robot, (entry, price)) in (0_u32..).zip(row.iter().zip(self.prices)) {
+            for (robot, (entry, price)) in (0..N as u32).zip(row.iter().zip(self.prices)) {
                 let cost = (entry & self.keep).wrapping_add(way.extra & self.keep);
                 if cost.wrapping_add(*price) <= limit {
                     let set = 1_u128.wrapping_shl(robot);
                     *columns.get_mut(count)? = way.column(set, cost);
-                    count += 1;
+                    count = count.wrapping_add(1);
                 }
             }
             return Some(count);
@@ -106,12 +106,12 @@ impl<const N: usize> Listing<'_, N> {
                 continue;
             }
             *columns.get_mut(count)? = way.column(set, cost);
-            count += 1;
+            count = count.wrapping_add(1);
             let mut with = forced;
             for robot in bits(set & !forced) {
                 let bit = 1_u128.wrapping_shl(robot as u32);
                 *self.open.get_mut(left)? = Open { forced: with, banned: banned | bit };
-                left += 1;
+                left = left.wrapping_add(1);
                 with |= bit;
             }
         }

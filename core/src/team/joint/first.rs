@@ -69,7 +69,8 @@ impl<const N: usize> First<'_, N> {
         let (mut taken, mut cost): (RobotSet, i64) = (0, 0);
         self.slots.iter_mut().for_each(|it| it.draft_cost = FAR);
         loop {
-            let open = self.slots.iter().enumerate().filter(|it| it.1.draft_cost == FAR);
+            let open = (0..self.slots.len()).zip(self.slots.iter());
+            let open = open.filter(|it| it.1.draft_cost == FAR);
             let next = open.max_by_key(|(number, it)| (it.rank, core::cmp::Reverse(*number)));
             let Some((task, _)) = next else { return Ok(cost) };
             let choice = self.choose(task, prices, taken).ok_or(task)?;

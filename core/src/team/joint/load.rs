@@ -16,21 +16,22 @@ impl<const N: usize> Joint<'_, N> {
         enough("slots of the team's memory", tasks.len(), memory.slots.len())?;
         (self.tasks, self.robots) = (tasks.len(), team.robots());
         self.oracle.robots = team.robots();
-        let used = u64::BITS - team.most().leading_zeros();
+        let used = u64::BITS.saturating_sub(team.most().leading_zeros());
         self.shift = BITS.saturating_sub(used).min(12);
-        let (mut way, mut role, mut step) = (0, 0, 0);
+        let (mut way, mut role, mut step) = (0_usize, 0_usize, 0);
+        let scaled = |it: u64, shift: u32| it.cast_signed().wrapping_shl(shift);
         let parts = u64::from(team.denominator());
-        for (number, task) in tasks.iter().enumerate() {
-            let skip = task.skip.map(|it| parts * u64::from(it.get()));
+        for (number, task) in (0..tasks.len()).zip(tasks) {
+            let skip = task.skip.map(|it| parts.wrapping_mul(it.get().into()));
             step = greatest_divisor(step, skip.unwrap_or(0));
             let must = skip.is_none();
-            let skip = skip.map_or(FAR, |it| it.cast_signed() << self.shift);
+            let skip = skip.map_or(FAR, |it| scaled(it, self.shift));
             put(memory.slots, number, Slot { undone: skip, skip, must, ..Slot::EMPTY });
-            for (plan, it) in task.plans.iter().enumerate() {
+            for (plan, it) in (0..task.plans.len()).zip(task.plans) {
                 if it.roles.rows() > team.robots() {
                     continue;
                 }
-                let extra = parts * u64::from(it.extra);
+                let extra = parts.wrapping_mul(it.extra.into());
                 step = greatest_divisor(step, extra);
                 let own = Way {
                     task: number as u16,
@@ -38,28 +39,28 @@ impl<const N: usize> Joint<'_, N> {
                     first: role as u32,
                     roles: it.roles.rows() as u32,
                     largest: task.combine == Combine::Max && it.roles.rows() > 1,
-                    extra: extra.cast_signed() << self.shift,
+                    extra: scaled(extra, self.shift),
                 };
                 put(memory.ways, way, own);
-                way += 1;
+                way = way.wrapping_add(1);
                 let weight = task.weight(team.denominator(), it.roles.rows());
                 for costs in (0..it.roles.rows()).map(|at| it.roles.row(at)) {
                     let mut row = [FAR; N];
                     for (slot, cost) in row.iter_mut().zip(costs) {
                         let Some(cost) = cost.map(Cost::get) else { continue };
-                        let cost = weight * u64::from(cost);
+                        let cost = weight.wrapping_mul(cost.into());
                         step = greatest_divisor(step, cost);
-                        *slot = cost.cast_signed() << self.shift;
+                        *slot = scaled(cost, self.shift);
                     }
                     put(memory.roles, role, row);
-                    role += 1;
+                    role = role.wrapping_add(1);
                 }
             }
         }
         (self.plans, self.roles) = (way, role);
-        self.step = step.max(1).cast_signed() << self.shift;
+        self.step = scaled(step.max(1), self.shift);
         (self.keep, self.gap, self.nodes, self.contested) = (!0, 0, 0, 0);
-        self.ceiling = (team.most().cast_signed() << self.shift) + self.step;
+        self.ceiling = scaled(team.most(), self.shift).wrapping_add(self.step);
         self.best = self.ceiling;
         Ok(())
     }

@@ -55,8 +55,9 @@ impl<const N: usize> Oracle<N> {
         let found = if way.largest {
             self.least_largest(rows, keep, prices)
         } else {
-            let entry =
-                |row: &[i64; N], robot: usize| (row[robot] & keep).wrapping_add(prices[robot]);
+            let entry = |row: &[i64; N], robot: usize| {
+                (at(row, robot) & keep).wrapping_add(at(prices, robot))
+            };
             self.least(rows, entry)
         };
         let value = found?;
@@ -72,17 +73,22 @@ impl<const N: usize> Oracle<N> {
     /// such edge to the next, until the largest cost alone is too much.
     fn least_largest(&mut self, rows: &[[i64; N]], keep: i64, prices: &[i64; N]) -> Option<i64> {
         let robots = self.robots.min(N);
-        let open = |row: &[i64; N], robot: usize| row[robot] < LIMIT && prices[robot] < LIMIT;
+        let open =
+            |row: &[i64; N], robot: usize| at(row, robot) < LIMIT && at(prices, robot) < LIMIT;
         let floor =
-            self.least(rows, |row, robot| if open(row, robot) { prices[robot] } else { FAR })?;
+            self.least(rows, |row, robot| if open(row, robot) { at(prices, robot) } else { FAR })?;
         let cheapest = |row: &[i64; N]| {
-            (0..robots).filter(|it| open(row, *it)).map(|it| row[it] & keep).fold(FAR, i64::min)
+            (0..robots).filter(|it| open(row, *it)).map(|it| at(row, it) & keep).fold(FAR, i64::min)
         };
         let mut limit = rows.iter().map(cheapest).fold(0, i64::max);
         let mut best = (FAR, [NONE; N]);
         while limit < LIMIT && limit.wrapping_add(floor) < best.0 {
             let within = |row: &[i64; N], robot: usize| {
-                if open(row, robot) && row[robot] & keep <= limit { prices[robot] } else { FAR }
+                if open(row, robot) && at(row, robot) & keep <= limit {
+                    at(prices, robot)
+                } else {
+                    FAR
+                }
             };
             let sum = self.least(rows, within);
             let mut next = FAR;
@@ -98,8 +104,8 @@ impl<const N: usize> Oracle<N> {
                     let own = usize::from(own);
                     let role = at(prices, own).wrapping_sub(at(&self.prices, own));
                     for robot in 0..robots {
-                        let entry = row[robot] & keep;
-                        let pays = prices[robot].wrapping_sub(self.prices[robot]) < role;
+                        let entry = at(row, robot) & keep;
+                        let pays = at(prices, robot).wrapping_sub(at(&self.prices, robot)) < role;
                         if entry > limit && entry < next && pays && open(row, robot) {
                             next = entry;
                         }
@@ -113,7 +119,7 @@ impl<const N: usize> Oracle<N> {
                 for role in roles.chain([self.from]) {
                     let Some(row) = rows.get(usize::from(role)) else { continue };
                     for robot in 0..robots {
-                        let entry = row[robot] & keep;
+                        let entry = at(row, robot) & keep;
                         if entry > limit && entry < next && open(row, robot) {
                             next = entry;
                         }
@@ -132,10 +138,10 @@ impl<const N: usize> Oracle<N> {
         self.prices = [0; N];
         self.role_of = [NONE; N];
         self.robot_of = [NONE; N];
-        for (role, row) in (0_u8..).zip(rows) {
+        for (role, row) in (0..rows.len() as u8).zip(rows) {
             let (mut first, mut second, mut nearest) = (FAR, FAR, N);
             for robot in 0..robots {
-                let value = entry(row, robot).wrapping_sub(self.prices[robot]);
+                let value = entry(row, robot).wrapping_sub(at(&self.prices, robot));
                 if value < first {
                     (first, second, nearest) = (value, first, robot);
                 } else if value < second {
@@ -172,16 +178,17 @@ impl<const N: usize> Oracle<N> {
             let row = rows.get(usize::from(role))?;
             let (mut least, mut nearest) = (FAR, N);
             for robot in 0..robots {
-                if self.distances[robot] == -FAR {
+                if at(&self.distances, robot) == -FAR {
                     continue;
                 }
-                let value = entry(row, robot).wrapping_sub(self.prices[robot]).wrapping_add(base);
-                if value < self.distances[robot] {
-                    self.distances[robot] = value;
-                    self.before[robot] = role;
+                let value =
+                    entry(row, robot).wrapping_sub(at(&self.prices, robot)).wrapping_add(base);
+                if value < at(&self.distances, robot) {
+                    put(&mut self.distances, robot, value);
+                    put(&mut self.before, robot, role);
                 }
-                if self.distances[robot] < least {
-                    (least, nearest) = (self.distances[robot], robot);
+                if at(&self.distances, robot) < least {
+                    (least, nearest) = (at(&self.distances, robot), robot);
                 }
             }
             if least >= LIMIT {
@@ -226,7 +233,7 @@ pub(super) fn restricted<const N: usize>(
     forced: RobotSet,
 ) -> [i64; N] {
     let mut own = *prices;
-    for (robot, price) in (0_u32..).zip(&mut own) {
+    for (robot, price) in (0..N as u32).zip(&mut own) {
         let bit = 1_u128.wrapping_shl(robot);
         if banned & bit != 0 {
             *price = FAR;

@@ -49,58 +49,70 @@ pub(super) fn ascend<const N: usize>(
 ) -> Option<i64> {
     let mut wanted = [0; N];
     let mut best = dual.evaluate(prices, &mut wanted, budget)?;
-    let mut mean = wanted.map(|it| (it - 1) * ONE);
-    let (mut pace, mut failures, mut stale) = (ONE, 0, 0);
+    let mut mean = slope(&wanted);
+    let (mut pace, mut failures, mut stale) = (ONE, 0_u32, 0_u32);
     for _ in 1..until.evaluations {
         if best >= until.enough || best >= LIMIT || pace < 6 || stale > 40 {
             break;
         }
         let counts = |price: i64, it: i64| if price == 0 && it < 0 { 0 } else { it };
         let norm = prices.iter().zip(mean).take(until.robots).map(|(price, it)| counts(*price, it));
-        let norm = norm.fold(0_i128, |sum, it| sum + i128::from(it) * i128::from(it));
+        let norm =
+            norm.map(i128::from).fold(0_i128, |sum, it| sum.wrapping_add(it.wrapping_mul(it)));
         if norm == 0 {
             break;
         }
-        let least = best.abs() / 512 + 16;
-        let most = least.max(best.abs() / 32).max(until.gap);
-        let gap = (until.target - best).clamp(least, most);
+        let least = (best.wrapping_abs() / 512).wrapping_add(16);
+        let most = least.max(best.wrapping_abs() / 32).max(until.gap);
+        let gap = until.target.wrapping_sub(best).min(most).max(least);
         let gap = i128::from(gap);
         // In 2^-16 of a price for each of the direction's 2^-8.
-        let stride = ((i128::from(pace) * gap) << 16) / norm;
+        let stride = (i128::from(pace).wrapping_mul(gap) << 16).checked_div(norm).unwrap_or(0);
         let mut next = *prices;
         for (price, it) in next.iter_mut().zip(mean).take(until.robots) {
-            let change = (stride * i128::from(it)) >> 16;
+            let change = stride.wrapping_mul(i128::from(it)) >> 16;
             let change = change.clamp(-i128::from(DEAREST), i128::from(DEAREST)) as i64;
-            *price = (*price + change).clamp(0, DEAREST);
+            *price = price.wrapping_add(change).clamp(0, DEAREST);
         }
         let Some(bound) = dual.evaluate(&next, &mut wanted, budget) else { break };
-        let slope = wanted.map(|it| (it - 1) * ONE);
+        let slope = slope(&wanted);
         let along: i64 =
-            slope.iter().zip(mean).take(until.robots).map(|(a, b)| (a >> 4) * (b >> 4)).sum();
+            slope.iter().zip(mean).take(until.robots).fold(0, |sum, (a, b)| add(sum, *a, b, 4));
         // The mean that is shortest, within limits (4.2 there).
         let (mut over, mut under) = (0_i64, 1_i64);
         for (own, new) in mean.iter().zip(slope).take(until.robots) {
-            over += (own >> 2) * ((own - new) >> 2);
-            under += ((own - new) >> 2) * ((own - new) >> 2);
+            let apart = own.wrapping_sub(new);
+            (over, under) = (add(over, *own, apart, 2), add(under, apart, apart, 2));
         }
-        let share = (over.saturating_mul(ONE) / under).clamp(ONE / 32, ONE / 8);
+        let share = over.saturating_mul(ONE).checked_div(under).unwrap_or(0);
+        let share = share.clamp(ONE / 32, ONE / 8);
         for (own, new) in mean.iter_mut().zip(slope).take(until.robots) {
-            *own += ((new - *own) * share) / ONE;
+            *own = own.wrapping_add(new.wrapping_sub(*own).wrapping_mul(share) / ONE);
         }
         if bound > best {
             // A gain that matters.
-            stale = if bound - best > (best.abs() >> 14) + 4 { 0 } else { stale + 1 };
+            let matters = (best.wrapping_abs() >> 14).wrapping_add(4);
+            stale = if bound.wrapping_sub(best) > matters { 0 } else { stale.wrapping_add(1) };
             (*prices, best, failures) = (next, bound, 0);
             if along > 0 {
-                pace = (pace + pace / 8).min(2 * ONE);
+                pace = pace.wrapping_add(pace / 8).min(2 * ONE);
             }
         } else {
-            stale += 1;
-            failures += 1;
+            (stale, failures) = (stale.wrapping_add(1), failures.wrapping_add(1));
             if failures >= 3 {
-                (pace, failures) = (pace * 2 / 3, 0);
+                (pace, failures) = (pace.wrapping_mul(2) / 3, 0);
             }
         }
     }
     Some(best)
+}
+
+/// How many tasks too many want each robot.
+fn slope<const N: usize>(wanted: &[i64; N]) -> [i64; N] {
+    wanted.map(|it| it.wrapping_sub(1).wrapping_mul(ONE))
+}
+
+/// A sum with the product of both, each without its last bits.
+fn add(sum: i64, one: i64, other: i64, bits: u32) -> i64 {
+    sum.wrapping_add(one.wrapping_shr(bits).wrapping_mul(other.wrapping_shr(bits)))
 }

@@ -25,7 +25,7 @@ impl<const N: usize> Dual<N> for Root<'_, N> {
         wanted: &mut [i64; N],
         budget: &mut Budget,
     ) -> Option<i64> {
-        budget.take(self.rows.len() as u64 + 1)?;
+        budget.take((self.rows.len() as u64).wrapping_add(1))?;
         self.slots.iter_mut().for_each(|it| (it.least, it.common) = (it.skip, 0));
         for way in self.ways {
             let rows = way.rows(self.rows);
@@ -44,14 +44,14 @@ impl<const N: usize> Dual<N> for Root<'_, N> {
             if slot.least >= LIMIT {
                 return Some(FAR);
             }
-            bound += slot.least;
+            bound = bound.wrapping_add(slot.least);
             for robot in bits(slot.common) {
-                let count = at(&*wanted, robot) + 1;
+                let count = at(&*wanted, robot).wrapping_add(1);
                 put(wanted, robot, count);
             }
         }
         wanted.iter_mut().skip(self.robots).for_each(|it| *it = 1);
-        let bound = bound - prices.iter().take(self.robots).sum::<i64>();
+        let bound = prices.iter().take(self.robots).fold(bound, |sum, it| sum.wrapping_sub(*it));
         if self.calls.is_multiple_of(8) {
             let Self { ways, rows, keep, .. } = *self;
             let mut first = First { ways, rows, keep, slots: self.slots, oracle: self.oracle };
@@ -62,7 +62,7 @@ impl<const N: usize> Dual<N> for Root<'_, N> {
                 *self.best = cost;
             }
         }
-        self.calls += 1;
+        self.calls = self.calls.wrapping_add(1);
         Some(bound)
     }
 }

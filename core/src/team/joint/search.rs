@@ -68,9 +68,9 @@ impl<const N: usize> Dual<N> for List<'_> {
         wanted: &mut [i64; N],
         budget: &mut Budget,
     ) -> Option<i64> {
-        budget.take(self.columns.len() as u64 / 8 + 1)?;
+        budget.take((self.columns.len() as u64 / 8).wrapping_add(1))?;
         self.slots.iter_mut().for_each(|it| (it.least, it.column) = (FAR, u32::MAX));
-        for (number, column) in (0_u32..).zip(self.columns) {
+        for (number, column) in (0..self.columns.len() as u32).zip(self.columns) {
             let value = column.value(prices);
             if let Some(slot) = self.slots.get_mut(usize::from(column.task))
                 && value < slot.least
@@ -82,14 +82,14 @@ impl<const N: usize> Dual<N> for List<'_> {
         let mut bound = 0_i64;
         for slot in self.slots.iter() {
             let Some(column) = self.columns.get(slot.column as usize) else { return Some(FAR) };
-            bound += slot.least;
+            bound = bound.wrapping_add(slot.least);
             for robot in bits(column.set) {
-                let count = at(&*wanted, robot) + 1;
+                let count = at(&*wanted, robot).wrapping_add(1);
                 put(wanted, robot, count);
             }
         }
         wanted.iter_mut().skip(self.robots).for_each(|it| *it = 1);
-        Some(bound - prices.iter().take(self.robots).sum::<i64>())
+        Some(prices.iter().take(self.robots).fold(bound, |sum, it| sum.wrapping_sub(*it)))
     }
 }
 
@@ -102,7 +102,7 @@ impl<const N: usize> Search<'_, N> {
         let mut lost = i64::MAX; // the least bound of a node that memory lacked for
         let mut root = true;
         loop {
-            self.nodes += 1;
+            self.nodes = self.nodes.wrapping_add(1);
             let next = self.node(first, &mut end, &mut prices, &mut bound, root, budget);
             if root {
                 (self.prices, root) = (prices, false);
@@ -120,7 +120,7 @@ impl<const N: usize> Search<'_, N> {
                     let robot = robot as u8;
                     let (first, end) = (first as u32, end as u32);
                     *level = Level { first, end, task, robot, bound, prices };
-                    depth += 1;
+                    depth = depth.wrapping_add(1);
                     open = Some((whole.1, copied));
                 } else {
                     lost = lost.min(bound);
@@ -131,7 +131,7 @@ impl<const N: usize> Search<'_, N> {
                 let Some(level) = depth.checked_sub(1).and_then(|it| self.levels.get(it)) else {
                     return lost.min(self.best);
                 };
-                depth -= 1;
+                depth = depth.wrapping_sub(1);
                 if level.bound > self.best.saturating_sub(self.step) {
                     continue;
                 }
@@ -155,7 +155,7 @@ impl<const N: usize> Search<'_, N> {
             let column = self.columns.get(number).copied()?;
             if (column.task == task) == (column.set & bit != 0) {
                 *self.columns.get_mut(end)? = column;
-                end += 1;
+                end = end.wrapping_add(1);
             }
         }
         Some(end)
@@ -167,7 +167,7 @@ impl<const N: usize> Search<'_, N> {
         for number in list.0..list.1 {
             if let Some(column) = self.columns.get(number).copied().filter(&keep) {
                 put(self.columns, end, column);
-                end += 1;
+                end = end.wrapping_add(1);
             }
         }
         end
@@ -184,7 +184,7 @@ impl<const N: usize> Search<'_, N> {
         budget: &mut Budget,
     ) -> Option<Next> {
         let mut wanted = [0; N];
-        let mut evaluations = if root { 200 } else { 24 };
+        let mut evaluations = if root { 200_u32 } else { 24 };
         loop {
             let enough = self.best.saturating_sub(self.step).saturating_add(1);
             let columns = self.columns.get(first..*end).unwrap_or(&[]);
@@ -207,10 +207,12 @@ impl<const N: usize> Search<'_, N> {
             let room = self.best.saturating_sub(self.step).saturating_sub(here);
             let before = *end;
             *end = self.within(first, before, prices, room);
-            if *end * 5 >= (before - first) * 4 + first * 5 || evaluations < 6 {
+            let length = |end: usize| end.wrapping_sub(first);
+            let most = length(before).wrapping_mul(4);
+            if length(*end).wrapping_mul(5) >= most || evaluations < 6 {
                 break;
             }
-            evaluations = evaluations / 2 + 2;
+            evaluations = (evaluations / 2).wrapping_add(2);
         }
         let enough = self.best.saturating_sub(self.step).saturating_add(1);
         let columns = self.columns.get(first..*end).unwrap_or(&[]);
@@ -233,7 +235,7 @@ impl<const N: usize> Search<'_, N> {
             let least = self.slots.get(usize::from(column.task)).map_or(FAR, |it| it.least);
             if column.value(prices).saturating_sub(least) <= room {
                 put(self.columns, kept, column);
-                kept += 1;
+                kept = kept.wrapping_add(1);
             }
         }
         end = end.min(kept);
@@ -253,7 +255,7 @@ impl<const N: usize> Search<'_, N> {
                 let own = self.slots.get(usize::from(column.task)).map_or(0, |it| it.common);
                 if column.set & needed & !own == 0 {
                     put(self.columns, kept, column);
-                    kept += 1;
+                    kept = kept.wrapping_add(1);
                 }
             }
             if kept == end {
@@ -267,17 +269,18 @@ impl<const N: usize> Search<'_, N> {
     /// is better.
     fn note(&mut self, first: usize) {
         let (mut taken, mut cost): (RobotSet, i64) = (0, 0);
+        let place = |slot: &Slot| first.wrapping_add(slot.column as usize);
         for slot in self.slots.iter() {
-            let Some(column) = self.columns.get(first + slot.column as usize) else { return };
+            let Some(column) = self.columns.get(place(slot)) else { return };
             if column.set & taken != 0 {
                 return;
             }
-            (taken, cost) = (taken | column.set, cost + column.cost);
+            (taken, cost) = (taken | column.set, cost.wrapping_add(column.cost));
         }
         if cost < self.best {
             (self.best, self.found) = (cost, true);
             for slot in self.slots.iter_mut() {
-                if let Some(column) = self.columns.get(first + slot.column as usize) {
+                if let Some(column) = self.columns.get(place(slot)) {
                     (slot.chosen, slot.plan) = (column.set, column.plan);
                 }
             }
@@ -301,7 +304,8 @@ impl<const N: usize> Search<'_, N> {
             };
             let regret = |slot: &Slot| slot.without.min(LIMIT).saturating_sub(slot.least);
             let all = self.slots.iter().filter(wants).map(regret).fold(0, i64::saturating_add);
-            for (task, slot) in (0_u16..).zip(self.slots.iter()).filter(|it| wants(&it.1)) {
+            let slots = (0..self.slots.len() as u16).zip(self.slots.iter());
+            for (task, slot) in slots.filter(|it| wants(&it.1)) {
                 let own = regret(slot);
                 let weaker = own.min(all.saturating_sub(own));
                 if best.is_none_or(|it| weaker > it.0) {
@@ -314,7 +318,7 @@ impl<const N: usize> Search<'_, N> {
         }
         // Nobody wants the same, and it is not known to be best: the nearest other choice.
         let mut nearest: Option<(i64, u16, usize)> = None;
-        for (number, column) in (0_u32..).zip(columns) {
+        for (number, column) in (0..columns.len() as u32).zip(columns) {
             let Some(slot) = self.slots.get(usize::from(column.task)) else { continue };
             let Some(own) = columns.get(slot.column as usize).filter(|_| slot.column != number)
             else {

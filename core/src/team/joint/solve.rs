@@ -97,7 +97,7 @@ impl<'m, const N: usize> Joint<'m, N> {
         self.load(team)?;
         let mut budget = Budget { left: steps };
         let outcome = self.run(&mut budget);
-        Ok(Solved { outcome, steps: steps - budget.left, nodes: self.nodes })
+        Ok(Solved { outcome, steps: steps.saturating_sub(budget.left), nodes: self.nodes })
     }
 
     /// The plan of a task in the last answer, and its robots; none where it is left undone.
@@ -183,7 +183,7 @@ impl<'m, const N: usize> Joint<'m, N> {
                 return self.proven();
             }
             bound = limit.saturating_add(1);
-            rise = match self.nodes - before {
+            rise = match self.nodes.wrapping_sub(before) {
                 _ if count == last => rise.saturating_mul(8), // all there is, it seems
                 ..=2 => rise.saturating_mul(2),
                 _ => rise.saturating_add(rise / 4),
@@ -216,7 +216,7 @@ impl<'m, const N: usize> Joint<'m, N> {
             best: &mut best,
             calls: 0,
         };
-        let enough = self.best.saturating_sub(self.step - 1);
+        let enough = self.best.saturating_sub(self.step.wrapping_sub(1));
         let until = Until {
             enough,
             evaluations: count,
@@ -293,7 +293,7 @@ impl<'m, const N: usize> Joint<'m, N> {
         };
         let open = search.run(count, prices, budget);
         let (found, best) = (search.found, search.best);
-        self.nodes += search.nodes;
+        self.nodes = self.nodes.wrapping_add(search.nodes);
         *prices = search.prices;
         if found {
             self.best = best;
@@ -310,7 +310,7 @@ impl<'m, const N: usize> Joint<'m, N> {
             return false;
         }
         let mut part = Budget { left: budget.left / 8 };
-        budget.left -= part.left;
+        budget.left = budget.left.saturating_sub(part.left);
         for slot in self.memory.slots.iter_mut().take(self.tasks) {
             slot.skip = if slot.must { UNSERVED } else { 0 };
             slot.idle = !slot.must;
@@ -319,7 +319,7 @@ impl<'m, const N: usize> Joint<'m, N> {
         (self.keep, self.best) = (FAR, UNSERVED);
         let mut prices = [0; N];
         let proven = self.unserved(&mut prices, search, &mut part);
-        budget.left += part.left;
+        budget.left = budget.left.saturating_add(part.left);
         let served = self.best < UNSERVED;
         (self.keep, self.step, self.best) = (!0, step, self.ceiling);
         self.gap = 0;
@@ -352,7 +352,7 @@ impl<'m, const N: usize> Joint<'m, N> {
                 return false;
             }
             let limit = UNSERVED - 1;
-            let count = self.list(prices, limit - bound, usize::MAX, budget);
+            let count = self.list(prices, limit.wrapping_sub(bound), usize::MAX, budget);
             let Some(count) = count else { return false };
             let (found, open) = self.search(count, limit, &mut { *prices }, budget);
             if found || open < UNSERVED {
@@ -407,12 +407,13 @@ impl<'m, const N: usize> Joint<'m, N> {
     }
 
     fn parts(&self, cost: i64) -> u64 {
-        (cost >> self.shift).max(0).cast_unsigned()
+        cost.wrapping_shr(self.shift).max(0).cast_unsigned()
     }
 
     fn unknown(&self, bound: i64) -> Outcome {
         // Costs are multiples of a step: the bound rises to the next.
-        let up = (bound.max(0) + self.step - 1) / self.step * self.step;
+        let up = bound.max(0).wrapping_add(self.step).wrapping_sub(1);
+        let up = up.wrapping_sub(up.checked_rem(self.step).unwrap_or(0));
         let cost = (self.best < self.ceiling).then(|| self.parts(self.best));
         Outcome::Unknown { cost, bound: self.parts(up) }
     }

@@ -39,14 +39,14 @@ pub fn all_coalitions(
     memory: &mut Memory<'_, i32>,
 ) -> Formed {
     let mut formed = Formed::NONE;
-    for (number, plan) in task.plans.iter().enumerate() {
+    for (number, plan) in (0..task.plans.len()).zip(task.plans) {
         let (roles, robots) = (plan.roles.rows(), plan.roles.columns());
         if roles == 0 || roles > robots || robots > 63 {
             continue;
         }
         // The sets of so many robots by rising number (Gosper's hack).
-        let mut set = (1_u64 << roles).wrapping_sub(1);
-        while set < 1_u64 << robots {
+        let mut set = 1_u64.wrapping_shl(roles as u32).wrapping_sub(1);
+        while set < 1_u64.wrapping_shl(robots as u32) {
             formed.looked_at = formed.looked_at.saturating_add(1);
             if let Some(table) = only(&plan.roles, u128::from(set), entries)
                 && assign(&table, memory).is_ok()
@@ -68,7 +68,7 @@ pub fn all_coalitions(
 /// the roles of the largest plan. Counts the orderings of each length that a plan has.
 pub fn all_orderings(task: &Task<'_>, denominator: u32, chosen: &mut [usize]) -> Formed {
     let mut formed = Formed::NONE;
-    for (number, plan) in task.plans.iter().enumerate() {
+    for (number, plan) in (0..task.plans.len()).zip(task.plans) {
         if let Some(chosen) = chosen.get_mut(..plan.roles.rows()) {
             orderings_of(task, plan, (number, denominator), chosen, &mut formed);
         }

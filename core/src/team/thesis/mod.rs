@@ -28,9 +28,10 @@ fn only<'e>(
     entries: &'e mut [Option<Cost>],
 ) -> Option<Costs<'e>> {
     let mut count = 0_usize;
-    let columns = (0..costs.columns()).filter(|it| robots & bit(*it) != 0).count();
+    let chosen = (0..costs.columns()).filter(|it| robots & bit(*it) != 0);
+    let columns = chosen.fold(0_usize, |count, _| count.wrapping_add(1));
     for row in 0..costs.rows() {
-        for (robot, cost) in costs.row(row).enumerate() {
+        for (robot, cost) in (0..costs.columns()).zip(costs.row(row)) {
             if robots & bit(robot) != 0 {
                 *entries.get_mut(count)? = cost;
                 count = count.saturating_add(1);

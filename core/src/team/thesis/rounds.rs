@@ -114,8 +114,8 @@ fn announced(
     states: &[State],
     utility: impl Fn(&Task<'_>) -> u64,
 ) -> Option<Announced> {
-    let open = || team.tasks().iter().zip(states).enumerate();
-    let open = || open().filter(|it| *it.1.1 == State::Open).map(|it| (it.0, it.1.0));
+    let tasks = || (0..team.tasks().len()).zip(team.tasks()).zip(states);
+    let open = || tasks().filter(|it| *it.1 == State::Open).map(|it| it.0);
     let singles = || open().filter(|it| !is_several(it.1));
     // Utility over mean plan size, as utility times plans over roles.
     let mut best: Option<(u128, u128, usize)> = None;
@@ -129,7 +129,7 @@ fn announced(
             best = Some((over, under, number));
         }
     }
-    let count = singles().count() as u128;
+    let count = singles().fold(0_u128, |count, _| count.wrapping_add(1));
     let Some((over, under, task)) = best else { return (count > 0).then_some(Announced::Singles) };
     let sum = singles().map(|it| u128::from(utility(it.1))).fold(0, u128::saturating_add);
     let first = count == 0 || over.saturating_mul(count) > sum.saturating_mul(under);
@@ -148,7 +148,7 @@ fn several(
     let Some(task) = team.tasks().get(number) else { return Ok(State::Undone) };
     let limit = utility(task).saturating_mul(team.denominator().into());
     let (mut state, mut least) = (State::Undone, limit);
-    for (plan, it) in task.plans.iter().enumerate() {
+    for (plan, it) in (0..task.plans.len()).zip(task.plans) {
         let Some((cost, robots)) = best(team, task, it, free, entries, memory)? else { continue };
         if cost < least {
             (state, least) = (State::Done { plan, robots }, cost);
@@ -214,7 +214,8 @@ fn singles(
     memory: &mut Memory<'_, i64>,
 ) -> Result<RobotSet, Unassigned> {
     let count = states.iter().zip(team.tasks());
-    let count = count.filter(|it| *it.0 == State::Open && !is_several(it.1)).count();
+    let count = count.filter(|it| *it.0 == State::Open && !is_several(it.1));
+    let count = count.fold(0_usize, |count, _| count.wrapping_add(1));
     let width = (free.count_ones() as usize).saturating_add(count);
     let needed = width.saturating_mul(count);
     let lacks = MemoryError { what: "entries of greedy rounds", needed, given: entries.len() };
@@ -223,7 +224,9 @@ fn singles(
     let is_open = |it: &(&mut State, &Task<'_>)| *it.0 == State::Open && !is_several(it.1);
     let mut left = free;
     let open = states.iter_mut().zip(team.tasks()).filter(is_open);
-    for (number, ((_, task), row)) in open.zip(entries.chunks_mut(width.max(1))).enumerate() {
+    for (number, (_, task)) in (0..count).zip(open) {
+        let from = number.wrapping_mul(width);
+        let row = entries.get_mut(from..from.wrapping_add(width)).unwrap_or_default();
         for (robot, entry) in
             (0..team.robots()).filter(|it| free & bit(*it) != 0).zip(row.iter_mut())
         {
@@ -237,7 +240,7 @@ fn singles(
     let costs = Costs::new(entries, width).ok_or(lacks)?;
     assign(&costs, memory)?;
     let open = states.iter_mut().zip(team.tasks()).filter(is_open);
-    for (number, (state, task)) in open.enumerate() {
+    for (number, (state, task)) in (0..count).zip(open) {
         let robot = memory.column(number).and_then(|it| nth(free, it));
         *state = match robot.and_then(|it| Some((it, cheapest(task, it)?.0))) {
             Some((robot, plan)) => {
@@ -256,5 +259,5 @@ fn cheapest(task: &Task<'_>, robot: usize) -> Option<(usize, Cost)> {
         let cost = plan.roles.cost(0, robot)?.get().saturating_add(plan.extra);
         Some((number, Cost::new(cost)?))
     };
-    task.plans.iter().enumerate().filter_map(cost).min_by_key(|it| it.1)
+    (0..task.plans.len()).zip(task.plans).filter_map(cost).min_by_key(|it| it.1)
 }

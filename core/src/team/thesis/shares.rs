@@ -38,7 +38,7 @@ impl<const N: usize> Shares<N> {
                 continue;
             };
             let rest = self.members.iter_mut().take(size).skip(at);
-            rest.zip(member.saturating_add(1)..).for_each(|(it, next)| *it = next);
+            rest.zip(member.saturating_add(1)..=N).for_each(|(it, next)| *it = next);
             return;
         }
         self.size = size.saturating_sub(1);

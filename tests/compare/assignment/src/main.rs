@@ -26,7 +26,7 @@ fn main() {
         }
     }
     println!("\nn x n, costs                    table    ours i32   of the full one");
-    for n in [100, 500, 1_000] {
+    for n in [100, 500, 1_000, 2_000] {
         lacking(n, 1_000_000);
         lacking(n, 100);
     }

@@ -1,12 +1,12 @@
 //! Looking at markings on other threads, ahead of the one that gives numbers to what follows. It
 //! takes what they found in the order of the markings, so numbers do not depend on threads.
 
+use super::crew::Mate;
 use super::enabling::Seen;
 use super::space::Space;
 use super::view::View;
 use std::collections::VecDeque;
-use std::sync::mpsc::{Receiver, Sender, channel};
-use std::thread::{self, Scope};
+use std::thread::Scope;
 
 /// Markings that are worth to be sent to another thread, and the most that are sent at once.
 const FEW: usize = 256;
@@ -58,18 +58,11 @@ impl<'s, const S: usize> Looker<'s, S> {
     }
 }
 
-/// Another thread that looks.
-#[derive(Debug)]
-struct Mate<const S: usize> {
-    to: Sender<Vec<[u64; S]>>,
-    from: Receiver<Following<S>>,
-}
-
 /// This thread and others that look at markings.
 #[derive(Debug)]
 pub(super) struct Ahead<'s, const S: usize> {
     own: Looker<'s, S>,
-    mates: Vec<Mate<S>>,
+    mates: Vec<Mate<Vec<[u64; S]>, Following<S>>>,
     /// The mates that look at the next markings, in the order of markings.
     next: VecDeque<usize>,
     /// How many markings were handed out.
@@ -81,16 +74,10 @@ impl<'s, const S: usize> Ahead<'s, S> {
     pub(super) fn new<'e>(space: &'s Space, jobs: usize, scope: &'e Scope<'e, 's>) -> Self {
         let mut mates = Vec::new();
         while mates.len() + 1 < jobs {
-            let ((to, asked), (found, from)) = (channel(), channel());
-            let mate = thread::Builder::new().spawn_scoped(scope, move || {
-                let mut looker = Looker::<S>::new(space);
-                // Who asked may have ended at a limit.
-                asked.iter().all(|some: Vec<_>| found.send(looker.look(&some)).is_ok())
-            });
-            if mate.is_err() {
-                break;
-            }
-            mates.push(Mate { to, from });
+            let mut looker = Looker::new(space);
+            let look = move |some: Vec<[u64; S]>| looker.look(&some);
+            let Some(mate) = Mate::start(scope, look) else { break };
+            mates.push(mate);
         }
         Self { own: Looker::new(space), mates, next: VecDeque::new(), sent: 0 }
     }
@@ -102,13 +89,12 @@ impl<'s, const S: usize> Ahead<'s, S> {
         while self.next.len() < 2 * self.mates.len() && markings.len() - self.sent >= FEW {
             turn %= self.mates.len();
             let some = self.some(markings, MANY).to_vec();
-            // A mate that is gone has panicked, which ends the search with the scope of threads.
-            let _ = self.mates[turn].to.send(some);
+            self.mates[turn].send(some);
             self.next.push_back(turn);
             turn += 1;
         }
         if let Some(mate) = self.next.pop_front() {
-            return self.mates[mate].from.recv().ok();
+            return self.mates[mate].wait();
         }
         let some = self.some(markings, FEW);
         (!some.is_empty()).then(|| self.own.look(some))

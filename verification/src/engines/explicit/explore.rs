@@ -61,20 +61,23 @@ fn levels<'s, const S: usize>(
     let mut crew = Vec::new();
     Worker::of(&mut workers[0], shared, 0).start(shared);
     loop {
-        let union = workers
-            .iter()
-            .flatten()
-            .fold([0; S], |all: [u64; S], it| std::array::from_fn(|at| all[at] | it.union[at]));
+        let (mut union, mut goals, mut kept) = ([0; S], Vec::new(), Vec::new());
+        let mut fresh = Vec::with_capacity(workers.len());
+        // Plain loops: this is compiled for each width of a marking.
+        for worker in &mut workers {
+            let Some(worker) = worker else {
+                fresh.push(Vec::new());
+                continue;
+            };
+            union.iter_mut().zip(worker.union).for_each(|(all, it)| *all |= it);
+            goals.append(&mut worker.goals);
+            kept.append(&mut worker.kept);
+            fresh.push(std::mem::take(&mut worker.fresh));
+        }
         let limit = shared.space.check(&union)?.or(Limit::of(shared.stop.load(Relaxed)));
-        let goals: Vec<[u64; S]> =
-            workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.goals)).collect();
-        let fresh =
-            workers.iter_mut().map(|it| it.as_mut().map(|it| std::mem::take(&mut it.fresh)));
-        let fresh: Vec<Vec<Block<S>>> = fresh.map(Option::unwrap_or_default).collect();
         let blocks: usize = fresh.iter().map(Vec::len).sum();
         if let Some(before) = levels.last_mut() {
-            *before =
-                workers.iter_mut().flatten().flat_map(|it| std::mem::take(&mut it.kept)).collect();
+            *before = kept;
         }
         let end = match limit {
             // How much of a level fits depends on chance; whether all of it fits does not.
@@ -95,7 +98,7 @@ fn levels<'s, const S: usize>(
             let (bytes, peak) = (shared.bytes.load(Relaxed), shared.peak.load(Relaxed));
             return Ok(Explored { end, states, depth, tally, levels, goals, bytes, peak });
         }
-        let waiting = fresh.iter().flatten().map(|it| it.via.len()).sum::<usize>() as u64;
+        let waiting = fresh.iter().flatten().map(|it| it.via.len() as u64).sum();
         (plan.progress)(Progress { states, depth, waiting });
         let threads = (blocks / BLOCKS_OF_A_THREAD).clamp(1, workers.len());
         for (queue, fresh) in shared.queues.iter().zip(fresh) {

@@ -164,8 +164,8 @@ impl<const S: usize> Worker<S> {
         scope: &'s Scope<'s, '_>,
         shared: &'s Shared<'s, S>,
         number: usize,
-    ) -> Option<Mate<Option<Self>>> {
-        Mate::start(scope, move |mut place| {
+    ) -> Option<Mate<Option<Self>, Option<Self>>> {
+        Mate::start(scope, move |mut place: Option<Self>| {
             Self::of(&mut place, shared, number).level(shared, &|| ());
             place
         })
