@@ -6,8 +6,8 @@ use cotama_sim::fleet::task::{MAX_ROBOTS, Method};
 
 #[derive(Args, Debug)]
 pub(crate) struct TeamArgs {
-    /// How many messages of a team get lost, in percent, with at most one decimal [default: 5 for `fleet`, 0
-    /// for `service`]
+    /// How many messages of a team get lost, in percent, with at most one decimal [default: 5 for
+    /// `fleet`, 0 for `service`]
     #[arg(long, value_name = "PERCENT", value_parser = loss)]
     pub(crate) loss: Option<u16>,
     /// How many robots the scenario `fleet` has [default: 40]
@@ -16,8 +16,8 @@ pub(crate) struct TeamArgs {
     /// How many deliveries the fleet has [default: 200]
     #[arg(long, value_name = "N", value_parser = whole(1, 2_000))]
     pub(crate) tasks: Option<u64>,
-    /// How many robots of the fleet fail for good; as many others have a lesser failure [default: 5,
-    /// but at most an eighth of the robots]
+    /// How many robots of the fleet fail for good; as many others have a lesser failure [default:
+    /// 5, but at most an eighth of the robots]
     #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
     pub(crate) failures: Option<u64>,
     /// How tasks are given to the robots of the fleet [default: optimal]

@@ -275,7 +275,7 @@ impl World<'_> {
         let Some(next) = next.map(|it| it.max(soon)) else { return };
         if agent.next_round.is_none_or(|it| next < it || it <= self.now) {
             agent.next_round = Some(next);
-            // Of one moment robots go by their numbers, so that a round more or less shifts no draw.
+            // Of one moment robots go by their numbers: a round more shifts no draw.
             self.queue.push(next, 3 + robot as u8, Event::Round(robot));
         }
     }
