@@ -40,6 +40,7 @@ pub(crate) fn run(args: &RunArgs, screen: &Screen) -> Result<Exit, Failure> {
         return team::run(args, team, screen);
     }
     team::none_given(args)?;
+    team::not_meant(&args.mission.mission)?;
     let loaded = mission::load_for(&args.mission.mission, &args.planning)?;
     let options = options(args, &loaded.mission)?;
     match (loaded.mission.supervisor(), passed_over(&options.faults, &loaded.mission)) {

@@ -73,6 +73,7 @@ fn options_of_missions_and_of_teams_are_told_apart() {
     let folder = Folder::new("team_options");
     for (line, said) in [
         ("run patrol --robots 3", "--robots is for teams"),
+        ("run flete", "did you mean the team `fleet`?"),
         ("run fleet --upward", "--upward is for missions"),
         ("run fleet --faults f.toml", "teams read no file of faults"),
         ("run fleet --hidden-handle", "is for `cotama run service`"),

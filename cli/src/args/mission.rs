@@ -62,7 +62,7 @@ pub(crate) struct RunArgs {
     pub(crate) objective: Option<Objective>,
     #[command(flatten)]
     pub(crate) planning: Planning,
-    /// The seed of all random numbers; under supervisors nothing is random yet
+    /// The seed of all random numbers; of missions under supervisors nothing is random yet
     #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
     pub(crate) seed: u64,
     /// What goes wrong: nothing (`none`), what the mission file says (`script`), or a file of

@@ -4,33 +4,30 @@ use super::number::whole;
 use clap::{Args, ValueEnum};
 use cotama_sim::fleet::task::{MAX_ROBOTS, Method};
 
-const HEADING: &str = "Options of the scenarios `fleet` and `service`";
-
 #[derive(Args, Debug)]
-#[command(next_help_heading = HEADING)]
 pub(crate) struct TeamArgs {
-    /// How many messages get lost, in percent, with at most one decimal [default: 5 for `fleet`, 0
-    /// for `service`]
+    /// How many messages of a team get lost, in percent, with at most one decimal [default: 5 for
+    /// `fleet`, 0 for `service`]
     #[arg(long, value_name = "PERCENT", value_parser = loss)]
     pub(crate) loss: Option<u16>,
-    /// How many robots the fleet has [default: 40]
+    /// How many robots the scenario `fleet` has [default: 40]
     #[arg(long, value_name = "N", value_parser = whole(1, MAX_ROBOTS as u64))]
     pub(crate) robots: Option<u64>,
-    /// How many deliveries there are [default: 200]
+    /// How many deliveries the fleet has [default: 200]
     #[arg(long, value_name = "N", value_parser = whole(1, 2_000))]
     pub(crate) tasks: Option<u64>,
-    /// How many robots of the fleet fail for good; as many others have a lesser failure [default: 5,
-    /// but at most an eighth of the robots]
+    /// How many robots of the fleet fail for good; as many others have a lesser failure [default:
+    /// 5, but at most an eighth of the robots]
     #[arg(long, value_name = "N", value_parser = whole(0, MAX_ROBOTS as u64))]
     pub(crate) failures: Option<u64>,
     /// How tasks are given to the robots of the fleet [default: optimal]
     #[arg(long, value_enum, value_name = "HOW", hide_possible_values = false)]
     pub(crate) allocation: Option<Allocation>,
-    /// Runs so many seeds with each allocation, and compares; no report is written
+    /// Runs so many seeds of the fleet with each allocation, and compares; no report is written
     #[arg(long, value_name = "N", value_parser = whole(1, 100_000), conflicts_with = "report")]
     #[arg(conflicts_with = "trace")]
     pub(crate) seeds: Option<u64>,
-    /// The cup of the service stands so that two fingers cannot grasp it
+    /// The cup of the scenario `service` stands so that two fingers cannot grasp it
     #[arg(long)]
     pub(crate) hidden_handle: bool,
 }

@@ -102,7 +102,7 @@ fn happened(answer: &TeamAnswer, trace: &Trace, width: usize) -> String {
                 let robot = robot.map_or("", |it| trace.robot(it)).to_owned();
                 let (task, what) = match task {
                     Some(task) => (trace.task(*task), format!("its object is {what}")),
-                    None => ("", format!("fails: {what}")),
+                    None => ("", format!("fails: {}", Trace::words(what))),
                 };
                 (*t_ms, robot, task, what, NOTICE)
             }

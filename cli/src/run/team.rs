@@ -5,8 +5,10 @@ use crate::answers::team::{
 };
 use crate::args::RunArgs;
 use crate::exit::{Exit, Failure};
+use crate::names::{is_name, near};
 use crate::output::{self, Screen};
 use crate::render;
+use cotama_models::missions::embedded;
 use cotama_sim::fleet::Kind;
 use cotama_sim::fleet::campaign::{Results, Spread, compare};
 use cotama_sim::fleet::record::{Fate, Record};
@@ -14,7 +16,7 @@ use cotama_sim::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service}
 use cotama_sim::fleet::task::Method;
 use cotama_sim::fleet::trace::Trace;
 use cotama_sim::report;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::thread;
 
 /// A scenario of a team.
@@ -51,6 +53,19 @@ pub(crate) fn none_given(args: &RunArgs) -> Result<(), Failure> {
         None => Ok(()),
         Some(option) => Err(Failure::new(format!("{option} is for teams"))
             .help("run a team: `cotama run fleet`, `cotama run service`")),
+    }
+}
+
+/// Refuses a name that is nearly that of a team.
+pub(crate) fn not_meant(name: &str) -> Result<(), Failure> {
+    let known = embedded::mission(name).is_some() || Path::new(name).exists();
+    let teams = Team::ALL.iter().map(|it| it.0.name());
+    match near(name, teams).filter(|_| is_name(name) && !known) {
+        None => Ok(()),
+        Some(team) => {
+            let message = format!("there is no mission `{name}`, and no file of this name");
+            Err(Failure::new(message).help(format!("did you mean the team `{team}`?")))
+        }
     }
 }
 

@@ -193,7 +193,7 @@ mod tests {
 
     proptest! {
         #[test]
-        fn who_goes_on_comes_nearer_by_as_much(from in spots(), to in spots(), way in 0_u64..3_000) {
+        fn who_goes_on_comes_nearer(from in spots(), to in spots(), way in 0_u64..3_000) {
             let floor = ring();
             let whole = floor.distance(from, to).unwrap();
             prop_assert_eq!(floor.distance(to, from), Some(whole));

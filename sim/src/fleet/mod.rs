@@ -1,6 +1,50 @@
 //! A team of robots in one building: tasks are announced, bid for, awarded and done, over a
 //! network that loses messages, by robots that fail (F. Rohrmueller, *Cooperative Action
 //! Selection*, dissertation, TU München 2011, ch. 3).
+//!
+//! ```text
+//! Scenario  task, scenarios   robots, tasks, faults, network: all that a run needs
+//!  -> World world             an event at a time, to the millisecond
+//!      auctioneer, awards     announces, awards, watches, puts up again
+//!      robot, bidding         each robot's broker and bidder
+//!      working, driver        each robot under COTAMA's decisional component
+//!      network                delay, loss, copies, counts
+//!  -> Run   record            numbers; Trace: what happened; report::team: a page of it
+//! ```
+//!
+//! *The world* is a [`Floor`]: places, ways, distances. An object lies somewhere, or is on board;
+//! where it is, everybody knows. *A robot* is a
+//! [`Decider`](cotama_models::cotama::Decider) with what it drives: a task is a mission of four
+//! objectives (drive, receive, drive, deliver), its path planned for two seconds a drive; failures
+//! raise flags with the latencies of the FMECA, and what its supervisors make of them (another
+//! configuration, a safe stop, a question that nobody answers) is all that the team sees. A bid is
+//! the time of the drives, at the speed of the configuration that works, and of the hands. Where
+//! the robot comes to need more than it pledged, or goes safe, it gives the task back with its
+//! error class; what it has on board others fetch from it.
+//!
+//! *The protocol* is that of the thesis, with what it leaves out. Bids and acknowledgements have
+//! deadlines, and who is silent is asked again. A message of another round changes nothing. An
+//! award holds until a date that the auctioneer prolongs while it hears of the robot: beyond it the
+//! robot stops by itself, and only then is the task put up again, so that no two robots work for
+//! it, whoever cannot hear whom (clocks are taken to agree). Withdrawn awards are confirmed, and
+//! the end of a role is said until it is heard. The auctioneer is at a desk, or at the robot that
+//! received the task (strategies i and ii); that another takes over when it fails is left to the
+//! nets.
+//!
+//! *Who does what* is computed by [`cotama_core::team`]: all open tasks at once at the least cost,
+//! or by the greedy rounds of the thesis, or task by task, for comparison. Brokers share coalitions
+//! as in Algorithm A.1 where [`Formation::Distributed`](task::Formation) says so.
+//!
+//! The same scenario gives the same bytes: random numbers come from named streams, and of one
+//! moment letters come first, then the auctioneer, then robots by their numbers.
+//!
+//! ```
+//! use cotama_sim::fleet::{record::Fate, run, scenarios::{FleetOptions, fleet}};
+//! let options = FleetOptions { robots: 6, tasks: 9, failures: 1, ..FleetOptions::default() };
+//! let run = run(&fleet(&options));
+//! assert!(run.is_sound() && run.count(Fate::Open) == 0);
+//! ```
+
 mod allocate;
 pub mod campaign;
 mod driver;

@@ -3,6 +3,7 @@
 use super::message::Kind;
 use super::record::{Fate, Record, Run};
 use super::task::Scenario;
+use cotama_models::cotama::FailureMode;
 use serde::Serialize;
 use std::fmt::Write;
 
@@ -77,6 +78,17 @@ impl Trace {
     /// The name of a task.
     pub fn task(&self, task: usize) -> &str {
         self.header.tasks.get(task).map_or("?", |it| it)
+    }
+
+    /// A fault in words: of a failure mode its row in the FMECA.
+    pub fn words(what: &str) -> String {
+        FailureMode::named(what).map_or_else(
+            || what.to_owned(),
+            |it| {
+                let row = it.description();
+                format!("{what}, {}: {}", row.component, row.failure)
+            },
+        )
     }
 
     /// As JSON lines.

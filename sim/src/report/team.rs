@@ -61,6 +61,11 @@ fn head(page: &mut String, trace: &Trace) {
         let sentence = format!("{done} of {all} tasks are done, {reported} reported");
         ("safe", "M16 8v10M16 22.5v.5", sentence)
     };
+    let title = match trace.header.scenario.as_str() {
+        "service" => "The drink service",
+        "fleet" => "The fleet",
+        other => other,
+    };
     let _ = write!(
         page,
         "<header><p class=\"kicker\">Report of a simulated team</p>\n<h1>{}</h1>\n\
@@ -68,7 +73,7 @@ fn head(page: &mut String, trace: &Trace) {
          <circle cx=\"16\" cy=\"16\" r=\"15\"/><path d=\"{shape}\"/></svg>\
          <p><strong>{sentence}</strong><span>{}, put up again {} times; {} of {} robots are out of \
          work at the end.</span></p></div>\n<dl class=\"facts\">\n",
-        escape(&trace.header.scenario),
+        escape(title),
         count(u64::from(run.awards.iter().sum::<u32>()), "award"),
         run.reopened,
         run.out,
@@ -227,9 +232,12 @@ fn wrong(page: &mut String, trace: &Trace) {
     let mut rows = Vec::new();
     for record in &trace.records {
         let row = match record {
-            Record::Fault { t_ms, robot: Some(robot), what, .. } => {
-                (*t_ms, trace.robot(*robot), String::new(), format!("fails: {what}"))
-            }
+            Record::Fault { t_ms, robot: Some(robot), what, .. } => (
+                *t_ms,
+                trace.robot(*robot),
+                String::new(),
+                format!("fails: {}", Trace::words(what)),
+            ),
             Record::Fault { t_ms, task, what, .. } => {
                 let task = task.map_or(String::new(), |it| trace.task(it).to_owned());
                 (*t_ms, "", task, format!("its object is {what}"))

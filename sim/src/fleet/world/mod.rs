@@ -1,6 +1,7 @@
 //! A run: robots, auctioneer and network, from event to event.
 
 mod auctioneer;
+mod awards;
 mod bidding;
 mod robot;
 mod working;

@@ -7,6 +7,7 @@ use crate::fleet::message::{Award, AwardId, Ending, Message, Party, Status};
 use crate::fleet::record::Record;
 use crate::fleet::task::{ErrorClass, Offer, Stage};
 use cotama_core::team::RobotSet;
+use cotama_models::cotama::FailureMode;
 use cotama_models::team::{CapabilitySet, Pledge};
 use std::rc::Rc;
 
@@ -34,6 +35,8 @@ pub(super) struct Agent {
     pub(super) asking: Option<Asking>,
     /// Tasks that took it longer than it had pledged: it leaves them to others.
     pub(super) left: Vec<usize>,
+    /// Failures that its decisional component has found.
+    pub(super) found: Vec<FailureMode>,
     /// The task whose object it has on board.
     pub(super) holds: Option<usize>,
     /// When its next round is.
@@ -99,6 +102,7 @@ impl Agent {
             early: Vec::new(),
             asking: None,
             left: Vec::new(),
+            found: Vec::new(),
             holds: None,
             next_round: None,
             was_fit: true,

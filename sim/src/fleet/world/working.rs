@@ -49,7 +49,10 @@ impl World<'_> {
         let done = self.hands_are_done(robot);
         let now = self.now;
         let driven = self.robots[robot].driver.round(now, done);
-        if let Some(mode) = driven.found {
+        if let Some(mode) = driven.found
+            && !self.robots[robot].found.contains(&mode)
+        {
+            self.robots[robot].found.push(mode);
             self.note(|t_ms| Record::Found { t_ms, robot, mode: mode.name().to_owned() });
         }
         let (stage, before) = (self.robots[robot].driver.stage(), self.robots[robot].stage);
@@ -272,7 +275,7 @@ impl World<'_> {
         let Some(next) = next.map(|it| it.max(soon)) else { return };
         if agent.next_round.is_none_or(|it| next < it || it <= self.now) {
             agent.next_round = Some(next);
-            // Of one moment robots go by their numbers, so that a round more or less shifts no draw.
+            // Of one moment robots go by their numbers: a round more shifts no draw.
             self.queue.push(next, 3 + robot as u8, Event::Round(robot));
         }
     }
@@ -296,7 +299,9 @@ impl World<'_> {
     fn estimate(&self, robot: usize) -> Option<u64> {
         let agent = &self.robots[robot];
         let Duty::Executing(work) = &agent.duty else { return None };
-        let (role, pace) = (self.role(work), agent.driver.pace()?);
+        let role = self.role(work);
+        // Who cannot drive is stopped, or asks the operator, by its supervisors: that takes time.
+        let Some(pace) = agent.driver.pace() else { return Some(self.now - work.since) };
         let [takes, gives] = agent.goals;
         let second = self.scenario.floor.distance(takes, gives)? * 1_000 / pace;
         let left = agent.driver.left_mm(self.now) * 1_000 / pace;
