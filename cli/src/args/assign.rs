@@ -43,7 +43,7 @@ pub(crate) struct AssignArgs {
     #[arg(long, value_name = "N", default_value_t = STEPS)]
     #[arg(value_parser = whole(1, u64::MAX))]
     pub(crate) steps: u64,
-    /// Also says what greedy rounds cost: one task after another, the dearest to leave first
+    /// Also says what greedy rounds cost: task after task, first what is dearest to leave undone
     #[arg(long)]
     pub(crate) greedy: bool,
     #[command(flatten)]
