@@ -27,6 +27,9 @@
 //! assert_eq!(plan, [0, 0]);
 //! ```
 
+#[cfg(kani)]
+pub mod proofs;
+
 use crate::allocation::MemoryError;
 use crate::problem::Problem;
 use core::cmp::Reverse;

@@ -1,5 +1,8 @@
 //! Switchable hardware, counted in units: what the robot has, and what an alternative needs.
 
+#[cfg(kani)]
+pub mod proofs;
+
 /// How many kinds of hardware a robot may have.
 pub const MAX_KINDS: usize = 16;
 /// How many units of one kind a robot may have.

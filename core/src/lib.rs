@@ -29,7 +29,7 @@
 //! Memory comes from the caller, as slices; what it must hold is said where it is asked for. Costs
 //! are 32 bits and sums 64 bits wide, so that no sum of a [`problem::Problem`] can overflow.
 #![no_std]
-#![cfg_attr(test, allow(clippy::pedantic))]
+#![cfg_attr(any(test, kani), allow(clippy::pedantic))]
 
 #[cfg(feature = "alloc")]
 extern crate alloc;
@@ -49,6 +49,8 @@ pub mod net;
 pub mod panorama;
 pub mod player;
 pub mod problem;
+#[cfg(kani)]
+pub mod proofs;
 pub mod system;
 pub mod team;
 pub mod units;

@@ -22,6 +22,9 @@
 //! assert_eq!(request, Ok(Request::Down(Trigger::Margin { axis: 1 })));
 //! ```
 
+#[cfg(kani)]
+pub mod proofs;
+
 use crate::hardware::Equipment;
 use crate::problem::{Candidate, ProblemError, names_every_axis_once};
 

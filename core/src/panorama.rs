@@ -35,6 +35,9 @@
 //! assert_eq!(plan, [1, 0]);
 //! ```
 
+#[cfg(kani)]
+pub mod proofs;
+
 use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enough};
 use crate::problem::{Candidate, Problem};
 

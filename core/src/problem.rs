@@ -4,6 +4,9 @@
 //! *implementation alternative* (here: [`Candidate`]) of an activity costs an amount on each
 //! *performance axis*; an end-oriented goal limits the sum over all activities, inclusively.
 
+#[cfg(kani)]
+pub mod proofs;
+
 /// One implementation alternative of an activity, as the allocators see it.
 ///
 /// Costs are in the unit of their axis (the missions use ms and mJ). They are 32 bits wide and sums

@@ -15,6 +15,9 @@
 //! assert_eq!(Millis::to_travel(leg, MillimetresPerSecond(0)), None);
 //! ```
 
+#[cfg(kani)]
+pub mod proofs;
+
 macro_rules! quantity {
     ($(#[$doc:meta])* $name:ident, $unit:literal) => {
         $(#[$doc])*

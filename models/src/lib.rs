@@ -30,6 +30,7 @@
 //! # }
 //! ```
 #![cfg_attr(not(feature = "std"), no_std)]
+#![cfg_attr(kani, allow(clippy::pedantic))]
 
 // Printed tables name this crate, wherever they are compiled; two of them are compiled here.
 extern crate self as cotama_models;

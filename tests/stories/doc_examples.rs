@@ -6,7 +6,8 @@
 //!   of `macro_rules!` below `#[macro_export]`. What is public can be reached by a user, or the
 //!   lint `unreachable_pub` says no; what has no documentation at all does not compile, as
 //!   `missing_docs` is denied. Methods, constants and what macros make (`Millis`) are not counted.
-//! - Left out are `tests`, what is `#[doc(hidden)]`, and the files that [`EXPANDED`] names.
+//! - Left out are `tests` and `proofs`, what is `#[doc(hidden)]`, and the files that [`EXPANDED`]
+//!   names.
 //! - *With an example* is one whose own documentation, the lines `///` right above it and above its
 //!   attributes, has a code block that rustdoc compiles.
 //!
@@ -33,7 +34,9 @@ fn items_without_an_example_are_listed_and_there_are_200_examples() {
             let text = fs::read_to_string(&path).expect("a file of the source");
             examples += count_examples(&text, path.extension().is_some_and(|it| it == "md"));
             let file = path.strip_prefix(root).expect("below the workspace").display().to_string();
-            if file.contains("tests") || EXPANDED.iter().any(|it| file.ends_with(it)) {
+            if ["tests", "proofs"].iter().any(|it| file.contains(it))
+                || EXPANDED.iter().any(|it| file.ends_with(it))
+            {
                 continue;
             }
             for item in public_items(&text) {

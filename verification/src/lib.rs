@@ -26,6 +26,8 @@
 //! | [`tina`] | the exchange format of time Petri nets, read and written |
 //! | [`tpn`] | time Petri nets and their state classes |
 
+#![cfg_attr(kani, allow(clippy::pedantic))]
+
 pub mod certificate;
 pub mod check;
 pub mod conform;
@@ -37,6 +39,8 @@ pub mod formats;
 mod integer;
 pub mod limits;
 pub mod play;
+#[cfg(kani)]
+pub mod proofs;
 pub mod property;
 pub mod pt;
 mod source;

@@ -48,6 +48,8 @@ mod dive;
 mod dual;
 mod load;
 mod primal;
+#[cfg(kani)]
+pub mod proofs;
 mod rows;
 mod search;
 

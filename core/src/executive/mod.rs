@@ -56,6 +56,8 @@
 //! ```
 
 mod latest;
+#[cfg(kani)]
+pub mod proofs;
 mod requests;
 mod response;
 mod scheduler;

@@ -63,6 +63,8 @@ mod pack;
 #[allow(clippy::module_inception, reason = "the door of the room is the player")]
 mod player;
 mod program;
+#[cfg(kani)]
+pub mod proofs;
 mod settle;
 mod snapshot;
 mod step;

@@ -18,6 +18,8 @@ mod matching;
 mod memory;
 mod problem;
 mod proof;
+#[cfg(kani)]
+pub mod proofs;
 mod scan;
 mod task;
 pub mod thesis;

@@ -17,6 +17,8 @@ mod label;
 mod level;
 mod members;
 mod modules;
+#[cfg(kani)]
+pub mod proofs;
 mod requirements;
 mod supervisors;
 

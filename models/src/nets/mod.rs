@@ -19,6 +19,8 @@ pub mod ace;
 pub mod charger;
 pub mod crossing;
 pub mod door;
+#[cfg(kani)]
+pub mod proofs;
 pub mod watchdog;
 
 #[cfg(feature = "std")]

@@ -23,6 +23,8 @@ mod error_class;
 mod heterogeneity;
 #[cfg(feature = "std")]
 pub mod instance;
+#[cfg(kani)]
+pub mod proofs;
 #[cfg(feature = "std")]
 pub mod protocol;
 mod pruning;

@@ -50,6 +50,8 @@
 mod about;
 mod build;
 mod display;
+#[cfg(kani)]
+pub mod proofs;
 mod read;
 mod structural;
 mod sum;

@@ -49,6 +49,8 @@ mod liveness;
 mod markings;
 mod often;
 mod plan;
+#[cfg(kani)]
+pub mod proofs;
 mod reach;
 mod space;
 mod sparse;

@@ -83,6 +83,8 @@ mod names;
 mod nodes;
 mod own;
 mod parser;
+#[cfg(kani)]
+pub mod proofs;
 mod resolve;
 mod state;
 mod write;
