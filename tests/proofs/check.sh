@@ -27,7 +27,9 @@ if [ $# -gt 0 ]; then
 fi
 
 cargo fmt --check
-cargo fmt --check --manifest-path ../kani/Cargo.toml
+for alone in kani kani-macros symbolic; do
+    cargo fmt --check --manifest-path "../$alone/Cargo.toml"
+done
 cargo test --quiet --locked -p kani --lib
 cargo clippy --quiet --locked --no-default-features -- -D warnings
 (cd "$root" && cargo clippy --quiet --locked --lib -p cotama-core -p cotama-models \

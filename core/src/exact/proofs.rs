@@ -119,6 +119,8 @@ pub fn a_dominated_candidate_changes_nothing() {
         }
     };
     assert!(answer(&with) == answer(&without));
+    let Ok(problem) = Problem::new(&with, limits, [1, 0]) else { unreachable!() };
+    assert!(answer(&with) == best(&problem));
     kani::cover!(worse == better, "an equal one");
     kani::cover!(answer(&with).is_some() && worse.quality < better.quality, "a worse one");
 }

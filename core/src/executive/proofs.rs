@@ -90,6 +90,8 @@ pub fn the_most_urgent_has_the_processor() {
         }
         let wants = |task: usize| {
             let (used, budget) = (it.used(task), it.tasks()[task].budget());
+            let is_at_work = matches!(it.watchdog(task), Some(Watchdog::Run | Watchdog::Extra));
+            assert!(used.is_some() == is_at_work);
             used.is_some_and(|it| it < budget)
         };
         assert!(it.running() == (0..2).find(|&task| wants(task)));
@@ -100,7 +102,8 @@ pub fn the_most_urgent_has_the_processor() {
     }
 }
 
-/// Nothing happens before it is due, and what is due happens when it was, in the order of time.
+/// Nothing happens before it is due, and what is due happens when it was, in the order of time:
+/// releases in their grid, deadlines after them.
 #[kani::proof]
 #[kani::unwind(6)]
 pub fn what_is_due_happens_in_order() {
@@ -117,6 +120,15 @@ pub fn what_is_due_happens_in_order() {
             };
             assert!(due == Some(happening.at) && happening.at >= last && happening.at.0 <= now);
             last = happening.at;
+            // Releases come in their grid, and what belongs to a job after its release.
+            let of = it.tasks()[happening.task];
+            let after = match happening.what {
+                What::Released | What::Refused => 0,
+                What::DeadlineMissed => of.deadline.0,
+                What::Skipped { .. } => of.deadline.0 + of.extra.0,
+                _ => continue,
+            };
+            assert!((of.period.0 + happening.at.0 - of.offset.0 - after) % of.period.0 == 0);
             kani::cover!(happening.at.0 < now && late > 4, "told late");
         }
         last = it.now();

@@ -73,6 +73,11 @@ pub fn the_last_activity_is_lowered_first() {
     let chosen = a[usize::from(plan[0])].cost[0];
     let room = u64::from(highest(&a)) + u64::from(lowest(&b)) <= limits[0];
     assert!((chosen == highest(&a)) == (room || highest(&a) == lowest(&a)));
+    // The last is as high as the first at its highest leaves room for, and is not raised again.
+    let last = b[usize::from(plan[1])].cost[0];
+    let fits = |cost: &u32| u64::from(highest(&a)) + u64::from(*cost) <= limits[0];
+    let highest_left = b.iter().map(|it| it.cost[0]).filter(fits).max();
+    assert!(last == highest_left.unwrap_or(lowest(&b)));
     kani::cover!(room && plan[1] == 1 && highest(&b) > lowest(&b), "only the last is lowered");
     kani::cover!(!room && highest(&a) > lowest(&a), "both are");
 }

@@ -241,7 +241,7 @@ impl<'w, N: Amount> Work<'w, N> {
     }
 
     /// A shortest path of exchanges from a row without a column to a column without a row.
-    fn grow(&mut self, from: u32) -> Result<(), Unassigned> {
+    pub(super) fn grow(&mut self, from: u32) -> Result<(), Unassigned> {
         self.memory.distances.fill(N::FAR);
         // The row that is looked at, and what it costs to come to it.
         let (mut row, mut base, mut met) = (from, N::ZERO, 0_usize);

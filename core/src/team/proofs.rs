@@ -1,5 +1,6 @@
 //! Costs, the assignment and its proof, and coalitions, against all solutions of small instances.
 
+use super::assignment::Work;
 use super::scan::{next_equal, two_nearest};
 use super::*;
 use crate::proofs::few;
@@ -109,6 +110,26 @@ pub fn a_wide_assignment_is_the_least_and_is_proven() {
     kani::cover!(said.is_err(), "none");
 }
 
+/// Shortest paths alone, without what is tried before them, find the cheapest assignment and prices
+/// that prove it.
+#[kani::proof]
+#[kani::unwind(10)]
+pub fn shortest_paths_assign_the_least() {
+    let entries: [Option<Cost>; 9] = core::array::from_fn(|_| any_entry());
+    let Some(costs) = Costs::new(&entries, 3) else { unreachable!() };
+    let mut fixed = Fixed::<i32, 3, 3>::new();
+    let mut memory = fixed.memory();
+    let Ok(mut work) = Work::start(&costs, &mut memory) else { unreachable!() };
+    let grown = (0..3).try_for_each(|row| work.grow(row));
+    let memory = work.memory;
+    let said = is_least(&costs, |it| memory.column(it), |it| memory.price(it));
+    let least = totals(&costs).min();
+    assert!(grown.is_ok() == least.is_some());
+    assert!(grown.is_err() || said.ok() == least);
+    kani::cover!(memory.column(2) == Some(0) && memory.price(0) < -1, "a long way");
+    kani::cover!(grown.is_err(), "none");
+}
+
 /// What the checker of an assignment accepts is the cheapest of all, whoever made it and whatever
 /// its prices.
 #[kani::proof]
@@ -197,6 +218,8 @@ pub fn a_coalition_is_the_cheapest() {
     };
     let extra = u32::from(few::<1>());
     let plans = [Plan { roles: pair, extra: 0 }, Plan { roles: single, extra }];
+    let turned: bool = kani::any();
+    let plans = if turned { [plans[1], plans[0]] } else { plans };
     let task = Task { skip: None, combine, plans: &plans };
     let alone = [0, 1].map(|robot| Some(2 * u64::from(single.cost(0, robot)?.get() + extra)));
     let both = [[0, 1], [1, 0]].map(|of: [usize; 2]| {
@@ -212,9 +235,10 @@ pub fn a_coalition_is_the_cheapest() {
     let said = coalition(&task, 2, &mut memory.memory());
     assert!(said.as_ref().ok().map(|it| it.cost) == least);
     if let Ok(found) = said {
-        let own = if found.plan == 1 { alone } else { both };
+        let own = if (found.plan == 1) == turned { both } else { alone };
         assert!(own.into_iter().flatten().min() == least);
     }
-    kani::cover!(said.is_ok_and(|it| it.plan == 0) && combine == Combine::Mean, "two share");
+    let by_two = said.is_ok_and(|it| (it.plan == 1) == turned);
+    kani::cover!(by_two && combine == Combine::Mean, "two share");
     kani::cover!(said.is_err(), "nobody can");
 }

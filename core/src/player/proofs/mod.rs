@@ -55,7 +55,7 @@ crate::net! {
         transitions {
             start on press: Off => On;
             stop on stop: On => Off within 1..=2 ms;
-            late: On => Late within 3..=3 ms;
+            late: On => Late within 5..=5 ms;
             back: Late => Off within 2..=4 ms;
         }
         laws { invariant(Off & On & Late = 1); }

@@ -77,7 +77,7 @@ pub(crate) fn of(done: &[(&Listed, Report)]) -> String {
     let mut text = String::new();
     let summary = format!(
         "{all} harnesses: {exhaustive} exhaustive in their bound, {sampled} sampled; {symbolic} of \
-         all for all inputs on machine code. Every one is a Kani harness, not yet run by Kani."
+         them are explored on machine code for all inputs. Every one is a Kani harness, not yet run by Kani."
     );
     wrap(&mut text, &summary, "");
     text + &list
