@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# tests/proofs/check.sh --bugs [NAME...]: plants each bug of bugs.txt in a copy of the workspace, and
-# sees that the harness named there fails. A bug costs a build of one crate. Exit status 1 when a
+# tests/proofs/check.sh --bugs [NAME...]: plants each bug of bugs.txt in a copy of the workspace,
+# and sees that the harness named there fails. A bug costs a build of one crate. Exit status 1 when a
 # harness does not see its bug, when a bug does not compile or its text is not there exactly once.
 set -euo pipefail
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")

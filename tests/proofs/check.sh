@@ -45,7 +45,8 @@ diff <(echo "$written") <(echo "$listed") ||
     { echo "harnesses in the source (<) and in the table (>) differ" >&2; exit 1; }
 
 # The table stands in the page between two lines.
-page=$root/docs/proofs.md begin='<!-- The table: tests/proofs/check.sh -->' end='<!-- End of it. -->'
+page=$root/docs/proofs.md
+begin='<!-- The table: tests/proofs/check.sh -->' end='<!-- End of it. -->'
 {
     awk -v line="$begin" '{ print } $0 == line { exit }' "$page"
     echo
@@ -56,5 +57,6 @@ page=$root/docs/proofs.md begin='<!-- The table: tests/proofs/check.sh -->' end=
 if [ -n "${UPDATE_GOLDEN:-}" ]; then
     cp "$table.page" "$page"
 else
-    diff "$page" "$table.page" || { echo "docs/proofs.md (<) is not as it must be (>)" >&2; exit 1; }
+    diff "$page" "$table.page" ||
+        { echo "docs/proofs.md (<) is not as it must be (>)" >&2; exit 1; }
 fi

@@ -112,7 +112,7 @@ pub fn the_executor_refines_the_textbook() {
     let mut player: Player<_, 1> =
         Player { program, marking, clocks: [], slots: [], now: Millis(0) };
 
-    // A player whose bounds are not proven settles first, and is behind when that does not come to an end.
+    // A player whose bounds are not proven settles first, and is behind when that does not end.
     let settle = |tokens: &mut [u32; 2]| {
         (0..MOST).find(|_| {
             let next = first(rules, None, *tokens);

@@ -77,7 +77,8 @@ pub(crate) fn of(done: &[(&Listed, Report)]) -> String {
     let mut text = String::new();
     let summary = format!(
         "{all} harnesses: {exhaustive} exhaustive in their bound, {sampled} sampled; {symbolic} of \
-         them are explored on machine code for all inputs. Every one is a Kani harness, not yet run by Kani."
+         them are explored on machine code for all inputs. Every one is a Kani harness, not yet \
+         run by Kani."
     );
     wrap(&mut text, &summary, "");
     text + &list
