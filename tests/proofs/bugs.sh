@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # tests/proofs/check.sh --bugs [NAME...]: plants each bug of bugs.txt in a copy of the workspace,
-# and sees that the harness named there fails. A bug costs a build of one crate. Exit status 1 when a
-# harness does not see its bug, when a bug does not compile or its text is not there exactly once.
+# and sees that the harness named there fails. A bug costs a build of one crate. Exit status 1 when
+# a harness does not see its bug, when a bug does not compile or its text is not there once.
 set -euo pipefail
 here=$(realpath "$(dirname "${BASH_SOURCE[0]}")")
 copy=$CARGO_TARGET_DIR/bugs/workspace

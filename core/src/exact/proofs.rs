@@ -105,12 +105,13 @@ pub fn the_bound_holds_whatever_the_budget() {
 pub fn a_dominated_candidate_changes_nothing() {
     let better = c([u32::from(few::<2>()), bit()], 1 + bit());
     let worse = c([better.cost[0] + 2 * bit(), better.cost[1] + bit()], better.quality - bit());
-    let (a, b) = ([better, worse], [c([1, bit()], 2), c([0, 1 + bit()], bit())]);
-    let (with, without) = ([&a[..], &b[..]], [&a[..1], &b[..]]);
+    let other = c([bit(), 2 * bit()], 2 * bit());
+    let (a, b) = ([better, other, worse], [c([1, bit()], 2), c([0, 1 + bit()], bit())]);
+    let (with, without) = ([&a[..], &b[..]], [&a[..2], &b[..]]);
     let limits = [u64::from(few::<2>()), 1 + u64::from(few::<1>())];
     let answer = |activities: &[&[Candidate<2>]]| {
         let Ok(problem) = Problem::new(activities, limits, [1, 0]) else { unreachable!() };
-        let (mut items, mut stages) = ([Item::EMPTY; 4], [Stage::EMPTY; 2]);
+        let (mut items, mut stages) = ([Item::EMPTY; 5], [Stage::EMPTY; 2]);
         let mut exact = Exact::new(&[Objective::MostQuality], 10_000, &mut items, &mut stages);
         match exact.allocate(&problem, &mut [0; 2]) {
             Ok(Answer::Planned(planned)) => Some(planned.quality),

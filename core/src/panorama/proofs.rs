@@ -62,14 +62,14 @@ pub fn with_one_limit_the_rule_is_complete() {
 #[kani::unwind(4)]
 pub fn the_last_activity_is_lowered_first() {
     let one = || c([u32::from(few::<2>())]);
-    let (a, b) = ([one(), one()], [one(), one()]);
+    let (a, b) = ([one(), one()], [one(), one(), one()]);
     let (activities, limits) = ([&a[..], &b[..]], [u64::from(few::<3>())]);
     let Ok(problem) = Problem::new(&activities, limits, [0]) else { unreachable!() };
     let mut plan = [0; 2];
     let said = Panorama::new(&mut [[0]; 2]).allocate(&problem, &mut plan);
     kani::assume(matches!(said, Ok(Answer::Planned(_))));
-    let highest = |of: &[Candidate<1>]| of[0].cost[0].max(of[1].cost[0]);
-    let lowest = |of: &[Candidate<1>]| of[0].cost[0].min(of[1].cost[0]);
+    let highest = |of: &[Candidate<1>]| of.iter().fold(0, |most, it| it.cost[0].max(most));
+    let lowest = |of: &[Candidate<1>]| of.iter().fold(u32::MAX, |least, it| it.cost[0].min(least));
     let chosen = a[usize::from(plan[0])].cost[0];
     let room = u64::from(highest(&a)) + u64::from(lowest(&b)) <= limits[0];
     assert!((chosen == highest(&a)) == (room || highest(&a) == lowest(&a)));
