@@ -20,6 +20,10 @@ fn short(name: &str) -> String {
     name.replace("cotama_", "").replace("::proofs::", "::")
 }
 
+fn is_replay() -> bool {
+    std::env::var_os("KANI_SHIM_REPLAY").is_some()
+}
+
 /// What became of a harness, if it did not do what it must.
 fn verdict(listed: &Listed, report: &Report) -> Result<(), String> {
     match &report.failure {
@@ -27,7 +31,7 @@ fn verdict(listed: &Listed, report: &Report) -> Result<(), String> {
         Some(why) => Err(format!("FAILS: {why}")),
         None if listed.harness.must_fail => Err("HOLDS, and must fail: the engine is blind".into()),
         None if std::env::var_os("KANI_SHIM_RUNS").is_some() => Ok(()),
-        None if std::env::var_os("KANI_SHIM_REPLAY").is_some() => Ok(()),
+        None if is_replay() => Ok(()),
         None => match (listed.word, report.exhaustive) {
             (Word::Exhaustive, false) => Err("IS SAMPLED, and listed as exhaustive".into()),
             (Word::Sampled, true) => Err("IS EXHAUSTIVE, and listed as sampled".into()),
@@ -65,6 +69,9 @@ fn main() -> ExitCode {
         while let Some(listed) = all.get(next.fetch_add(1, Ordering::Relaxed)) {
             let start = Instant::now();
             let report = kani::explore(&listed.harness);
+            if let (true, Some(why)) = (is_replay(), &report.failure) {
+                println!("{why}");
+            }
             match verdict(listed, &report) {
                 Ok(()) => println!("{}", line(listed, &report, start.elapsed())),
                 Err(why) => println!("{}: {why}", short(listed.harness.name)),
