@@ -129,8 +129,6 @@ impl<'m, const A: usize> Front<'m, A> {
             let kept = undominated(&mut nodes[end..end + count]);
             (first, end) = (end, end + kept);
         }
-        let within = (0..A).all(|axis| problem.least(axis) <= problem.limits()[axis]);
-        let first = if within { first } else { end };
         Ok(FrontPlans { nodes: &nodes[..end], first, activities: activities.len() })
     }
 }

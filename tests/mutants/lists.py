@@ -63,7 +63,7 @@ def write_killers(name, defects):
     path = LISTS / f"{name}.txt"
     lines = path.read_text().splitlines()
     for defect in sorted(defects, key=lambda it: -it.line):
-        if not defect.result or defect.result == defect.by or defect.by.endswith("::"):
+        if not defect.result or defect.result == defect.by:
             continue
         at = defect.line
         while not lines[at].startswith("- "):

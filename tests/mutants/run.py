@@ -77,10 +77,10 @@ def build(defects, only=None):
     for line in run.stdout.splitlines():
         message = json.loads(line)
         if message["reason"] == "compiler-artifact" and message["executable"]:
-            target, crate = message["target"], Path(message["manifest_path"]).parent.name
+            target, folder = message["target"], Path(message["manifest_path"]).parent
             if message["profile"]["test"]:
                 name = target["name"] if target["kind"] == ["test"] else "lib"
-                programs[f"{crate}/{name}"] = message["executable"]
+                programs[f"{folder.name}/{name}"] = (message["executable"], folder)
         elif message["reason"] == "compiler-message" and message["message"]["level"] == "error":
             errors.append(message["message"])
     if run.returncode and not errors:
@@ -115,6 +115,8 @@ class Runner:
 
     def first_failure(self, program, number, arguments, limit):
         """The first test that fails, `time`, `a crash`, or None when all pass."""
+        path, folder = program
+
         def alone():
             os.setsid()
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
@@ -122,8 +124,8 @@ class Runner:
         skipped = [it for name in SKIPPED for it in ("--skip", name)]
         environment = {**os.environ, VARIABLE: str(number), "RUST_BACKTRACE": "0"}
         run = subprocess.Popen(
-            [self.programs[program], *arguments, *skipped],
-            cwd=COPY / program.split("/")[0], env=environment, preexec_fn=alone, text=True,
+            [path, *arguments, *skipped], cwd=folder,
+            env=environment, preexec_fn=alone, text=True,
             stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, errors="replace",
         )
         late = threading.Event()
@@ -168,28 +170,28 @@ class Runner:
         """Ends it all when a program fails without a defect; keeps how long each takes."""
         for program in sorted({it for defect in defects for it in self.suite(defect)}):
             begin = time.monotonic()
-            failure = self.first_failure(program, 0, [], 1800)
+            failure = self.first_failure(self.programs[program], 0, [], 1800)
             if failure:
                 sys.exit(f"without a defect, {program} {failure} fails")
             self.seconds[program] = round(time.monotonic() - begin, 1)
 
-    def kill(self, defect):
+    def kill(self, defect, programs=None):
         """Who kills the defect: "PROGRAM TEST", or None."""
+        programs = programs or {it: self.programs[it] for it in self.suite(defect)}
         if defect.by:
             program, test = defect.by.split(" ", 1)
-            if program not in self.programs:
-                print(f"  there is no program {program}", flush=True)
-            else:
+            if program in programs:
                 # A name that ends in `::` is a module, for one of whose tests it may do as well.
                 names = [test] if test.endswith("::") else ["--exact", test]
-                failure = self.first_failure(program, defect.number, names, NAMED_SECONDS)
+                run = programs[program]
+                failure = self.first_failure(run, defect.number, names, NAMED_SECONDS)
                 if failure == "no such test":
                     print(f"  there is no test {defect.by}", flush=True)
                 elif failure:
                     return f"{program} {test if failure in ENDS else failure}", failure
-        for program in self.suite(defect):
+        for program, run in programs.items():
             limit = 30 + 3 * self.seconds.get(program, 60)
-            if failure := self.first_failure(program, defect.number, [], limit):
+            if failure := self.first_failure(run, defect.number, [], limit):
                 return f"{program} {failure}", failure
         return None
 
@@ -257,11 +259,12 @@ def run(defects):
     for defect in alone:
         seed([])
         write(COPY / defect.file, seeded(original(defect), defect))
-        killed = None
-        # The program that kills, and all of the others only when it does not.
-        for only in ([{defect.by.split(" ")[0]}] if defect.by else []) + [None]:
-            runner.programs, errors = build([defect], only)
-            killed = killed or (None if errors else runner.kill(defect))
+        killed, errors = None, []
+        # One program after the other, first the one that kills.
+        first = defect.by.split(" ")[0]
+        for program in sorted(runner.suite(defect), key=lambda it: it != first):
+            found, errors = build([defect], {program})
+            killed = None if errors else runner.kill(defect, {program: found.get(program)})
             if killed or errors:
                 break
         report(defect, killed)
