@@ -26,7 +26,7 @@ class Defect:
     def __init__(self, listed, line, what):
         self.list, self.line, self.what = listed, line, what
         self.number = 0
-        self.file = self.by = self.equivalent = ""
+        self.file = self.by = self.equivalent = self.open = ""
         self.old, self.new = [], []
         self.alone = False
         self.result = None
@@ -51,7 +51,7 @@ def read_list(name):
             defects[-1].new.append(text[2:])
         elif text == "alone: yes":
             defects[-1].alone = True
-        elif (key := text.split(": ", 1)[0]) in ("file", "by", "equivalent"):
+        elif (key := text.split(": ", 1)[0]) in ("file", "by", "equivalent", "open"):
             setattr(defects[-1], key, text.split(": ", 1)[1])
         elif text.strip():
             sys.exit(f"{name}.txt:{line}: not a line of a list: {text}")
@@ -89,7 +89,8 @@ def table():
             program, _, test = defect.by.partition(" ")
             killer = f"`{program}` `{test}`" if not test.endswith("::") else f"`{defect.by}`"
             killer = f"equivalent: {defect.equivalent}" if defect.equivalent else killer
-            known = defect.by or defect.equivalent
+            killer = f"survives: {defect.open}" if defect.open else killer
+            known = defect.by or defect.equivalent or defect.open
             text += folded(f"- {defect.what}: {killer}" if known else f"- {defect.what}") + "\n"
     path.write_text(text)
 

@@ -192,6 +192,17 @@ fn at_every_step_budget_the_limit_named_is_the_one_that_no_plan_meets() {
     assert_eq!((named, left_open), (5_270, 48_648));
 }
 
+#[test]
+fn of_candidates_equal_in_every_number_the_first_written_is_taken() {
+    let way = |id| Candidate { cost: [3, 4], quality: 5, id };
+    let (three, two) = ([way(0), way(1), way(2)], [way(7), way(6)]);
+    let activities = [&three[..], &two];
+    let problem = Problem::new(&activities, [9, 9], [0, 1]).unwrap();
+    for objectives in [&[Objective::MostQuality][..], &[Objective::Least(1)], &[]] {
+        assert_eq!(exact(&problem, objectives, 1_000).1, [0, 0], "{objectives:?}");
+    }
+}
+
 /// Of two objectives the second is pursued with what the first has left.
 #[test]
 fn at_every_step_budget_a_plan_is_called_best_only_where_it_is_best_in_both_objectives() {
