@@ -64,3 +64,32 @@ fn bounds_of_time_have_their_unit() {
     let untimed = folder.cotama(&["check", "kanban:2", "--property", "EF P1 = 0", "--json"]);
     assert_eq!(untimed.json(0)["time_unit"], json!(null));
 }
+
+/// Where one token each cannot be all, how many there are is asked, not whether it is one.
+#[test]
+fn a_net_that_starts_with_two_tokens_is_asked_for_its_bounds() {
+    let folder = Folder::new("questions_usual");
+    for (net, question) in [
+        ("tr a p -> q\npl p (1)", "one_safe"),
+        ("tr a p -> q\npl p (2)", "bounds"),
+        ("tr a p -> q*2\npl p (1)", "bounds"),
+        ("tr a p*2 -> q\npl p (1)", "bounds"),
+    ] {
+        folder.write("it.net", net);
+        let answer = folder.cotama(&["check", "it.net", "--json"]).json(1);
+        assert_eq!(answer["results"][1]["name"], question, "{net}");
+    }
+}
+
+/// What the first question leaves of the time is for the others, in equal parts.
+#[test]
+fn questions_share_the_time() {
+    let folder = Folder::new("questions_time");
+    let all = ["AG P1 <= 9", "AG P2 <= 9"];
+    let ask = ["--engine", "explicit", "--max-seconds", "1.5", "--json"];
+    let line = ["check", "kanban:10", "--property", all[0], "--property", all[1]];
+    let answer = folder.cotama(&[&line[..], &ask].concat());
+    let answer = answer.json(answer.code.unwrap());
+    let seconds = [0, 1].map(|it| answer["results"][it]["seconds"].as_f64().unwrap());
+    assert!(seconds[1] > 0.7 * seconds[0] && seconds[0] < 1.2, "{answer:#}");
+}
