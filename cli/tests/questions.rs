@@ -122,3 +122,14 @@ fn each_limit_says_which_option_allows_more() {
         assert!(other.into_iter().all(|it| !said.contains(it[0])), "{said}");
     }
 }
+
+#[test]
+fn a_certificate_shows_its_own_property_only() {
+    let folder = Folder::new("questions_certificate");
+    let line = ["check", "kanban:2", "--property", "EF P1 = 0", "--certificate", "it.json"];
+    assert_eq!(folder.cotama(&line).code, Some(0));
+    for (property, code) in [("EF P1 = 0", 0), ("EF P1 = 1", 1)] {
+        let line = ["verify", "it.json", "--model", "kanban:2", "--property", property];
+        assert_eq!(folder.cotama(&line).code, Some(code), "{property}");
+    }
+}
