@@ -32,3 +32,24 @@ impl Budget {
         Self { limits: Limits { deadline: self.limits.deadline.map(part), ..self.limits }, ..self }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::time::Duration;
+
+    #[test]
+    fn megabytes_are_bytes_and_a_share_is_a_part_of_the_time_that_is_left() {
+        let args = BudgetArgs { max_states: None, max_memory: 3, max_seconds: None, jobs: 2 };
+        let budget = Budget::start(args);
+        assert_eq!((budget.limits.bytes, budget.jobs), (3 << 20, 2));
+        assert_eq!(budget.share(5).limits.deadline, None);
+        let deadline = Instant::now() + Duration::from_secs(1_000);
+        let budget =
+            Budget { limits: Limits { deadline: Some(deadline), ..budget.limits }, ..budget };
+        let left = |of| budget.share(of).limits.deadline.unwrap() - Instant::now();
+        assert!((190..=200).contains(&left(5).as_secs()), "{:?}", left(5));
+        assert!((990..=1_000).contains(&left(1).as_secs()), "{:?}", left(1));
+        assert!((990..=1_000).contains(&left(0).as_secs()), "{:?}", left(0));
+    }
+}

@@ -125,3 +125,16 @@ impl From<PnmlErrors> for FileErrors {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_column_counts_letters_and_a_span_counts_bytes() {
+        let text = "first\näö x".to_owned();
+        let errors = FileErrors::at_character("a file", text, (2, 4), "wrong".to_owned(), None);
+        let Mark { line, column, span } = errors.errors[0].at.clone();
+        assert_eq!((line, column, span), (2, 4, 11..12));
+    }
+}

@@ -119,3 +119,16 @@ pub(crate) fn plain(error: &std::io::Error) -> String {
     let mut letters = said.chars();
     letters.next().map_or_else(String::new, |first| first.to_lowercase().chain(letters).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_of_just_the_limit_is_read_and_of_a_byte_more_is_not() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml");
+        let length = std::fs::metadata(path).unwrap().len();
+        let read = |limit| bytes(path, "a manifest", limit).map(|it| it.len() as u64);
+        assert_eq!((read(length).ok(), read(length - 1).ok()), (Some(length), None));
+    }
+}

@@ -27,3 +27,19 @@ pub(crate) fn quoted(word: &str) -> String {
         format!("'{}'", word.replace('\'', "'\\''"))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn of_names_as_near_the_first_in_the_alphabet_is_meant() {
+        assert_eq!(near("cat", ["car", "cab", "dog"].into_iter()), Some("cab"));
+        assert_eq!(near("dug", ["car", "cab", "dog"].into_iter()), Some("dog"));
+    }
+
+    #[test]
+    fn a_quote_ends_the_quoted_word_and_begins_another() {
+        assert_eq!(["a-b", "a b", "it's", ""].map(quoted), ["a-b", "'a b'", "'it'\\''s'", "''"]);
+    }
+}

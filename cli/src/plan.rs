@@ -235,3 +235,42 @@ fn labels(mission: &Mission, problem: &Problem<'_, 2>, choice: &[u16]) -> Vec<St
     };
     rows.filter_map(label).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::args::{Cli, Command};
+    use clap::Parser;
+
+    /// The answer for the front of two activities with so many ways each, none better than another.
+    fn front_of(ways: u32) -> PlanAnswer {
+        let Command::Plan(args) = Cli::parse_from(["cotama", "plan", "patrol"]).command else {
+            unreachable!("`plan` is the command")
+        };
+        let loaded = mission::load_for(&args.mission.mission, &args.planning).unwrap();
+        let mut answer = answer(&args, &loaded).unwrap();
+        let candidate =
+            |it| Candidate { cost: [it, ways - 1 - it], quality: 0, id: (it % 2) as u16 };
+        let ways: Vec<_> = (0..ways).map(candidate).collect();
+        let activities = [&ways[..]; 2];
+        let problem = Problem::new(&activities, [1 << 20; 2], [0, 1]).unwrap();
+        front(&mut answer, &loaded.mission, &problem);
+        answer
+    }
+
+    /// 300 ways and then 300 x 300 are more than 65,536 partial plans.
+    #[test]
+    fn a_front_takes_more_memory_up_to_a_limit() {
+        let answer = front_of(300);
+        assert_eq!(answer.status, Status::Optimal);
+        let rows = answer.front.unwrap();
+        let ends = [&rows[0], &rows[598]].map(|it| (it.duration_ms, it.energy_mj));
+        assert_eq!((rows.len(), ends), (599, [(0, 598), (598, 0)]));
+        assert!(rows.iter().any(|it| it.choice != rows[0].choice));
+        // 1,100 x 1,100 are more than a million.
+        let answer = front_of(1_100);
+        assert_eq!((answer.status, answer.front), (Status::Unknown, None));
+        let text = "the front needs more than 1048576 partial plans: too many to search";
+        assert_eq!(answer.reason.unwrap().text, text);
+    }
+}

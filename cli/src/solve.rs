@@ -159,3 +159,81 @@ fn exact(
     let answer = exact.allocate(problem, &mut plan)?;
     Ok((answer, plan))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cotama_core::problem::Candidate;
+
+    /// Takes duration from the second activity, and then has no way to save energy there.
+    fn missed(story: impl Fn(&Problem<'_, 2>)) {
+        let c = |duration, energy| Candidate { cost: [duration, energy], quality: 0, id: 0 };
+        let (a, b, more) = ([c(5, 1), c(1, 2)], [c(5, 1), c(1, 10)], [c(0, 0), c(0, 3)]);
+        let activities = [&a[..], &b, &more];
+        story(&Problem::new(&activities, [6, 6], [0, 1]).unwrap());
+    }
+
+    fn steps(answer: &Answer<2>) -> u64 {
+        match answer {
+            Answer::Planned(it) => it.steps,
+            Answer::Infeasible { steps, .. } | Answer::Unknown { steps, .. } => *steps,
+        }
+    }
+
+    #[test]
+    fn where_the_rule_fails_a_search_finds_the_plan_that_fills_the_last_limit() {
+        missed(|problem| {
+            let rule = steps(&panorama(problem).unwrap().0);
+            let (most, _) = exact(problem, &[Objective::Most(1)], 1_000).unwrap();
+            let found = solve(problem, Method::RuleThenExact, 1_000).unwrap();
+            let Verdict::Planned { planned, allocator } = found.verdict else {
+                panic!("{found:?}")
+            };
+            assert_eq!(
+                (planned.cost, allocator, &found.plan[..]),
+                ([6, 6], "exact", &[1, 0, 1][..])
+            );
+            assert_eq!(
+                (rule, found.steps, found.status()),
+                (22, 22 + steps(&most), Status::Optimal)
+            );
+        });
+    }
+
+    #[test]
+    fn a_plan_with_a_bound_above_it_is_feasible_and_no_more() {
+        let status = |optimal| {
+            let planned = Planned { cost: [1, 1], quality: 5, bound: Some(7), optimal, steps: 9 };
+            let verdict = Verdict::Planned { planned, allocator: "exact" };
+            Solution { verdict, plan: vec![0], steps: 9 }.status()
+        };
+        assert_eq!([false, true].map(status), [Status::Feasible, Status::Optimal]);
+    }
+
+    #[test]
+    fn a_plan_that_the_rule_misses_is_not_given_as_its_own() {
+        missed(|problem| {
+            let (any, _) = exact(problem, &[], 1_000).unwrap();
+            let found = solve(problem, Method::Rule, 1_000).unwrap();
+            assert_eq!((found.verdict, found.steps), (Verdict::Missed, 22 + steps(&any)));
+            assert!(found.plan.is_empty());
+        });
+    }
+
+    #[test]
+    fn the_steps_of_the_rule_count_whatever_the_search_says() {
+        missed(|problem| {
+            let unknown = solve(problem, Method::RuleThenExact, 1).unwrap();
+            let search = steps(&exact(problem, &[Objective::Most(1)], 1).unwrap().0);
+            assert_eq!(unknown.verdict, Verdict::Unknown { bound: None });
+            assert_eq!(unknown.steps, 22 + search);
+            let none = problem.with_limits([6, 2]);
+            let rule = steps(&panorama(&none).unwrap().0);
+            let search = steps(&exact(&none, &[], 1_000).unwrap().0);
+            let infeasible = solve(&none, Method::Rule, 1_000).unwrap();
+            let shortfall = Shortfall::new(1, 2, 3);
+            assert_eq!(infeasible.verdict, Verdict::Infeasible { shortfall });
+            assert_eq!(infeasible.steps, rule + search);
+        });
+    }
+}

@@ -174,3 +174,16 @@ pub(crate) fn after_replay(args: &ReplayArgs) -> Option<String> {
         seed.unwrap_or_default()
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_changed_stands_beside_what_was_typed() {
+        let words =
+            Words { mission: "m".to_owned(), options: vec![("--seed", Some("1".to_owned()))] };
+        let line = words.with("--steps", "9").with("--seed", "2").line("run");
+        assert_eq!(line.as_deref(), Some("cotama run m --seed 2 --steps 9"));
+    }
+}

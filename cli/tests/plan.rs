@@ -127,6 +127,13 @@ fn lost_hardware_is_left_out_and_its_need_explained() {
 }
 
 #[test]
+fn a_front_without_plans_is_infeasible() {
+    let answer = plan(&["--objective", "front", "--energy-limit", "4000000"], 1);
+    assert_eq!((&answer["status"], &answer["front"]), (&json!("infeasible"), &json!([])));
+    assert_eq!(answer["reason"]["gap"], 675_896);
+}
+
+#[test]
 fn a_search_cut_short_says_so() {
     let answer = plan(&["--objective", "quality", "--steps", "1"], 3);
     assert_eq!((&answer["status"], &answer["plan"]), (&json!("unknown"), &json!([])));

@@ -64,3 +64,72 @@ fn bounds_of_time_have_their_unit() {
     let untimed = folder.cotama(&["check", "kanban:2", "--property", "EF P1 = 0", "--json"]);
     assert_eq!(untimed.json(0)["time_unit"], json!(null));
 }
+
+/// Where one token each cannot be all, how many there are is asked, not whether it is one.
+#[test]
+fn a_net_that_starts_with_two_tokens_is_asked_for_its_bounds() {
+    let folder = Folder::new("questions_usual");
+    for (net, question) in [
+        ("tr a p -> q\npl p (1)", "one_safe"),
+        ("tr a p -> q\npl p (2)", "bounds"),
+        ("tr a p -> q*2\npl p (1)", "bounds"),
+        ("tr a p*2 -> q\npl p (1)", "bounds"),
+    ] {
+        folder.write("it.net", net);
+        let answer = folder.cotama(&["check", "it.net", "--json"]).json(1);
+        assert_eq!(answer["results"][1]["name"], question, "{net}");
+    }
+}
+
+/// What the first question leaves of the time is for the others, in equal parts.
+#[test]
+fn questions_share_the_time() {
+    let folder = Folder::new("questions_time");
+    let all = ["AG P1 <= 10", "AG P2 <= 10"];
+    let ask = ["--engine", "explicit", "--max-seconds", "1.5", "--json"];
+    let line = ["check", "kanban:10", "--property", all[0], "--property", all[1]];
+    let answer = folder.cotama(&[&line[..], &ask].concat()).json(3);
+    let seconds = [0, 1].map(|it| answer["results"][it]["seconds"].as_f64().unwrap());
+    assert!(seconds[1] > 0.7 * seconds[0] && seconds[0] < 1.2, "{answer:#}");
+}
+
+#[test]
+fn a_file_has_comments_and_names_with_room_around_them() {
+    let folder = Folder::new("questions_file");
+    folder.write("asked.txt", "  # not one\nfirst : EF Open\n");
+    let line = ["check", "door", "--properties", "asked.txt", "--json"];
+    assert_eq!(verdicts(&folder.cotama(&line).json(0)), ["first; EF Open; true"]);
+}
+
+#[test]
+fn the_contest_is_told_of_a_place_without_bound() {
+    let folder = Folder::new("questions_contest");
+    folder.write("pump.net", "tr in -> tank  tr out tank*2 ->");
+    let line = ["check", "pump.net", "--untimed", "--property", "bounds(tank)", "--mcc"];
+    let said = folder.cotama(&line).stdout;
+    assert!(said.starts_with("FORMULA bounds(tank) +inf TECHNIQUES "), "{said}");
+}
+
+#[test]
+fn each_limit_says_which_option_allows_more() {
+    let folder = Folder::new("questions_way_out");
+    let limits = [["--max-memory", "1"], ["--max-states", "9"], ["--max-seconds", "0.1"]];
+    for [option, value] in limits {
+        let line = ["check", "kanban:10", "--property", "AG P1 <= 10", option, value];
+        let said = folder.cotama(&[&line[..], &["--engine", "explicit"]].concat()).stdout;
+        let other = limits.iter().filter(|it| it[0] != option);
+        assert!(said.contains(&format!("{option} allows more")), "{said}");
+        assert!(other.into_iter().all(|it| !said.contains(it[0])), "{said}");
+    }
+}
+
+#[test]
+fn a_certificate_shows_its_own_property_only() {
+    let folder = Folder::new("questions_certificate");
+    let line = ["check", "kanban:2", "--property", "EF P1 = 0", "--certificate", "it.json"];
+    assert_eq!(folder.cotama(&line).code, Some(0));
+    for (property, code) in [("EF P1 = 0", 0), ("EF P1 = 1", 1)] {
+        let line = ["verify", "it.json", "--model", "kanban:2", "--property", property];
+        assert_eq!(folder.cotama(&line).code, Some(code), "{property}");
+    }
+}

@@ -76,6 +76,28 @@ fn state_classes_are_counted_where_there_are_intervals() {
     assert_eq!((&answer["states"], &answer["classes"]), (&json!("3"), &json!(null)));
 }
 
+/// Two tokens that were met are known; that there are never two is not.
+#[test]
+fn a_search_that_was_cut_short_never_says_one_safe() {
+    let folder = Folder::new("statespace_cut_safe");
+    let net = "tr a [1,1] p -> q  tr b [1,1] q -> r*2  tr c [1,1] r ->  pl p (1)";
+    folder.write("doubles.net", net);
+    for more in [&[][..], &["--untimed"]] {
+        for (states, safe, count) in
+            [("2", json!(null), json!(null)), ("3", json!(false), json!(null))]
+        {
+            let line = ["statespace", "doubles.net", "--max-states", states, "--json"];
+            let answer = folder.cotama(&[&line[..], more].concat()).json(3);
+            assert_eq!((&answer["safe"], &answer["states"]), (&safe, &count), "{states} {more:?}");
+        }
+        let line = ["statespace", "doubles.net", "--json"];
+        let answer = folder.cotama(&[&line[..], more].concat()).json(0);
+        assert_eq!((&answer["safe"], &answer["states"]), (&json!(false), &json!("5")));
+        assert_eq!((&answer["max_place"], &answer["max_sum"]), (&json!("2"), &json!("2")));
+        assert_eq!((&answer["dead_places"], &answer["dead_transitions"]), (&json!([]), &json!([])));
+    }
+}
+
 #[test]
 fn an_unbounded_net_is_an_answer_and_shows_how_it_grows() {
     let folder = Folder::new("statespace_unbounded");

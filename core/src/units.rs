@@ -162,6 +162,8 @@ mod tests {
     #[test]
     fn a_wide_product_is_exact_and_a_wide_quotient_is_refused() {
         assert_eq!(mul_div_half_up(u64::MAX, 1000, 1000), Some(u64::MAX));
+        assert_eq!(mul_div_half_up(u64::MAX, 3, 6), Some(1 << 63)); // a half
+        assert_eq!(mul_div_half_up(u64::MAX - 2, 4, 12), Some(0x5555_5555_5555_5554)); // less
         assert_eq!(mul_div_half_up(u64::MAX, 2, 1), None);
         assert_eq!(mul_div_half_up(1, 1, 0), None);
     }
@@ -172,5 +174,24 @@ mod tests {
         assert_eq!(Micros::from_millis(Millis(u64::MAX)), None);
         assert_eq!(Micros::from_millis(Millis(7)), Some(Micros(7_000)));
         assert_eq!(Millijoules(1).checked_sub(Millijoules(2)), None);
+        assert_eq!(Millijoules(2).checked_sub(Millijoules(1)), Some(Millijoules(1)));
+        assert_eq!(Millis(u64::MAX - 1).checked_add(Millis(1)), Some(Millis(u64::MAX)));
+    }
+
+    /// Speeds, lengths and powers up to all that fits: exact, or refused, never wrapped.
+    #[test]
+    fn huge_energies_and_times_are_exact_or_refused() {
+        let most = Milliwatts(u64::MAX);
+        assert_eq!(Millijoules::spent(most, Millis(1_000)), Some(Millijoules(u64::MAX)));
+        assert_eq!(Millijoules::spent(most, Millis(1_001)), None);
+        assert_eq!(Millijoules::spent(most, Millis(500)), Some(Millijoules(1 << 63)));
+        let length = Millimetres(u64::MAX);
+        let travel = |speed| Millis::to_travel(length, MillimetresPerSecond(speed));
+        assert_eq!(travel(1_000), Some(Millis(u64::MAX)));
+        assert_eq!((travel(999), travel(0)), (None, None));
+        assert_eq!(
+            Millis::to_travel(Millimetres(410), MillimetresPerSecond(410)),
+            Some(Millis(1_000))
+        );
     }
 }

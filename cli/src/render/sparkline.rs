@@ -74,6 +74,7 @@ mod tests {
         };
         assert_eq!(drawn(&samples, 39, 4), "▂▇▇!");
         assert_eq!(drawn(&[(0, 5)], 0, 3), "███");
+        assert_eq!(drawn(&[(0, 0), (1, 8)], 1, 2), "▁█");
     }
 
     #[test]

@@ -201,6 +201,11 @@ mod tests {
     }
 
     #[test]
+    fn of_two_events_of_one_name_the_first_is_meant() {
+        assert_eq!(said(&["b", "a", "a"], false, &["a"]).unwrap(), [(0, vec![1])]);
+    }
+
+    #[test]
     fn beginnings_and_numbers_stand_for_events_by_hand() {
         let net = net(&["open", "opened", "close"]);
         let view = net.view();
@@ -208,6 +213,8 @@ mod tests {
         let event = |word: &str| words.step(word, Millis(0)).ok().map(|step| step.events[0].0);
         assert_eq!(["c", "2", "open", "opene"].map(event), [Some(2), Some(1), Some(0), Some(1)]);
         assert_eq!(["o", "0", "4", "x", ""].map(event), [None; 5]);
+        let Err(Failure::Message { message, .. }) = words.step("o", Millis(0)) else { panic!() };
+        assert_eq!(message, "`o` can be `open`, `opened` or another");
     }
 
     #[test]

@@ -135,6 +135,45 @@ mod tests {
     }
 
     #[test]
+    fn who_is_released_from_its_constraint_takes_what_it_needs() {
+        let mut it = executive();
+        assert!(it.request(1, Request::Release, ms(0)));
+        let begun = [(0, 0, What::Released), (0, 1, What::Released), (10, 0, What::Done)];
+        // At 82 it has used more than its cost and its extra time.
+        assert_eq!(run(&mut it, 82, [10, 75]), begun);
+        assert_eq!(run(&mut it, 99, [10, 75]), [(85, 1, What::Done)]);
+    }
+
+    #[test]
+    fn time_does_not_go_back() {
+        let mut it = executive();
+        run(&mut it, 20, [10, 50]);
+        assert_eq!((it.step(ms(15)), it.now(), it.used(1)), (None, ms(20), Some(ms(10))));
+    }
+
+    /// The grid is the offset and every period after it; an instant on it counts.
+    #[test]
+    fn who_is_active_again_is_released_on_the_grid_of_its_offset() {
+        for (now, released) in [(0, 30), (30, 30), (31, 130), (130, 130), (131, 230)] {
+            let task = Task { offset: ms(30), ..Task::new(ms(100), ms(10)) };
+            let mut it = Executive::new([task]).unwrap();
+            assert!(it.request(0, Request::Stop, ms(0)));
+            assert_eq!(it.step(ms(now)), None);
+            assert!(it.request(0, Request::Activate, ms(now)));
+            assert_eq!(it.wake_at(), Some(ms(released)), "at {now} ms");
+        }
+    }
+
+    #[test]
+    fn who_is_killed_has_missed_nothing_when_it_is_active_again() {
+        let mut it = executive();
+        run(&mut it, 85, [10, 75]);
+        assert_eq!(it.misses(1), Some(1));
+        assert!(it.request(1, Request::Kill, ms(85)));
+        assert_eq!((it.misses(1), it.watchdog(1)), (Some(0), Some(Watchdog::Idle)));
+    }
+
+    #[test]
     fn a_parameter_that_costs_less_ends_the_misses() {
         let mut it = executive();
         let late = [10, 75];

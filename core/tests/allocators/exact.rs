@@ -192,6 +192,48 @@ fn at_every_step_budget_the_limit_named_is_the_one_that_no_plan_meets() {
     assert_eq!((named, left_open), (5_270, 48_648));
 }
 
+#[test]
+fn of_candidates_equal_in_every_number_the_first_written_is_taken() {
+    let way = |id| Candidate { cost: [3, 4], quality: 5, id };
+    let (three, two) = ([way(0), way(1), way(2)], [way(7), way(6)]);
+    let activities = [&three[..], &two];
+    let problem = Problem::new(&activities, [9, 9], [0, 1]).unwrap();
+    for objectives in [&[Objective::MostQuality][..], &[Objective::Least(1)], &[]] {
+        assert_eq!(exact(&problem, objectives, 1_000).1, [0, 0], "{objectives:?}");
+    }
+}
+
+/// Of two objectives the second is pursued with what the first has left.
+#[test]
+fn at_every_step_budget_a_plan_is_called_best_only_where_it_is_best_in_both_objectives() {
+    let objectives = [Objective::MostQuality, Objective::Least(0)];
+    let (mut best, mut cut, mut counted) = (0, 0, 0);
+    for seed in 0..500 {
+        let instance = small::<2>(seed);
+        let slices = instance.slices();
+        let problem = instance.problem(&slices);
+        let planned = |objectives, steps| match exact(&problem, objectives, steps).0 {
+            Answer::Planned(planned) => Some(planned),
+            _ => None,
+        };
+        let Some(both) = planned(&objectives, u64::MAX) else { continue };
+        let first = planned(&objectives[..1], u64::MAX).expect("the same plans");
+        for steps in first.steps..=both.steps {
+            let found = planned(&objectives, steps).expect("the first objective needs no more");
+            assert!((first.steps..=steps).contains(&found.steps), "seed {seed}, {steps} steps");
+            assert_eq!((found.quality, found.bound), (both.quality, both.bound), "seed {seed}");
+            if found.optimal {
+                assert_eq!(found.cost[0], both.cost[0], "seed {seed}, {steps} steps");
+                best += 1;
+            } else {
+                cut += 1;
+                counted += u32::from(found.steps > first.steps);
+            }
+        }
+    }
+    assert_eq!((best, cut, counted), (1_866, 6_610, 5_459));
+}
+
 /// The documented promise to firmware: 17 activities within 100,000 steps and this memory. Most
 /// missions are proven with far fewer; the others end with a plan and a bound.
 #[test]

@@ -125,3 +125,18 @@ fn the_rule_takes_at_most_five_looks_at_each_candidate() {
         assert!(steps <= 5 * slices.iter().map(|c| c.len() as u64).sum::<u64>(), "seed {seed}");
     }
 }
+
+/// A step is a candidate looked at: to find the highest, to lower an activity, to choose.
+#[test]
+fn the_steps_of_the_rule_are_the_candidates_it_looks_at() {
+    let ways = [9, 5, 2].map(|it| Candidate { cost: [it], quality: 0, id: 0 });
+    let activities = [&ways[..]; 2];
+    // Within 18 nothing is lowered; the last activity alone within 11, whether that is met just so
+    // or not; both below.
+    for (limit, steps) in [(18, 6 + 6), (12, 6 + 3 + 6), (11, 6 + 3 + 6), (10, 6 + 6 + 6)] {
+        let problem = Problem::new(&activities, [limit], [0]).unwrap();
+        let answer = Panorama::new(&mut [[0]; 2]).allocate(&problem, &mut [0; 2]).unwrap();
+        let Answer::Planned(planned) = answer else { panic!("{answer:?}") };
+        assert_eq!(planned.steps, steps, "within {limit}");
+    }
+}

@@ -176,3 +176,16 @@ fn a_proof_that_is_none_is_refused() {
     assert_eq!(check([Some(0), Some(1)], [1, 3]), Err(Flaw::Price { column: 0 }));
     assert_eq!(check([Some(0), Some(1)], [0, 0]), Err(Flaw::Better { row: 1, column: 0 }));
 }
+
+#[test]
+fn with_more_rows_than_columns_all_rows_are_in_conflict() {
+    let entries = of([Some(1), None, Some(1), None, None, Some(1)]);
+    let costs = Costs::new(&entries, 2).unwrap();
+    let mut fixed = Fixed::<i32, 3, 2>::new();
+    let mut memory = fixed.memory();
+    let all = Err(Unassigned::Infeasible { rows: 3, columns: 2 });
+    assert_eq!(assign(&costs, &mut memory), all);
+    assert!((0..3).all(|row| memory.in_conflict(row)));
+    assert!(Costs::new(&entries[..5], 2).is_none());
+    assert!(Costs::new(&[], 2).is_some() && Costs::new(&entries[..1], 0).is_none());
+}

@@ -2,8 +2,8 @@
 
 use crate::draw::Draw;
 use crate::teams::{Kind, Room, again, least_of_all, team};
-use cotama_core::team::Team;
 use cotama_core::team::joint::Outcome;
+use cotama_core::team::{Combine, Cost, Costs, Plan, Task, Team, TeamError};
 
 /// A small team, of one kind after another.
 fn small(draw: &mut Draw) -> Kind {
@@ -75,7 +75,16 @@ fn whatever_the_budget_and_the_memory_the_bound_is_true() {
         let owned = team(&mut draw, kind);
         owned.with(|team| {
             let least = least_of_all(team);
-            for (steps, columns) in [(0, 0), (200, 64), (1_000, 64), (5_000, 16), (100_000, 8)] {
+            for (steps, columns) in [
+                (0, 0),
+                (200, 64),
+                (1_000, 64),
+                (5_000, 16),
+                (100_000, 8),
+                (100_000, 24),
+                (100_000, 40),
+                (100_000, 56),
+            ] {
                 let mut room = Room::<8>::new(team, columns);
                 let mut joint = room.joint();
                 let solved = joint.solve(team, steps).unwrap();
@@ -133,4 +142,19 @@ fn memory_that_lacks_is_said() {
         let mut room = Room::<4>::new(team, 10);
         assert!(room.joint().solve(team, 100).is_err());
     });
+}
+
+#[test]
+fn a_team_is_of_128_robots_at_most_and_its_means_divide_the_denominator() {
+    assert_eq!(Team::new(129, 1, &[]).unwrap_err(), TeamError::TooManyRobots);
+    assert_eq!(Team::new(128, 1, &[]).unwrap().robots(), 128);
+    let entries = [Cost::new(3); 4];
+    let roles = Costs::new(&entries, 2).unwrap();
+    let plans = [Plan { roles, extra: 5 }];
+    let task = |combine| [Task { skip: Cost::new(9), combine, plans: &plans }];
+    let wrong = TeamError::Denominator { task: 0, plan: 0 };
+    assert_eq!(Team::new(2, 3, &task(Combine::Mean)).unwrap_err(), wrong);
+    assert_eq!(Team::new(2, 4, &task(Combine::Mean)).unwrap().most(), 4 * 9);
+    // Two roles of 3 each and 5 for the plan are more than 9 for none.
+    assert_eq!(Team::new(2, 3, &task(Combine::Sum)).unwrap().most(), 3 * 11);
 }

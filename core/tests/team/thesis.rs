@@ -220,3 +220,37 @@ fn greedy_rounds_are_never_better_than_the_optimum() {
     }
     assert!(worse > 50 && unserved > 5, "{worse} {unserved}");
 }
+
+#[test]
+fn one_way_to_fill_a_role_is_enough_and_needs_no_more_than_it_says() {
+    let role: &[u64] = &[0b01, 0b110];
+    for (capabilities, can) in [(0b01, true), (0b110, true), (0b111, true), (0b100, false)] {
+        assert_eq!(has_roles(&[role], &[capabilities]), can, "{capabilities:b}");
+    }
+}
+
+#[test]
+fn of_coalitions_that_cost_the_same_the_first_plan_and_the_first_robots_are_kept() {
+    let entries = [Cost::new(4); 3];
+    let plan = Plan { roles: Costs::new(&entries, 3).unwrap(), extra: 0 };
+    let task = Task { skip: None, combine: Combine::Sum, plans: &[plan, plan] };
+    let mut fixed = Fixed::<i32, 3, 3>::new();
+    let best = all_coalitions(&task, 1, &mut [None; 9], &mut fixed.memory()).best;
+    assert_eq!(best, Some((4, 0, 0b001)));
+}
+
+/// Ten over four roles is less than eight over two.
+#[test]
+fn greedy_rounds_announce_what_has_most_utility_for_the_size_of_its_plans() {
+    let free = [Cost::new(0); 16];
+    let plan = |roles: usize| Plan { roles: Costs::new(&free[..4 * roles], 4).unwrap(), extra: 0 };
+    let (four, two) = ([plan(4)], [plan(2)]);
+    let task = |skip, plans| Task { skip: Cost::new(skip), combine: Combine::Sum, plans };
+    let tasks = [task(10, &four[..]), task(8, &two[..])];
+    let team = Team::new(4, 1, &tasks).unwrap();
+    let (mut states, mut entries) = ([State::Open; 2], [None; 64]);
+    let mut fixed = Fixed::<i64, 8, 8>::new();
+    let rounds = greedy(&team, &mut states, &mut entries, &mut fixed.memory()).unwrap();
+    assert_eq!((rounds.cost, states[0]), (10, State::Undone));
+    assert!(matches!(states[1], State::Done { plan: 0, .. }), "{states:?}");
+}

@@ -58,6 +58,17 @@ fn the_most_cost_of_a_task_is_exact() {
 }
 
 #[test]
+fn with_all_overruns_those_above_take_their_extra_time_and_the_task_its_cost() {
+    let tasks = [task(10, 10, 2, 1), task(20, 20, 4, 3), task(20, 20, 1, 9)];
+    let set = TaskSet::new(&tasks).unwrap();
+    let times = |overruns| set.response_times(overruns).map(|it| it.unwrap().0).collect::<Vec<_>>();
+    assert_eq!(times(Overruns::None), [2, 6, 7]);
+    assert_eq!(times(Overruns::One), [2, 7, 10]);
+    // 3 + 7 + 1 is beyond the second release of the first.
+    assert_eq!(times(Overruns::All), [2, 7, 14]);
+}
+
+#[test]
 fn a_limit_of_iterations_is_an_answer() {
     let tasks = [task(2, 2, 1, 0), task(1_000, 1_000, 400, 0)];
     let set = TaskSet::new(&tasks).unwrap();

@@ -2,7 +2,9 @@
 //! its age.
 
 use super::{run, task};
-use crate::executive::{Executive, Happening, Latest, Overruns, Task, TaskSet, Watchdog, What};
+use crate::executive::{
+    Executive, Happening, Latest, Overruns, Publication, Task, TaskSet, Watchdog, What,
+};
 use crate::units::Micros;
 use proptest::prelude::*;
 use std::vec::Vec;
@@ -171,4 +173,76 @@ fn a_release_is_refused_while_the_last_job_is_under_way() {
         (20, What::Released),
     ];
     assert_eq!(whats, expected);
+}
+
+/// Who has used up its time, then deadlines, ends of extra time, releases; of one kind the more
+/// urgent task first.
+#[test]
+fn what_is_due_at_one_instant_happens_by_kind_and_then_by_task() {
+    let whats = |tasks, needs, until| {
+        let all = run(tasks, needs, until).into_iter();
+        all.map(|it| (it.at.0, it.task, it.what)).collect::<Vec<_>>()
+    };
+    let skipped = What::Skipped { rt_fault: false };
+    let two = [task(10, 10, 1, 0), task(40, 10, 12, 5)];
+    let expected = [
+        (0, 0, What::Released),
+        (0, 1, What::Released),
+        (1, 0, What::Done),
+        (10, 1, What::DeadlineMissed),
+        (10, 0, What::Released),
+        (11, 0, What::Done),
+        (15, 1, skipped),
+        (20, 0, What::Released),
+    ];
+    assert_eq!(whats(two, [1, u64::MAX], 20), expected);
+    let expected = [
+        (0, 0, What::Released),
+        (0, 1, What::Released),
+        (10, 0, What::Exhausted),
+        (10, 0, What::DeadlineMissed),
+        (10, 1, What::DeadlineMissed),
+        (10, 0, skipped),
+        (10, 1, skipped),
+        (10, 0, What::Released),
+        (10, 1, What::Released),
+    ];
+    assert_eq!(whats([task(10, 10, 10, 0); 2], [u64::MAX; 2], 10), expected);
+}
+
+#[test]
+fn a_value_that_is_just_as_old_as_allowed_is_read() {
+    let mut mail = Latest::empty();
+    mail.publish(Publication { at: Micros(50) }, "here");
+    assert_eq!(mail.read_within(Micros(60), Micros(10)), Some(&"here"));
+    assert_eq!(mail.read_within(Micros(61), Micros(10)), None);
+}
+
+#[test]
+fn only_a_job_that_is_done_publishes_and_only_a_fault_is_acknowledged() {
+    let all = [
+        (What::Released, false),
+        (What::Refused, false),
+        (What::Exhausted, false),
+        (What::DeadlineMissed, false),
+        (What::Done, true),
+        (What::DoneLate { rt_fault: false }, true),
+        (What::Skipped { rt_fault: true }, false),
+        (What::Acknowledged, false),
+    ];
+    for (what, publishes) in all {
+        let it = Happening { at: Micros(3), task: 0, what };
+        assert_eq!(it.publication().is_some(), publishes, "{what:?}");
+    }
+    let task = Task { patience: 1, ..task(20, 5, 4, 3) };
+    let mut executive = Executive::new([Task { offset: Micros(1), ..task }]).unwrap();
+    for (now, watchdog) in
+        [(0, Watchdog::Idle), (1, Watchdog::Run), (6, Watchdog::Extra), (9, Watchdog::Fault)]
+    {
+        while executive.simulate(Micros(now), &[Micros(u64::MAX)]).is_some() {}
+        assert_eq!(executive.watchdog(0), Some(watchdog));
+        let is_fault = watchdog == Watchdog::Fault;
+        assert_eq!(executive.acknowledge(0, Micros(now)).is_some(), is_fault, "at {now}");
+    }
+    assert_eq!((executive.watchdog(0), executive.misses(0)), (Some(Watchdog::Idle), Some(0)));
 }
