@@ -2,6 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "stories/exact.rs"]
+mod exact;
 
 use common::{SHUTTLE, causes, labels, patrol, run, shuttle, under};
 use cotama_core::monitor::Upward;
