@@ -49,6 +49,25 @@ fn the_activities_are_those_of_table_5() {
     assert_eq!(mission.scenario().combinations(), Some(768_288_795_144_192));
 }
 
+/// The wide hall without its speed limit, and the robot could do 760 mm/s.
+#[test]
+fn where_no_zone_limits_the_speed_a_harmless_one_does() {
+    let hall = "speed_max_mm_s = 560 ";
+    let text = embedded::mission("patrol").unwrap().text;
+    let speeds = |text: &str| {
+        let mission = Mission::parse("patrol", text).unwrap();
+        let hall = mission.scenario().activities[8].clone();
+        let speeds = hall.alternatives.iter().map(|it| it.speed.0).collect::<Vec<_>>();
+        (hall.speed_max.0, speeds.iter().min().copied(), speeds.iter().max().copied())
+    };
+    assert_eq!(text.matches(hall).count(), 1);
+    let open = text.replace(hall, "#");
+    assert_eq!(speeds(&open), (560, Some(410), Some(560)));
+    assert_eq!(speeds(&open.replace("speed_harmless_mm_s", "#")), (565, Some(410), Some(565)));
+    let slow = open.replace("speed_max_mm_s = 760", "speed_max_mm_s = 400");
+    assert_eq!(speeds(&slow), (400, Some(400), Some(400)));
+}
+
 #[test]
 fn qualities_are_optional() {
     let text = embedded::mission("patrol").unwrap().text;

@@ -3,9 +3,9 @@
 use cotama_core::units::{MillimetresPerSecond, Millis};
 use cotama_models::cotama::FailureMode::{self, Bmp1, Mot3, Opr1, Son1, Son2};
 use cotama_models::cotama::{
-    Body, Configuration, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags, Modules,
-    NoPlanLeft, NoPlans, PATIENCE, PATIENCE_WITH_PLANNER, Perceived, Plans, Requests, Resource,
-    Resources, Told, Why, Word, available, delivery, faults, operator,
+    Body, Configuration, Decider, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags,
+    Modules, NoPlanLeft, NoPlans, PATIENCE, PATIENCE_WITH_PLANNER, Perceived, Plans, Requests,
+    Resource, Resources, Told, Why, Word, available, delivery, faults, operator,
 };
 
 const STANDS: Body = Body { at_goal: false, stands: true };
@@ -233,4 +233,45 @@ fn flags_that_no_row_explains_are_for_the_operator_and_never_a_panic() {
             assert!(!(requests.halt && requests.drive), "{a:?} {b:?}");
         }
     }
+}
+
+/// Localisation and avoidance fall silent at once, and avoidance is sound 5 s before localisation:
+/// what took both is over when both have been sound for 10 s.
+#[test]
+fn what_took_several_modules_is_over_when_all_of_them_are_sound() {
+    use cotama_models::cotama::{Module, recovering};
+    type Recovering = Decider<
+        recovering::Program,
+        { recovering::SIZE.words },
+        { recovering::SIZE.clocks },
+        { recovering::SIZE.slots },
+    >;
+    let mut decider = Recovering::start(recovering::Program, 4, None).with_returns();
+    let both = Modules::of(&[Module::Mcl, Module::Dvz]);
+    let silent = Flags::of(&[Flag::ModuleSilent]);
+    let (mut now, mut returned) = (0, Vec::new());
+    while now < 40_000 {
+        now += 100;
+        let gone = match now {
+            ..1_000 => Modules::NONE,
+            1_000..10_000 => both,
+            10_000..15_000 => Modules::of(&[Module::Mcl]),
+            _ => Modules::NONE,
+        };
+        let works = Modules::ALL.without(gone);
+        let (mut raised, mut lowered) = (Flags::NONE, Flags::NONE);
+        match now {
+            1_000 => raised = silent,
+            10_000 => lowered = silent,
+            _ => {}
+        }
+        let before = decider.available();
+        let seen = Perceived { raised, lowered, part: both, works };
+        decider.perceive(Millis(now), seen, &mut NoPlans);
+        let _ = decider.round(Millis(now), None, STANDS, &mut ());
+        if decider.available() != before {
+            returned.push((now, decider.available()));
+        }
+    }
+    assert_eq!(returned, [(1_000, Modules::ALL.without(both)), (25_000, Modules::ALL)]);
 }

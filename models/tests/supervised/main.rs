@@ -7,6 +7,7 @@
 mod broken;
 mod decider;
 mod delivery;
+mod edges;
 mod file;
 mod nets;
 mod pending;
