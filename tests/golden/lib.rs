@@ -50,15 +50,37 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
     fs::rename(new, path)
 }
 
-/// The folder of public files that this environment variable names; `None`, said loudly, without
-/// it: then `what` is not tested.
+/// The folder of public files that this environment variable names; `None`, where it names none and
+/// the test is to be skipped: see [`skipped_here`]. Then `what` is not tested.
+///
+/// # Panics
+/// When the variable names a folder that is not there, or that is empty; when it names none and the
+/// test is not to be skipped.
 #[must_use]
+#[track_caller]
 pub fn public_folder(variable: &str, what: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(variable).map(PathBuf::from);
-    if folder.is_none() {
-        skipped(&format!("{variable} names no folder to test {what} with"));
+    let Some(folder) = std::env::var_os(variable).map(PathBuf::from) else {
+        skipped_here(&format!("{variable} names no folder to test {what} with"));
+        return None;
+    };
+    match fs::read_dir(&folder).map(|mut files| files.next().is_some()) {
+        Ok(true) => Some(folder),
+        Ok(false) => panic!("{variable}: {} is empty", folder.display()),
+        Err(error) => panic!("{variable}: {}: {error}", folder.display()),
     }
-    folder
+}
+
+/// Skips a test that needs what is no part of the project, public files or Graphviz, if
+/// `COTAMA_SKIP_PUBLIC` is 1. Cargo sets it so in this workspace (`.cargo/config.toml`), so that the
+/// tests pass where nothing else is installed; who has all of it sets 0, as `.ci/run` does.
+///
+/// # Panics
+/// When it is not 1.
+#[track_caller]
+pub fn skipped_here(why: &str) {
+    let skips = std::env::var_os("COTAMA_SKIP_PUBLIC").is_some_and(|it| it == "1");
+    assert!(skips, "{why}; COTAMA_SKIP_PUBLIC=1 skips this test");
+    skipped(why);
 }
 
 /// Says what a test does not test here, and why.

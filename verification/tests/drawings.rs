@@ -388,7 +388,7 @@ fn a_net_beyond_all_limits_is_drawn() {
 #[test]
 fn graphviz_reads_what_is_written() {
     if Command::new("dot").arg("-V").stderr(Stdio::null()).status().is_err() {
-        cotama_golden::skipped("Graphviz is not installed, so no DOT file was checked");
+        cotama_golden::skipped_here("Graphviz is not installed, so no DOT file was checked");
         return;
     }
     let nets = [
