@@ -39,6 +39,7 @@ MEMORY = 8_000_000_000
 def write(path, text):
     """Writes what has changed only, so that cargo builds no more than it must."""
     if not path.exists() or path.read_text() != text:
+        path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
 
 
@@ -272,7 +273,7 @@ def run(defects):
 
 
 def main():
-    os.environ.update({"LC_ALL": "C", "CARGO_TERM_COLOR": "never"})
+    os.environ.update({"LC_ALL": "C", "CARGO_TERM_COLOR": "never", "COTAMA_SKIP_PUBLIC": "1"})
     for name in ("COTAMA_MCC_DIR", "COTAMA_TPN_DIR", "UPDATE_GOLDEN"):
         os.environ.pop(name, None)
     if "--table" in sys.argv:
