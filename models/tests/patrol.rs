@@ -3,10 +3,10 @@
 #![cfg(feature = "std")]
 
 use cotama_core::problem::Problem;
-use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::missions::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
 use cotama_models::missions::tables::{delivery, patrol};
-use cotama_models::missions::{Constraint, Mission, embedded};
+use cotama_models::missions::{Constraint, Mission, embedded, harmless_speed};
 
 fn patrol() -> Mission {
     let patrol = embedded::mission("patrol").unwrap();
@@ -68,6 +68,21 @@ fn where_no_zone_limits_the_speed_a_harmless_one_does() {
     assert_eq!(speeds(&slow), (400, Some(400), Some(400)));
 }
 
+/// An impact must stay below its energy: 2 g at 1 m/s have 1 mJ.
+#[test]
+fn a_speed_that_just_reaches_the_energy_of_an_impact_is_not_harmless() {
+    assert_eq!(harmless_speed(2, Millijoules(1)), MillimetresPerSecond(999));
+    assert_eq!(harmless_speed(1, Millijoules(0)), MillimetresPerSecond(0));
+    let text = embedded::mission("patrol").unwrap().text;
+    let parse = |stated: u64| {
+        let stated = format!("speed_harmless_mm_s = {stated}");
+        Mission::parse("patrol", &text.replacen("speed_harmless_mm_s = 560", &stated, 1))
+    };
+    assert_eq!(parse(565).unwrap().robot.speed_harmless, MillimetresPerSecond(565));
+    assert_eq!(parse(500).unwrap().robot.speed_harmless, MillimetresPerSecond(500));
+    assert!(parse(566).unwrap_err().to_string().contains("the fastest harmless speed is 565 mm/s"));
+}
+
 #[test]
 fn qualities_are_optional() {
     let text = embedded::mission("patrol").unwrap().text;
@@ -117,6 +132,19 @@ fn every_dropped_combination_names_all_its_constraints() {
         "zone `glass-out` requires the moving option to use 1 of `sonar`; \
          zone `valve1-approach` requires the option `L2`"
     );
+}
+
+/// The glazed zone with lasers in place of sonars: two of the moving options have none, and that the
+/// grid map of `L3` needs two is no help.
+#[test]
+fn required_hardware_must_be_of_the_moving_option() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let text = text.replacen("require_hardware = \"sonar\"", "require_hardware = \"laser\"", 1);
+    let mission = Mission::parse("patrol", &text).unwrap();
+    let a2 = &mission.scenario().activities[1];
+    assert_eq!((a2.alternatives.len(), a2.unconstrained()), (15, 21));
+    let dropped: Vec<_> = a2.dropped.iter().map(|it| it.label.as_str()).collect();
+    assert_eq!(dropped, ["M1 L1", "M1 L2", "M1 L3", "M2 L1", "M2 L2", "M2 L3"]);
 }
 
 #[test]

@@ -93,3 +93,22 @@ fn an_objective_may_fill_its_limit_alone() {
     let too_much = "`DriveA` alone passes the limit of energy: at least 1029331 mJ of 1029330 mJ";
     assert!(said.contains(too_much), "{said}");
 }
+
+#[test]
+fn all_units_of_a_hardware_may_fail_at_the_end_of_the_path_and_no_more_or_further() {
+    let patrol = embedded::mission("patrol").unwrap();
+    let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+    let read = |x_mm: u64, units: u64| {
+        let event = format!(
+            "{{ x_mm = {x_mm}, kind = \"fault\", hardware = \"laser\", units_lost = {units} }}"
+        );
+        let text = format!("format = \"panorama-faults/1\"\nevent = [{event}]");
+        Faults::parse("faults.toml", &text, &mission).map_err(|it| it.to_string())
+    };
+    let kind = EventKind::Fault { hardware: 1, units: 2 };
+    assert_eq!(read(187_000, 2).unwrap().events[0].kind, kind);
+    let said = read(187_000, 3).unwrap_err();
+    assert!(said.contains("`units_lost` is 3, but the robot has only 2 of `laser`"), "{said}");
+    let said = read(187_001, 2).unwrap_err();
+    assert!(said.contains("lies behind the end of the path, 187000 mm"), "{said}");
+}
