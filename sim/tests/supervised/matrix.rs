@@ -55,11 +55,13 @@ fn run(mission: &Mission, mode: FailureMode, part: Module, place: local::State) 
 /// How long the robot may move while a module is broken that it requires: until that is detected,
 /// decided and answered, a round each. Before the drift of the degraded set it is the sonar's loss
 /// that is to be detected. Without the laptop the micro-controller stops the robot after 2 s, and
-/// that takes a second. Localisation that computes too long is taken for one that lacks processor
-/// time: it is late three times, with fewer particles each time, before it is left out.
+/// that takes a second. A module that computes too long is broken from its next job on;
+/// localisation that does is taken for one that lacks processor time, and loses particles twice
+/// before it is left out.
 fn bound(mode: FailureMode, part: Module) -> u64 {
     match mode {
         FailureMode::Rt3 if part == Module::Mcl => 1_400,
+        FailureMode::Rt3 => 300 + 3 * 100,
         _ if effect(mode).motion == Motion::Mindless => 2_000 + 1_000,
         FailureMode::Loc3 => bound(FailureMode::Son1, part),
         _ => u64::from(mode.rule().latency_ms) + 2 * 100,

@@ -7,6 +7,7 @@ use crate::fleet::scenarios::{FleetOptions, ServiceOptions, fleet, service};
 use crate::options::{FaultChoice, Options};
 use crate::report::team;
 use crate::supervised::story::Rung;
+use crate::trace::Record;
 use cotama_core::units::Millis;
 use cotama_models::missions::embedded;
 use std::path::Path;
@@ -127,6 +128,22 @@ fn the_report_of_a_patrol_that_fails_says_what_it_says() {
 fn the_report_of_the_delivery_says_what_it_says() {
     golden("delivery.txt", &html(&delivery_under(FaultChoice::Script)));
     golden("delivery_ended.txt", &html(&delivery_under(failures(&["BAT2"]))));
+    // The laptop hangs, and nobody is left to find that.
+    let hung = said(&html(&delivery_under(failures(&["SW3"]))), false);
+    assert!(hung.contains("\n1, 0 found\n") && hung.contains("Nobody noticed 1 of them."));
+}
+
+/// Traces may be of other programs: the same choice at another speed is a change.
+#[test]
+fn a_change_of_speed_alone_is_a_change() {
+    let mut trace = super::patrol();
+    let plans = trace.records.iter_mut().filter_map(|it| match it {
+        Record::Plan(it) => Some(it),
+        _ => None,
+    });
+    plans.skip(1).for_each(|it| it.plan[0].speed_mm_s += 90);
+    let said = said(&html(&trace), false);
+    assert!(said.contains("A8 | M5 L2 at 0.41 m/s→ | M5 L2 at 0.5 m/s"), "{said}");
 }
 
 /// A collision under way: the adapter slows the robot down, and nothing else.
