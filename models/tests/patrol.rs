@@ -4,6 +4,7 @@
 
 use cotama_core::problem::Problem;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_models::missions::infeasible::{Relaxation, explain};
 use cotama_models::missions::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
 use cotama_models::missions::tables::{delivery, patrol};
 use cotama_models::missions::{Constraint, Mission, embedded, harmless_speed};
@@ -145,6 +146,31 @@ fn required_hardware_must_be_of_the_moving_option() {
     assert_eq!((a2.alternatives.len(), a2.unconstrained()), (15, 21));
     let dropped: Vec<_> = a2.dropped.iter().map(|it| it.label.as_str()).collect();
     assert_eq!(dropped, ["M1 L1", "M1 L2", "M1 L3", "M2 L1", "M2 L2", "M2 L3"]);
+}
+
+#[test]
+fn the_axes_are_treated_in_the_order_of_the_file() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let with = |order: &str| {
+        let text = text.replacen("[\"duration\", \"energy\"]", order, 1);
+        Mission::parse("patrol", &text).map(|it| (it.order, it.scenario().order))
+    };
+    assert_eq!(with("[\"duration\", \"energy\"]").unwrap(), ([0, 1], [0, 1]));
+    assert_eq!(with("[\"energy\", \"duration\"]").unwrap(), ([1, 0], [1, 0]));
+    assert!(with("[\"energy\", \"energy\"]").is_err());
+}
+
+/// Both lasers are lost, and a glazed zone wants one: two would do as well.
+#[test]
+fn no_more_hardware_is_kept_than_suffices() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let text = text.replacen("require_hardware = \"sonar\"", "require_hardware = \"laser\"", 1);
+    let mission = Mission::parse("patrol", &text).unwrap();
+    let left = mission.available().without(1, 2);
+    let why = explain(&mission, mission.limits, left).unwrap();
+    let kept: Vec<_> =
+        why.relaxations.iter().filter(|it| matches!(it, Relaxation::KeepHardware { .. })).collect();
+    assert_eq!(kept, [&Relaxation::KeepHardware { hardware: 1, units: 1 }]);
 }
 
 #[test]

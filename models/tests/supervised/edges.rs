@@ -1,6 +1,7 @@
 //! What a unit more or less changes: ends of missions, limits, the order of files.
 
 use cotama_models::missions::faults::{EventKind, Faults, IncidentKind};
+use cotama_models::missions::infeasible::Relaxation::{self, RaiseLimit, RaiseLimits};
 use cotama_models::missions::{Mission, MissionErrors, embedded};
 
 fn delivery_with(edits: &[(&str, &str)]) -> Result<Mission, MissionErrors> {
@@ -111,4 +112,32 @@ fn all_units_of_a_hardware_may_fail_at_the_end_of_the_path_and_no_more_or_furthe
     assert!(said.contains("`units_lost` is 3, but the robot has only 2 of `laser`"), "{said}");
     let said = read(187_001, 2).unwrap_err();
     assert!(said.contains("lies behind the end of the path, 187000 mm"), "{said}");
+}
+
+#[test]
+fn raised_limits_are_ordered_by_the_larger_part_that_they_add() {
+    let raise = |axis, from, to| RaiseLimit { axis, from, to };
+    let both = |from, to| RaiseLimits { from, to };
+    let ordered = [
+        raise(1, 1_000, 1_099), // 9.9 %
+        raise(0, 10, 11),       // 10 %
+        raise(0, 1_000, 1_100),
+        raise(1, 10, 11),
+        raise(1, 1_000, 1_100),
+        both([1_000, 10], [1_001, 11]),
+        both([1_000, 10], [1_100, 11]),
+        both([10, 1_000], [12, 1_001]), // 20 %
+        both([1_000, 10], [1_001, 13]), // 30 %
+        raise(0, 2, 3),                 // 50 %
+        raise(0, 0, 1),                 // of nothing: more than any
+        raise(1, 0, 1),
+        raise(0, 0, 2),
+    ];
+    let mut mixed = ordered.to_vec();
+    mixed.reverse();
+    mixed.sort_by(Relaxation::by_size);
+    assert_eq!(mixed, ordered);
+    // Products of large numbers are compared, too.
+    let half = u64::MAX / 2;
+    assert!(raise(0, half, u64::MAX - 1).by_size(&raise(0, half, u64::MAX)).is_lt());
 }

@@ -11,3 +11,4 @@ mod edges;
 mod file;
 mod nets;
 mod pending;
+mod returns;

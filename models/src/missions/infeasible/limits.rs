@@ -64,7 +64,21 @@ fn raise(from: [u64; 2], cost: [u64; 2]) -> Relaxation {
     }
 }
 
-/// Orders raised limits by the larger part of a limit that they add, and then by axis and amount.
+impl Relaxation {
+    /// Orders raised limits as an explanation lists them: by the larger part of a limit that they
+    /// add, and then by axis and amount.
+    ///
+    /// ```
+    /// use cotama_models::missions::infeasible::Relaxation::RaiseLimit;
+    /// let energy = RaiseLimit { axis: 1, from: 1_000, to: 1_099 }; // 9.9 % more
+    /// let duration = RaiseLimit { axis: 0, from: 10, to: 11 }; // 10 %
+    /// assert!(energy.by_size(&duration).is_lt());
+    /// ```
+    pub fn by_size(&self, other: &Self) -> Ordering {
+        by_size(self, other)
+    }
+}
+
 fn by_size(a: &Relaxation, b: &Relaxation) -> Ordering {
     // The part is a fraction of two whole numbers; fractions are compared by multiplying across. Of
     // a limit of nothing every part is larger than any.
@@ -97,52 +111,4 @@ fn heaviest(plan: &Plan, axis: usize) -> Vec<Heavy> {
         Heavy { activity, axis, cost, permille: permille as u16 }
     };
     all.into_iter().map(heavy).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use Relaxation::{RaiseLimit, RaiseLimits};
-
-    #[test]
-    fn limits_are_ordered_by_the_larger_part_that_they_add() {
-        let raise = |axis, from, to| RaiseLimit { axis, from, to };
-        let ordered = [
-            raise(1, 1_000, 1_099), // 9.9 %
-            raise(0, 1_000, 1_100), // 10 %
-            raise(1, 10, 11),
-            raise(1, 1_000, 1_100),
-            RaiseLimits { from: [1_000, 10], to: [1_001, 11] },
-            RaiseLimits { from: [1_000, 10], to: [1_100, 11] },
-            RaiseLimits { from: [10, 1_000], to: [12, 1_001] }, // 20 %
-            RaiseLimits { from: [1_000, 10], to: [1_001, 13] }, // 30 %
-            raise(0, 2, 3),                                     // 50 %
-            raise(0, 0, 1),                                     // of nothing: more than any
-            raise(0, 0, 2),
-            raise(1, 0, 2),
-        ];
-        let mut mixed = ordered.to_vec();
-        mixed.reverse();
-        mixed.sort_by(by_size);
-        assert_eq!(mixed, ordered);
-        // Products of large numbers are compared, too.
-        let large = [raise(0, u64::MAX / 2, u64::MAX - 1), raise(0, u64::MAX / 2, u64::MAX)];
-        assert_eq!(by_size(&large[0], &large[1]), Ordering::Less);
-    }
-
-    #[test]
-    fn what_a_plan_costs_within_a_limit_does_not_raise_it() {
-        assert_eq!(raise([5, 5], [5, 6]), RaiseLimit { axis: 1, from: 5, to: 6 });
-        assert_eq!(raise([5, 5], [6, 5]), RaiseLimit { axis: 0, from: 5, to: 6 });
-        assert_eq!(raise([5, 5], [6, 7]), RaiseLimits { from: [5, 5], to: [6, 7] });
-    }
-
-    #[test]
-    fn of_equally_heavy_activities_the_first_comes_first() {
-        let activities = (0..7).map(|it| (it, [if it == 3 { 4 } else { 2 }, 0])).collect();
-        let plan = Plan { best: true, cost: [16, 0], activities };
-        let found: Vec<_> =
-            heaviest(&plan, 0).iter().map(|it| (it.activity, it.cost, it.permille)).collect();
-        assert_eq!(found, [(3, 4, 250), (0, 2, 125), (1, 2, 125), (2, 2, 125), (4, 2, 125)]);
-    }
 }
