@@ -1,6 +1,7 @@
 //! What the decisional level uses again where modules may return, and when.
 
 use cotama_core::units::Millis;
+use cotama_models::cotama::Return::{Avoidance, Mcl, Sonar};
 use cotama_models::cotama::{
     Body, Decider, Flag, Module, Modules, NoPlans, Perceived, Resource, Resources, Return, Told,
     available, recovering,
@@ -87,7 +88,6 @@ fn what_returns_with_the_sonars_keeps_its_own_returns() {
     let (returned, told) = returns(&spans);
     assert_eq!(returned, [12_000, 24_000, 36_000].map(whole));
     // What the sonars hid is told first, so that it is there when they are.
-    use Return::{Avoidance, Mcl, Sonar};
     assert_eq!(told, [Mcl, Avoidance, Sonar, Mcl, Avoidance, Sonar, Mcl]);
 }
 
