@@ -28,7 +28,8 @@
 //! ```
 
 use crate::allocation::MemoryError;
-use crate::problem::Problem;
+use crate::order::{keep_undominated, numbered, sort_by_key};
+use crate::problem::{Problem, cheapest};
 use core::cmp::Reverse;
 
 /// Working memory for one partial plan.
@@ -96,65 +97,60 @@ impl<'m, const A: usize> Front<'m, A> {
     pub fn find(&mut self, problem: &Problem<'_, A>) -> Result<FrontPlans<'_, A>, MemoryError> {
         let activities = problem.activities();
         let given = self.nodes.len().min(u32::MAX as usize);
-        let nodes = &mut self.nodes[..given];
+        let nodes = self.nodes.get_mut(..given).unwrap_or(&mut []);
         let short = |needed| MemoryError { what: "nodes of the front", needed, given };
         let mut rest: [u64; A] = core::array::from_fn(|axis| problem.least(axis));
 
         *nodes.first_mut().ok_or(short(1))? = Node::EMPTY;
-        let (mut first, mut end) = (0, 1);
+        let (mut first, mut end) = (0usize, 1usize);
         for candidates in activities {
-            for (axis, rest) in rest.iter_mut().enumerate() {
-                *rest -= candidates.iter().map(|c| u64::from(c.cost[axis])).min().unwrap_or(0);
+            for (axis, rest) in numbered(&mut rest) {
+                *rest = rest.saturating_sub(u64::from(cheapest(candidates, axis)));
             }
-            let room: [u64; A] =
-                core::array::from_fn(|axis| problem.limits()[axis].saturating_sub(rest[axis]));
-            let mut count = 0;
+            let mut room = problem.limits();
+            for (room, &rest) in room.iter_mut().zip(&rest) {
+                *room = room.saturating_sub(rest);
+            }
+            let mut next = end;
             for parent in first..end {
-                let from = nodes[parent];
-                for (choice, candidate) in candidates.iter().enumerate() {
-                    let cost = core::array::from_fn(|axis| {
-                        from.cost[axis] + u64::from(candidate.cost[axis])
-                    });
-                    if (0..A).any(|axis| cost[axis] > room[axis]) {
+                let Some(&from) = nodes.get(parent) else { break };
+                for (choice, candidate) in numbered(candidates.iter()) {
+                    let mut cost = from.cost;
+                    for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {
+                        *sum = sum.saturating_add(u64::from(part));
+                    }
+                    if cost.iter().zip(&room).any(|(cost, room)| cost > room) {
                         continue;
                     }
-                    let quality = from.quality + u64::from(candidate.quality);
-                    let place = nodes
-                        .get_mut(end + count)
-                        .ok_or(short(end + (end - first) * candidates.len()))?;
+                    let quality = from.quality.saturating_add(u64::from(candidate.quality));
+                    let all = end.wrapping_sub(first).saturating_mul(candidates.len());
+                    let place = nodes.get_mut(next).ok_or(short(end.saturating_add(all)))?;
                     *place = Node { cost, quality, parent: parent as u32, choice: choice as u16 };
-                    count += 1;
+                    next = next.wrapping_add(1);
                 }
             }
-            let kept = undominated(&mut nodes[end..end + count]);
-            (first, end) = (end, end + kept);
+            let kept = undominated(nodes.get_mut(end..next).unwrap_or(&mut []));
+            (first, end) = (end, end.wrapping_add(kept));
         }
-        let within = (0..A).all(|axis| problem.least(axis) <= problem.limits()[axis]);
+        let within = problem.within_limits(&core::array::from_fn(|axis| problem.least(axis)));
         let first = if within { first } else { end };
-        Ok(FrontPlans { nodes: &nodes[..end], first, activities: activities.len() })
+        let nodes = nodes.get(..end).unwrap_or(&[]);
+        Ok(FrontPlans { nodes, first, activities: activities.len() })
     }
 }
 
 /// Sorts partial plans and moves the undominated ones to the front; returns their number.
 fn undominated<const A: usize>(nodes: &mut [Node<A>]) -> usize {
-    nodes.sort_unstable_by_key(|node| (node.cost, Reverse(node.quality), node.parent, node.choice));
-    let mut kept = 0;
-    for next in 0..nodes.len() {
-        let node = nodes[next];
-        // What dominates it comes before it; the nearest are the likeliest.
-        if !nodes[..kept].iter().rev().any(|other| other.dominates(&node)) {
-            nodes[kept] = node;
-            kept += 1;
-        }
-    }
-    kept
+    sort_by_key(nodes, |node| (node.cost, Reverse(node.quality), node.parent, node.choice));
+    // What dominates a plan comes before it; the nearest are the likeliest.
+    keep_undominated(nodes, usize::MAX, Node::dominates).len()
 }
 
 impl<const A: usize> FrontPlans<'_, A> {
     /// How many plans there are.
     #[must_use]
     pub const fn len(&self) -> usize {
-        self.nodes.len() - self.first
+        self.nodes.len().saturating_sub(self.first)
     }
 
     /// Whether there is none: nothing is within the limits.
@@ -166,17 +162,18 @@ impl<const A: usize> FrontPlans<'_, A> {
     /// The total cost on each axis and the quality of a plan.
     #[must_use]
     pub fn totals(&self, index: usize) -> Option<([u64; A], u64)> {
-        self.nodes.get(self.first + index).map(|node| (node.cost, node.quality))
+        self.nodes.get(self.first.checked_add(index)?).map(|node| (node.cost, node.quality))
     }
 
     /// Writes the choices of a plan; `false`, and nothing written, if there is no such plan or no
     /// room for it.
     pub fn plan(&self, index: usize, plan: &mut [u16]) -> bool {
-        let Some(mut node) = self.nodes.get(self.first + index) else { return false };
+        let at = self.first.checked_add(index);
+        let Some(mut node) = at.and_then(|at| self.nodes.get(at)) else { return false };
         let Some(plan) = plan.get_mut(..self.activities) else { return false };
         for choice in plan.iter_mut().rev() {
             *choice = node.choice;
-            node = &self.nodes[node.parent as usize];
+            node = self.nodes.get(node.parent as usize).unwrap_or(node);
         }
         true
     }

@@ -47,7 +47,7 @@ impl Equipment {
     /// Whether there are at least `needs` units of every kind.
     #[must_use]
     pub const fn covers(self, needs: Self) -> bool {
-        ((self.0 | GUARDS) - needs.0) & GUARDS == GUARDS
+        (self.0 | GUARDS).wrapping_sub(needs.0) & GUARDS == GUARDS
     }
 
     /// Per kind the larger number: what two options that run together need.

@@ -46,6 +46,7 @@ pub mod guide {}
 pub mod hardware;
 pub mod monitor;
 pub mod net;
+mod order;
 pub mod panorama;
 pub mod player;
 pub mod problem;

@@ -36,6 +36,7 @@
 //! ```
 
 use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enough};
+use crate::order::numbered;
 use crate::problem::{Candidate, Problem};
 
 /// The paper's allocator, in memory from its caller. A step is one candidate looked at.
@@ -78,9 +79,15 @@ fn highest<'c, const A: usize>(
     caps: &[u32; A],
     axis: usize,
 ) -> Option<(usize, &'c Candidate<A>)> {
-    candidates.iter().enumerate().filter(|(_, c)| left(c, caps)).reduce(|best, next| {
+    numbered(candidates.iter()).filter(|(_, c)| left(c, caps)).reduce(|best, next| {
         if next.1.cost.get(axis) > best.1.cost.get(axis) { next } else { best }
     })
+}
+
+fn set<const A: usize>(caps: &mut [u32; A], axis: usize, most: u32) {
+    if let Some(cap) = caps.get_mut(axis) {
+        *cap = most;
+    }
 }
 
 impl<const A: usize> Allocator<A> for Panorama<'_, A> {
@@ -93,37 +100,39 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
         enough("plan", activities.len(), plan.len())?;
         enough("caps of the paper's rule", activities.len(), self.caps.len())?;
 
-        let caps = &mut self.caps[..activities.len()];
+        let caps = self.caps.get_mut(..activities.len()).unwrap_or(&mut []);
         caps.fill([u32::MAX; A]);
-        let mut steps = 0;
+        let mut steps = 0u64;
         for axis in problem.order() {
-            // An order names axes only; said again, it spares every look-up below a check that
-            // could panic.
             let Some(&limit) = problem.limits().get(axis) else { continue };
-            let mut sum = 0;
-            for (candidates, cap) in activities.iter().zip(caps.iter_mut()) {
-                cap[axis] = highest(candidates, cap, axis).map_or(0, |(_, c)| c.cost[axis]);
-                sum += u64::from(cap[axis]);
-                steps += candidates.len() as u64;
+            let on_axis = |c: &Candidate<A>| c.cost.get(axis).copied().unwrap_or(0);
+            let mut sum = 0u64;
+            for (candidates, caps) in activities.iter().zip(caps.iter_mut()) {
+                let most = highest(candidates, caps, axis).map_or(0, |(_, c)| on_axis(c));
+                set(caps, axis, most);
+                sum = sum.saturating_add(u64::from(most));
+                steps = steps.saturating_add(candidates.len() as u64);
             }
-            for (candidates, cap) in activities.iter().zip(caps.iter_mut()).rev() {
+            for (candidates, caps) in activities.iter().zip(caps.iter_mut()).rev() {
                 if sum <= limit {
                     break;
                 }
                 // Rule 1. The paper sorts what is left and searches by dichotomy; one pass finds
                 // the same.
-                let others = sum - u64::from(cap[axis]);
+                let highest = caps.get(axis).copied().unwrap_or(0);
+                let others = sum.saturating_sub(u64::from(highest));
                 let room = limit.saturating_sub(others);
-                let (mut fitting, mut lowest) = (None, cap[axis]);
-                for cost in candidates.iter().filter(|c| left(c, cap)).map(|c| c.cost[axis]) {
+                let (mut fitting, mut lowest) = (None, highest);
+                for cost in candidates.iter().filter(|c| left(c, caps)).map(on_axis) {
                     lowest = lowest.min(cost);
                     if u64::from(cost) <= room {
                         fitting = fitting.max(Some(cost));
                     }
                 }
-                steps += candidates.len() as u64;
-                cap[axis] = fitting.unwrap_or(lowest);
-                sum = others + u64::from(cap[axis]);
+                steps = steps.saturating_add(candidates.len() as u64);
+                let chosen = fitting.unwrap_or(lowest);
+                set(caps, axis, chosen);
+                sum = others.saturating_add(u64::from(chosen));
             }
             if let Some(shortfall) = Shortfall::new(axis, limit, sum) {
                 return Ok(Answer::Infeasible { shortfall: Some(shortfall), steps });
@@ -131,7 +140,7 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
         }
 
         let mut cost = [0; A];
-        let mut quality = 0;
+        let mut quality = 0u64;
         let last_axis = problem.order().last().copied();
         for ((candidates, cap), choice) in activities.iter().zip(caps.iter()).zip(plan.iter_mut()) {
             let chosen = last_axis
@@ -139,10 +148,10 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
             let Some((index, candidate)) = chosen else { continue };
             *choice = index as u16;
             for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {
-                *sum += u64::from(part);
+                *sum = u64::saturating_add(*sum, u64::from(part));
             }
-            quality += u64::from(candidate.quality);
-            steps += candidates.len() as u64;
+            quality = quality.saturating_add(u64::from(candidate.quality));
+            steps = steps.saturating_add(candidates.len() as u64);
         }
         Ok(Answer::Planned(Planned { cost, quality, bound: None, optimal: false, steps }))
     }

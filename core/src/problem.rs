@@ -167,9 +167,9 @@ impl<'a, const A: usize> Problem<'a, A> {
         for (candidates, &choice) in self.activities.iter().zip(plan) {
             let candidate = candidates.get(usize::from(choice))?;
             for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {
-                *sum += u64::from(part);
+                *sum = u64::saturating_add(*sum, u64::from(part));
             }
-            quality += u64::from(candidate.quality);
+            quality = u64::saturating_add(quality, u64::from(candidate.quality));
         }
         Some((cost, quality))
     }
@@ -180,14 +180,17 @@ impl<'a, const A: usize> Problem<'a, A> {
         cost.iter().zip(&self.limits).all(|(cost, limit)| cost <= limit)
     }
 
-    /// The least total cost on one axis, whatever the others.
+    /// The least total cost on one axis, whatever the others; nothing on an axis that there is not.
     #[must_use]
     pub fn least(&self, axis: usize) -> u64 {
-        self.activities
-            .iter()
-            .map(|candidates| candidates.iter().map(|c| u64::from(c.cost[axis])).min().unwrap_or(0))
-            .sum()
+        let costs = self.activities.iter().map(|candidates| cheapest(candidates, axis));
+        costs.fold(0, |sum, cost| sum.saturating_add(u64::from(cost)))
     }
+}
+
+/// The least cost on one axis among the candidates of an activity.
+pub(crate) fn cheapest<const A: usize>(candidates: &[Candidate<A>], axis: usize) -> u32 {
+    candidates.iter().filter_map(|c| c.cost.get(axis).copied()).min().unwrap_or(0)
 }
 
 /// Whether an order of treatment is one.

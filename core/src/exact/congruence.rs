@@ -10,6 +10,7 @@
 use super::dual::Price;
 use super::load::Frame;
 use super::{Item, Stage};
+use core::num::NonZero;
 
 /// The most remainders kept.
 pub(super) const REMAINDERS: usize = 16;
@@ -21,13 +22,13 @@ const NEVER: i64 = i64::MAX;
 /// The least loss at which some activities change the value by each remainder.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Remainders {
-    modulus: i64,
+    modulus: NonZero<u32>,
     least: [i64; REMAINDERS],
 }
 
 impl Remainders {
     /// No remainders: every value can be reached.
-    pub(super) const NONE: Self = Self { modulus: 1, least: [0; REMAINDERS] };
+    pub(super) const NONE: Self = Self { modulus: NonZero::<u32>::MIN, least: [0; REMAINDERS] };
 
     /// The remainders of no activity at all, modulo the number that choices near the bound have in
     /// common. Needs losses, and each activity's best item first.
@@ -36,46 +37,53 @@ impl Remainders {
         items: &[Item<A>],
         stages: &[Stage<A>],
     ) -> Self {
-        let small = (1i64 << frame.fraction) >> NEXT_TO_NONE;
+        let small = frame.priced(1) >> NEXT_TO_NONE;
         let mut divisor = 0;
         for own in stages.iter().map(|stage| stage.items(items)) {
-            for item in own[1..].iter().take_while(|item| item.loss <= small) {
-                divisor = gcd(divisor, item.value.abs_diff(own[0].value));
+            let [best, others @ ..] = own else { continue };
+            for item in others.iter().take_while(|item| item.loss <= small) {
+                divisor = gcd(divisor, item.value.abs_diff(best.value));
             }
         }
-        let common =
-            (2..=REMAINDERS as u32).rev().find(|&m| divisor > 0 && divisor.is_multiple_of(m));
+        let common = (2..=REMAINDERS as u32)
+            .rev()
+            .filter_map(NonZero::new)
+            .find(|&m| divisor > 0 && divisor % m == 0);
         let mut least = [NEVER; REMAINDERS];
         least[0] = 0;
-        common.map_or(Self::NONE, |modulus| Self { modulus: i64::from(modulus), least })
+        common.map_or(Self::NONE, |modulus| Self { modulus, least })
     }
 
     /// Whether there is anything to gain from remainders.
     pub(super) const fn matter(&self) -> bool {
-        self.modulus > 1
+        self.modulus.get() > 1
     }
 
     fn place(&self, value: i64) -> usize {
-        value.rem_euclid(self.modulus).unsigned_abs() as usize
+        value.rem_euclid(i64::from(self.modulus.get())).unsigned_abs() as usize
+    }
+
+    /// The least loss for the remainder at this place.
+    fn loss(&self, place: usize) -> i64 {
+        self.least.get(place).copied().unwrap_or(NEVER)
     }
 
     /// The same with one more activity, whose items lose at most `most`.
     pub(super) fn with<const A: usize>(&self, own: &[Item<A>], most: i64) -> Self {
         let mut next = *self;
-        for item in own[1..].iter().take_while(|item| item.loss <= most) {
-            let step = self.place(i64::from(item.value) - i64::from(own[0].value));
+        let [best, others @ ..] = own else { return next };
+        let modulus = self.modulus.get() as usize;
+        for item in others.iter().take_while(|item| item.loss <= most) {
+            let step = self.place(i64::from(item.value).wrapping_sub(i64::from(best.value)));
             if step == 0 {
                 continue;
             }
-            for (from, &loss) in
-                self.least[..self.modulus.unsigned_abs() as usize].iter().enumerate()
-            {
-                let to = if from + step < self.modulus.unsigned_abs() as usize {
-                    from + step
-                } else {
-                    from + step - self.modulus.unsigned_abs() as usize
-                };
-                next.least[to] = next.least[to].min(loss.saturating_add(item.loss));
+            for (from, &loss) in self.least.iter().enumerate().take(modulus) {
+                let sum = from.wrapping_add(step);
+                let to = if sum < modulus { sum } else { sum.wrapping_sub(modulus) };
+                if let Some(least) = next.least.get_mut(to) {
+                    *least = (*least).min(loss.saturating_add(item.loss));
+                }
             }
         }
         next
@@ -85,17 +93,18 @@ impl Remainders {
     /// more, when a plan worth `target` may lose `allowance` in all. Each unit of value has
     /// `fraction` bits.
     pub(super) fn reach(&self, worth: i64, target: i64, mut allowance: i64, fraction: u32) -> bool {
-        let mut place = self.place(target - worth);
-        for _ in 0..self.modulus {
+        let modulus = self.modulus.get() as usize;
+        let mut place = self.place(target.wrapping_sub(worth));
+        for _ in 0..modulus {
             if allowance < 0 {
                 return false;
             }
-            if self.least[place] <= allowance {
+            if self.loss(place) <= allowance {
                 return true;
             }
-            allowance -= 1 << fraction;
-            place += 1;
-            if place == self.modulus.unsigned_abs() as usize {
+            allowance = allowance.wrapping_sub(1i64.wrapping_shl(fraction));
+            place = place.wrapping_add(1);
+            if place == modulus {
                 place = 0;
             }
         }
@@ -113,16 +122,16 @@ pub(super) fn bound<const A: usize>(
     bound: i64,
 ) -> i64 {
     // What may be lost by a plan worth less than all remainders below the bound.
-    let most = price.bound - ((bound - none.modulus) << frame.fraction);
+    let lowest = bound.wrapping_sub(i64::from(none.modulus.get()));
+    let allowance = |value: i64| price.bound.wrapping_sub(frame.priced(value));
     let mut all = *none;
-    let mut base = 0;
+    let mut base = 0i64;
     for own in stages.iter().map(|stage| stage.items(items)) {
-        base += i64::from(own[0].value);
-        all = all.with(own, most);
+        base = base.wrapping_add(own.first().map_or(0, |best| i64::from(best.value)));
+        all = all.with(own, allowance(lowest));
     }
-    let paid =
-        |value: &i64| all.least[all.place(value - base)] <= price.bound - (value << frame.fraction);
-    (bound - all.modulus..=bound).rev().find(paid).unwrap_or(bound - all.modulus)
+    let paid = |&value: &i64| all.loss(all.place(value.wrapping_sub(base))) <= allowance(value);
+    (lowest..=bound).rev().find(paid).unwrap_or(lowest)
 }
 
 const fn gcd(mut a: u32, mut b: u32) -> u32 {

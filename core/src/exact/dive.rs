@@ -49,7 +49,7 @@ impl<const A: usize> Point<A> {
     fn exchange(&self, other: &Item<A>, item: &Item<A>) -> Self {
         Self {
             slack: self.slack.plus(&other.rows()).minus(&item.rows()),
-            loss: self.loss + item.loss - other.loss,
+            loss: self.loss.wrapping_add(item.loss).wrapping_sub(other.loss),
         }
     }
 }
@@ -92,7 +92,7 @@ impl<'d, const A: usize> Dive<'d, A> {
         let room = usize::try_from(steps).unwrap_or(usize::MAX).min(self.seen.len());
         if room > self.noted {
             self.noted = room;
-            self.seen[..room].fill(Seen::EMPTY);
+            self.seen.get_mut(..room).unwrap_or(&mut []).fill(Seen::EMPTY);
         }
     }
 
@@ -102,7 +102,7 @@ impl<'d, const A: usize> Dive<'d, A> {
 
     /// What losses and priced slack may use up together.
     fn allowance(&self) -> i64 {
-        self.price.bound - (self.target << self.frame.fraction)
+        self.price.bound.wrapping_sub(self.frame.priced(self.target))
     }
 
     /// Frees every activity.
@@ -111,13 +111,13 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.levels = 0;
         self.root = Point { slack: self.frame.room, loss: 0 };
         for at in 0..self.stages.len() {
-            let stage = &mut self.stages[at];
+            let Some(stage) = self.stages.get_mut(at) else { break };
             stage.current = 0;
             let own = stage.items(self.items);
-            self.root.slack = self.root.slack.minus(&own[0].rows());
+            let best = own.first().unwrap_or(Item::NONE);
+            self.root.slack = self.root.slack.minus(&best.rows());
             if own.get(1).is_some_and(|item| item.loss <= allowance) {
-                self.stages[self.levels].level.stage = at as u32;
-                self.levels += 1;
+                self.free(at);
             }
         }
         self.prepare();
@@ -132,7 +132,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             stage.current = stage.best;
             let item = stage.item(self.items, stage.best);
             home.slack = home.slack.minus(&item.rows());
-            home.loss += item.loss;
+            home.loss = home.loss.wrapping_add(item.loss);
             if item.loss > most {
                 (worst, most) = (at, item.loss);
             }
@@ -149,32 +149,54 @@ impl<'d, const A: usize> Dive<'d, A> {
         for draw in 0..count as u64 {
             // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4).
             let mixed = (round << 8 | draw).wrapping_mul(0x9E37_79B9_7F4A_7C15);
-            let drawn = ((u128::from(mixed) * self.stages.len() as u128) >> 64) as usize;
-            let at = if draw == 0 && round & 1 == 0 { first } else { drawn };
-            let own = self.stages[at].items(self.items);
-            let taken = self.stages[..self.levels].iter().any(|s| s.level.stage == at as u32);
+            let at = match (draw, round & 1) {
+                (0, 0) => first,
+                _ => drawn(mixed, self.stages.len()),
+            };
+            let Some(stage) = self.stages.get(at) else { continue };
+            let (own, best) = (stage.items(self.items), stage.item(self.items, stage.best));
+            let taken = self.stages.iter().take(self.levels).any(|s| s.level.stage == at as u32);
             if !taken && own.get(1).is_some_and(|item| item.loss <= allowance) {
-                self.root = self.root.exchange(&own[self.stages[at].best as usize], &own[0]);
-                self.stages[at].current = 0;
-                self.stages[self.levels].level.stage = at as u32;
-                self.levels += 1;
+                self.root = self.root.exchange(best, stage.item(self.items, 0));
+                if let Some(stage) = self.stages.get_mut(at) {
+                    stage.current = 0;
+                }
+                self.free(at);
             }
         }
         self.prepare();
     }
 
+    /// Gives an activity a level.
+    fn free(&mut self, at: usize) {
+        if let Some(stage) = self.stages.get_mut(self.levels) {
+            stage.level.stage = at as u32;
+            self.levels = self.levels.wrapping_add(1);
+        }
+    }
+
+    fn level(&self, depth: usize) -> &Level<A> {
+        &self.stages.get(depth).unwrap_or(Stage::NONE).level
+    }
+
+    /// The activity of a level.
+    fn stage_of(&self, depth: usize) -> &Stage<A> {
+        self.stages.get(self.level(depth).stage as usize).unwrap_or(Stage::NONE)
+    }
+
     /// Puts the activities that were freed back to the best plan.
     pub(super) fn restore(&mut self) {
         for level in 0..self.levels {
-            let at = self.stages[level].level.stage as usize;
-            self.stages[at].current = self.stages[at].best;
+            if let Some(stage) = self.stages.get_mut(self.level(level).stage as usize) {
+                stage.current = stage.best;
+            }
         }
     }
 
     /// Sorts the levels, the costliest to change first, since a change there leaves little for the
     /// others, and fills their bounds from the last one back.
     fn prepare(&mut self) {
-        self.number += 1;
+        self.number = self.number.wrapping_add(1);
         let allowance = self.allowance();
         for top in (0..self.levels / 2).rev() {
             self.sift(top, self.levels);
@@ -186,20 +208,19 @@ impl<'d, const A: usize> Dive<'d, A> {
 
         let fraction = self.frame.fraction;
         let mut saving = Rows::ZERO;
-        let mut gain = [0; REPRICINGS];
+        let mut gain = [0i64; REPRICINGS];
         let mut remainders = *self.no_remainders;
         for level in (0..self.levels).rev() {
-            let stage = &self.stages[self.stages[level].level.stage as usize];
+            let stage = self.stage_of(level);
             let own = stage.items(self.items);
-            let best = &own[0];
+            let best = own.first().unwrap_or(Item::NONE);
             let mut most = Rows::<A>::ZERO;
             let mut gained = [0; REPRICINGS];
             for item in own.iter().take_while(|item| item.loss <= allowance) {
                 most = most.zip(&best.rows().minus(&item.rows()), i64::max);
                 for (gained, multiplier) in gained.iter_mut().zip(self.multipliers) {
-                    let more =
-                        item.reduced(multiplier, fraction) - best.reduced(multiplier, fraction);
-                    *gained = (*gained).max(more);
+                    let more = item.reduced(multiplier, fraction);
+                    *gained = more.wrapping_sub(best.reduced(multiplier, fraction)).max(*gained);
                 }
             }
             saving = saving.plus(&most);
@@ -207,10 +228,10 @@ impl<'d, const A: usize> Dive<'d, A> {
                 remainders = remainders.with(own, allowance);
             }
             for (sum, part) in gain.iter_mut().zip(gained) {
-                *sum += part;
+                *sum = sum.wrapping_add(part);
             }
             let base = stage.best;
-            let level = &mut self.stages[level].level;
+            let Some(Stage { level, .. }) = self.stages.get_mut(level) else { break };
             (level.saving, level.gain, level.base) = (saving, gain, base);
             level.remainders = remainders;
         }
@@ -218,14 +239,14 @@ impl<'d, const A: usize> Dive<'d, A> {
 
     /// The loss of the second item of a level's activity: what a change there costs at least.
     fn change(&self, level: usize) -> (i64, core::cmp::Reverse<u32>) {
-        let stage = self.stages[level].level.stage;
-        (self.stages[stage as usize].item(self.items, 1).loss, core::cmp::Reverse(stage))
+        let loss = self.stage_of(level).item(self.items, 1).loss;
+        (loss, core::cmp::Reverse(self.level(level).stage))
     }
 
     fn swap_levels(&mut self, a: usize, b: usize) {
-        let first = self.stages[a].level.stage;
-        self.stages[a].level.stage = self.stages[b].level.stage;
-        self.stages[b].level.stage = first;
+        if let Ok([a, b]) = self.stages.get_disjoint_mut([a, b]) {
+            core::mem::swap(&mut a.level.stage, &mut b.level.stage);
+        }
     }
 
     /// One sift of a heap sort with the least change on top, which leaves the levels in falling
@@ -233,7 +254,8 @@ impl<'d, const A: usize> Dive<'d, A> {
     fn sift(&mut self, mut top: usize, end: usize) {
         loop {
             let mut least = top;
-            for child in [2 * top + 1, 2 * top + 2] {
+            let left = top.wrapping_mul(2).wrapping_add(1);
+            for child in [left, left.wrapping_add(1)] {
                 if child < end && self.change(child) < self.change(least) {
                     least = child;
                 }
@@ -254,34 +276,40 @@ impl<'d, const A: usize> Dive<'d, A> {
             return false;
         }
         if depth == self.levels {
-            let used = self.price.multiplier.dot(&point.slack) + point.loss;
+            let used = self.price.multiplier.dot(&point.slack).wrapping_add(point.loss);
             return point.slack.none_negative() && used <= allowance;
         }
-        let level = &self.stages[depth].level;
+        let level = self.level(depth);
         if !point.slack.plus(&level.saving).none_negative() {
             return false;
         }
         // value + multiplier * slack + gain >= target, with value = bound - loss - best multiplier
         // * slack
-        let needed = point.loss - allowance;
+        let needed = point.loss.wrapping_sub(allowance);
         let priced = self
             .dearer
             .iter()
             .zip(&level.gain)
-            .all(|(dearer, gain)| dearer.dot(&point.slack) + gain >= needed);
+            .all(|(dearer, &gain)| dearer.dot(&point.slack).wrapping_add(gain) >= needed);
         let reach = |level: &Level<A>| {
-            let left = allowance - point.loss;
+            let left = allowance.wrapping_sub(point.loss);
             level.remainders.reach(self.worth(point), self.target, left, self.frame.fraction)
         };
         priced && (!level.remainders.matter() || reach(level))
+    }
+
+    /// The priced value of the plan that has the open activities at their best items.
+    #[inline]
+    fn priced(&self, point: &Point<A>) -> i64 {
+        let slack = self.price.multiplier.dot(&point.slack);
+        self.price.bound.wrapping_sub(point.loss).wrapping_sub(slack)
     }
 
     /// The value of the plan that has the open activities at their best items, within its limits or
     /// not.
     #[inline]
     fn worth(&self, point: &Point<A>) -> i64 {
-        (self.price.bound - point.loss - self.price.multiplier.dot(&point.slack))
-            >> self.frame.fraction
+        self.frame.whole(self.priced(point))
     }
 
     /// Whether a node at least as good was searched at this level before; if not, notes this one.
@@ -291,15 +319,14 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// needed.
     #[inline]
     fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
-        if self.noted == 0 || depth + NOT_KEPT > self.levels {
+        if self.noted == 0 || depth.saturating_add(NOT_KEPT) > self.levels {
             return false;
         }
         let worth = self.worth(point);
         let mixed = worth.cast_unsigned().wrapping_mul(0x9E37_79B9_7F4A_7C15)
             ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let place =
-            (u128::from(mixed.wrapping_mul(0x94D0_49BB_1331_11EB)) * self.noted as u128) >> 64;
-        let seen = &mut self.seen[place as usize];
+        let place = drawn(mixed.wrapping_mul(0x94D0_49BB_1331_11EB), self.noted);
+        let Some(seen) = self.seen.get_mut(place) else { return false };
         let same = seen.dive == self.number && seen.depth == depth as u32 && seen.worth == worth;
         if same && seen.slack.minus(&point.slack).none_negative() {
             return true;
@@ -312,84 +339,92 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// these steps.
     pub(super) fn run(&mut self, budget: &mut Budget, steps: u64) -> bool {
         let mut left = steps.min(budget.left);
-        budget.left -= left;
+        budget.left = budget.left.saturating_sub(left);
         let complete = self.visit(&mut left);
-        budget.left += left;
+        budget.left = budget.left.saturating_add(left);
         complete
     }
 
     fn visit(&mut self, left: &mut u64) -> bool {
+        let items = self.items;
         let mut point = self.root;
         if !self.promising(0, &point) {
             return true;
         }
-        let mut depth = 0;
+        let mut depth = 0usize;
         let mut entering = true;
         loop {
-            if entering && depth == self.levels {
+            let below = depth.wrapping_add(1);
+            entering = if entering && depth == self.levels {
                 self.keep(&point);
-                entering = false;
-                if depth == 0 {
-                    return true;
-                }
-                depth -= 1;
-                continue;
-            }
-            let level = &mut self.stages[depth].level;
-            if entering {
-                (level.cursor, level.point) = (0, point);
+                false
             } else {
-                level.cursor += 1;
-            }
-            let (at, cursor, base, before) =
-                (level.stage as usize, level.cursor, level.base, level.point);
-            let (first, count) = (self.stages[at].first as usize, self.stages[at].count);
-            entering = false;
-            if cursor >= count {
-                self.stages[at].current = 0;
-                if depth == 0 {
-                    return true;
+                let Some(Stage { level, .. }) = self.stages.get_mut(depth) else { return true };
+                if entering {
+                    (level.cursor, level.point) = (0, point);
                 }
-                depth -= 1;
-                continue;
-            }
-            // The item of the best plan first, then the others by rising loss.
-            let index = match cursor {
-                0 => base,
-                cursor if cursor <= base => cursor - 1,
-                cursor => cursor,
+                let (at, base, before) = (level.stage as usize, level.base, level.point);
+                let mut cursor = level.cursor;
+                let Some(stage) = self.stages.get(at) else { return true };
+                let (own, count) = (stage.items(items), stage.count);
+                let best = own.first().unwrap_or(Item::NONE);
+                let allowance = self.allowance();
+                let mut chosen = None;
+                while cursor < count {
+                    // The item of the best plan first, then the others by rising loss.
+                    let index = match cursor {
+                        0 => base,
+                        cursor if cursor <= base => cursor.wrapping_sub(1),
+                        cursor => cursor,
+                    };
+                    cursor = cursor.wrapping_add(1);
+                    let Some(item) = own.get(index as usize) else { break };
+                    if before.loss.saturating_add(item.loss) > allowance {
+                        if cursor > 1 {
+                            break; // the ones behind lose even more
+                        }
+                        continue;
+                    }
+                    let Some(rest) = left.checked_sub(1) else { return false };
+                    *left = rest;
+                    let next = before.exchange(best, item);
+                    if self.promising(below, &next) && !self.seen_before(below, &next) {
+                        (chosen, point) = (Some(index), next);
+                        break;
+                    }
+                }
+                if let Some(stage) = self.stages.get_mut(at) {
+                    stage.current = chosen.unwrap_or(0);
+                }
+                if let Some(Stage { level, .. }) = self.stages.get_mut(depth) {
+                    level.cursor = cursor;
+                }
+                chosen.is_some()
             };
-            let item = &self.items[first + index as usize];
-            if before.loss + item.loss > self.allowance() {
-                if cursor > 0 {
-                    self.stages[depth].level.cursor = count; // the ones behind lose even more
-                }
-                continue;
-            }
-            if *left == 0 {
-                return false;
-            }
-            *left -= 1;
-            let next = before.exchange(&self.items[first], item);
-            if self.promising(depth + 1, &next) && !self.seen_before(depth + 1, &next) {
-                self.stages[at].current = index;
-                point = next;
-                depth += 1;
-                entering = true;
-            }
+            depth = if entering {
+                below
+            } else {
+                let Some(above) = depth.checked_sub(1) else { return true };
+                above
+            };
         }
     }
 
     /// Keeps the plan under work as the best and raises the target above it.
     fn keep(&mut self, point: &Point<A>) {
-        let worth = self.price.bound - point.loss - self.price.multiplier.dot(&point.slack);
+        let worth = self.worth(point);
         debug_assert!(
-            worth & ((1 << self.frame.fraction) - 1) == 0,
+            self.frame.priced(worth) == self.priced(point),
             "a plan is worth a whole number"
         );
-        self.target = (worth >> self.frame.fraction) + 1;
+        self.target = worth.wrapping_add(1);
         for stage in self.stages.iter_mut() {
             stage.best = stage.current;
         }
     }
+}
+
+/// A place below `count`, from bits that look random.
+const fn drawn(mixed: u64, count: usize) -> usize {
+    ((mixed as u128).wrapping_mul(count as u128) >> 64) as usize
 }

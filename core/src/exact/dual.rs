@@ -55,7 +55,7 @@ impl<const A: usize> Dual<'_, A> {
                 }
             }
             if let Some(item) = taken {
-                bound += best;
+                bound = bound.wrapping_add(best);
                 slope = slope.minus(&item.rows());
             }
         }
@@ -80,7 +80,11 @@ impl<const A: usize> Dual<'_, A> {
         let mut stride = (start.multiplier.get(row) / 16).max(most >> 16).max(1);
         let far = loop {
             let place = near.multiplier.get(row);
-            let next = if rising { (place + stride).min(most) } else { (place - stride).max(0) };
+            let next = if rising {
+                place.saturating_add(stride).min(most)
+            } else {
+                place.saturating_sub(stride).max(0)
+            };
             if next == place {
                 return Some(near); // the end of the range, still falling
             }
@@ -95,20 +99,26 @@ impl<const A: usize> Dual<'_, A> {
         for _ in 0..SECANTS {
             let (left, right) = (low.multiplier.get(row), high.multiplier.get(row));
             let (down, up) = (low.slope.get(row), high.slope.get(row));
-            if up == 0 || right - left <= 1 {
+            let width = right.wrapping_sub(left);
+            if up == 0 || width <= 1 {
                 break;
             }
             // Where the tangents meet, and how low the bound could be there.
-            let gap = i128::from(high.bound) - i128::from(low.bound);
-            let step = (i128::from(up) * i128::from(right - left) - gap)
-                / (i128::from(up) - i128::from(down));
-            let floor = i128::from(low.bound) + i128::from(down) * step;
+            let gap = i128::from(high.bound).wrapping_sub(i128::from(low.bound));
+            let fall = i128::from(up).wrapping_sub(i128::from(down));
+            let Some(step) =
+                i128::from(up).wrapping_mul(i128::from(width)).wrapping_sub(gap).checked_div(fall)
+            else {
+                break;
+            };
+            let floor = i128::from(low.bound).wrapping_add(i128::from(down).wrapping_mul(step));
             let best = i128::from(low.bound.min(high.bound));
-            if best - floor <= (1i128 << self.frame.fraction) >> 7 {
+            if best.wrapping_sub(floor) <= i128::from(self.frame.priced(1) >> 7) {
                 break;
             }
-            let middle = (left + i64::try_from(step).unwrap_or(1)).clamp(left + 1, right - 1);
-            let nearest = if middle - left < right - middle { low } else { high };
+            let inner = i64::try_from(step).unwrap_or(1).max(1).min(width.wrapping_sub(1));
+            let middle = left.wrapping_add(inner);
+            let nearest = if inner < width.wrapping_sub(inner) { low } else { high };
             let Some(price) = self.at(row, middle, &nearest) else { break };
             if price.slope.get(row) < 0 {
                 low = price;
@@ -131,12 +141,17 @@ impl<const A: usize> Dual<'_, A> {
 /// The better of two points, with the combination of their slopes that is level in `row`: the
 /// subgradient at the minimum between them, which the rows further out need.
 fn meet<const A: usize>(low: &Price<A>, high: &Price<A>, row: usize) -> Price<A> {
-    let (down, up) = (-i128::from(low.slope.get(row)), i128::from(high.slope.get(row)));
+    let down = i128::from(low.slope.get(row)).wrapping_neg();
+    let up = i128::from(high.slope.get(row));
     let better = if low.bound < high.bound { low } else { high };
-    if down + up <= 0 {
+    let both = down.wrapping_add(up);
+    if both <= 0 {
         return *better;
     }
-    let mix = |a: i64, b: i64| ((i128::from(a) * up + i128::from(b) * down) / (down + up)) as i64;
+    let mix = |a: i64, b: i64| {
+        let sum = i128::from(a).wrapping_mul(up).wrapping_add(i128::from(b).wrapping_mul(down));
+        sum.checked_div(both).unwrap_or(0) as i64
+    };
     let mut slope = low.slope.zip(&high.slope, mix);
     slope.set(row, 0);
     Price { multiplier: better.multiplier, bound: better.bound, slope }

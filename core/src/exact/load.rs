@@ -3,7 +3,8 @@
 
 use super::rows::Rows;
 use super::{Item, Objective, Stage};
-use crate::problem::{Candidate, Problem};
+use crate::order::{keep_undominated, numbered, sort_by_key};
+use crate::problem::{Candidate, Problem, cheapest};
 
 /// One objective of a lexicographic order (none: any plan will do), and what those before it have
 /// fixed.
@@ -27,6 +28,20 @@ pub(super) struct Frame<const A: usize> {
     /// The largest multiplier of each row for which no priced sum overflows; zero for a row that
     /// has room for anything and so never binds.
     pub(super) most_multiplier: Rows<A>,
+}
+
+impl<const A: usize> Frame<A> {
+    /// A whole value with this frame's fraction bits.
+    #[inline]
+    pub(super) const fn priced(&self, value: i64) -> i64 {
+        value.wrapping_shl(self.fraction)
+    }
+
+    /// A priced value without its fraction, rounded down.
+    #[inline]
+    pub(super) const fn whole(&self, priced: i64) -> i64 {
+        priced.wrapping_shr(self.fraction)
+    }
 }
 
 /// The value of a candidate under an objective, larger is better; at most 2^32 in size.
@@ -56,11 +71,11 @@ pub(super) fn load<const A: usize>(
 
     // Room first: an item too large for it can then be left out at once.
     for candidates in problem.activities() {
-        for axis in 0..A {
-            let cheapest = candidates.iter().map(|c| c.cost[axis]).min().unwrap_or(0);
-            room.axes[axis] = room.axes[axis].saturating_sub(i64::from(cheapest));
+        for (axis, room) in numbered(&mut room.axes) {
+            *room = room.saturating_sub(i64::from(cheapest(candidates, axis)));
         }
-        deficit_room += i128::from(candidates.iter().map(|c| c.quality).max().unwrap_or(0));
+        let best_quality = candidates.iter().map(|c| c.quality).max().unwrap_or(0);
+        deficit_room = deficit_room.saturating_add(i128::from(best_quality));
     }
     room.quality = i64::try_from(deficit_room).unwrap_or(i64::MIN);
     if !room.none_negative() {
@@ -70,49 +85,54 @@ pub(super) fn load<const A: usize>(
 
     let mut first = 0;
     for (candidates, stage) in problem.activities().iter().zip(stages.iter_mut()) {
-        let cheapest: [u32; A] =
-            core::array::from_fn(|axis| candidates.iter().map(|c| c.cost[axis]).min().unwrap_or(0));
+        let cheapest: [u32; A] = core::array::from_fn(|axis| cheapest(candidates, axis));
         let best_quality = candidates.iter().map(|c| c.quality).max().unwrap_or(0);
         let least = candidates.iter().map(|c| value(c, aim.objective)).min().unwrap_or(0);
-        let mut count = 0;
-        for (choice, candidate) in candidates.iter().enumerate() {
-            items[first + count] = Item {
-                cost: core::array::from_fn(|axis| candidate.cost[axis] - cheapest[axis]),
-                deficit: if floored { best_quality - candidate.quality } else { 0 },
-                value: (value(candidate, aim.objective) - least).unsigned_abs() as u32,
+        let own = items.get_mut(first..).unwrap_or(&mut []);
+        let mut count = 0usize;
+        for (choice, candidate) in numbered(candidates.iter()) {
+            let mut cost = candidate.cost;
+            for (cost, &cheapest) in cost.iter_mut().zip(&cheapest) {
+                *cost = cost.saturating_sub(cheapest);
+            }
+            let item = Item {
+                cost,
+                deficit: if floored { best_quality.saturating_sub(candidate.quality) } else { 0 },
+                value: value(candidate, aim.objective).abs_diff(least) as u32,
                 loss: 0,
                 choice: choice as u16,
             };
-            let fits = items[first + count].rows().zip(&room, |cost, room| room - cost);
-            count += usize::from(fits.none_negative());
+            if room.minus(&item.rows()).none_negative() {
+                *own.get_mut(count)? = item;
+                count = count.wrapping_add(1);
+            }
         }
-        if count == 0 {
+        let kept = undominated(own.get_mut(..count).unwrap_or(&mut []));
+        if kept.is_empty() {
             return None;
         }
-        let kept = undominated(&mut items[first..first + count]);
-        *stage = Stage { first: first as u32, count: kept as u32, ..Stage::EMPTY };
-        let kept = &items[first..first + kept];
-        for axis in 0..A {
-            largest.axes[axis] += kept.iter().map(|i| i64::from(i.cost[axis])).max().unwrap_or(0);
+        *stage = Stage { first: first as u32, count: kept.len() as u32, ..Stage::EMPTY };
+        let most_of = |row: usize| kept.iter().map(|i| i.rows().get(row)).max().unwrap_or(0);
+        for row in 0..Rows::<A>::COUNT {
+            largest.set(row, largest.get(row).saturating_add(most_of(row)));
         }
-        largest.quality += kept.iter().map(|i| i64::from(i.deficit)).max().unwrap_or(0);
-        most += kept.iter().map(|i| i64::from(i.value)).max().unwrap_or(0);
-        least_value += i128::from(least);
-        first += kept.len();
+        most = most.saturating_add(kept.iter().map(|i| i64::from(i.value)).max().unwrap_or(0));
+        least_value = least_value.saturating_add(i128::from(least));
+        first = first.wrapping_add(kept.len());
     }
 
     let mut frame = Frame {
         room: room.zip(&largest, i64::min),
         least_value,
         most,
-        fraction: 50u32.saturating_sub(i64::BITS - most.leading_zeros()).min(40),
+        fraction: most.leading_zeros().saturating_sub(i64::BITS - 50).min(40),
         most_multiplier: Rows::ZERO,
     };
     for row in 0..Rows::<A>::COUNT {
         if largest.get(row) > room.get(row) {
-            frame
-                .most_multiplier
-                .set(row, (1 << 60) / (Rows::<A>::COUNT as u64).cast_signed() / largest.get(row));
+            let share = (1u64 << 60) / Rows::<A>::COUNT as u64;
+            let most = share.checked_div(largest.get(row).unsigned_abs()).unwrap_or(0);
+            frame.most_multiplier.set(row, most.cast_signed());
         }
     }
     Some(frame)
@@ -123,20 +143,11 @@ pub(super) fn load<const A: usize>(
 const COMPARED: usize = 1024;
 
 /// Sorts the items canonically (best value, then cheapest, then first written) and moves those that
-/// no other dominates to the front; returns their number.
-fn undominated<const A: usize>(items: &mut [Item<A>]) -> usize {
-    items.sort_unstable_by_key(|i| (core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
-    let mut kept = 0;
-    for next in 0..items.len() {
-        let item = items[next];
+/// no other dominates to the front; returns those.
+fn undominated<const A: usize>(items: &mut [Item<A>]) -> &[Item<A>] {
+    sort_by_key(items, |i| (core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
+    keep_undominated(items, COMPARED, |other, item| {
         // Whatever comes before has at least its value.
-        let dominated = items[kept.max(COMPARED) - COMPARED..kept].iter().any(|other| {
-            other.deficit <= item.deficit && other.cost.iter().zip(&item.cost).all(|(a, b)| a <= b)
-        });
-        if !dominated {
-            items[kept] = item;
-            kept += 1;
-        }
-    }
-    kept
+        other.deficit <= item.deficit && other.cost.iter().zip(&item.cost).all(|(a, b)| a <= b)
+    })
 }

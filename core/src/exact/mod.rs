@@ -117,6 +117,7 @@ pub struct Item<const A: usize> {
 impl<const A: usize> Item<A> {
     /// Unused memory.
     pub const EMPTY: Self = Self { cost: [0; A], deficit: 0, value: 0, loss: 0, choice: 0 };
+    const NONE: &'static Self = &Self::EMPTY;
 
     #[inline]
     fn rows(&self) -> Rows<A> {
@@ -126,7 +127,7 @@ impl<const A: usize> Item<A> {
     /// The value at these prices, with `fraction` fraction bits.
     #[inline]
     fn reduced(&self, multiplier: &Rows<A>, fraction: u32) -> i64 {
-        (i64::from(self.value) << fraction) - multiplier.dot(&self.rows())
+        i64::from(self.value).wrapping_shl(fraction).wrapping_sub(multiplier.dot(&self.rows()))
     }
 }
 
@@ -184,15 +185,21 @@ impl<const A: usize> Stage<A> {
             remainders: Remainders::NONE,
         },
     };
+    const NONE: &'static Self = &Self::EMPTY;
+
+    #[inline]
+    const fn range(&self) -> core::ops::Range<usize> {
+        self.first as usize..self.first.wrapping_add(self.count) as usize
+    }
 
     #[inline]
     fn items<'i>(&self, items: &'i [Item<A>]) -> &'i [Item<A>] {
-        &items[self.first as usize..(self.first + self.count) as usize]
+        items.get(self.range()).unwrap_or(&[])
     }
 
     #[inline]
     fn item<'i>(&self, items: &'i [Item<A>], index: u32) -> &'i Item<A> {
-        &items[(self.first + index) as usize]
+        items.get(self.first.wrapping_add(index) as usize).unwrap_or(Item::NONE)
     }
 }
 
@@ -289,17 +296,17 @@ impl<'m, const A: usize> Exact<'m, A> {
 
     /// The search for one objective; the plan is left in [`Stage::best`].
     fn pursue(&mut self, problem: &Problem<'_, A>, aim: &Aim<A>, budget: &mut Budget) -> Ended {
-        let stages = &mut self.stages[..problem.activities().len()];
+        let stages = self.stages.get_mut(..problem.activities().len()).unwrap_or(&mut []);
         let Some(frame) = load::load(problem, aim, self.items, stages) else {
             return Ended::Infeasible;
         };
-        let value = |above: i64| frame.least_value + i128::from(above);
+        let value = |above: i64| frame.least_value.wrapping_add(i128::from(above));
         let mut dual = dual::Dual { frame: &frame, items: self.items, stages, budget };
         let Some(price) = dual.minimise() else { return Ended::Unknown(value(frame.most)) };
         if price.bound < 0 {
             return Ended::Infeasible;
         }
-        let mut bound = (price.bound >> frame.fraction).min(frame.most);
+        let mut bound = frame.whole(price.bound).min(frame.most);
         let best = primal::first_plan(&frame, &price, self.items, stages, budget);
         let mut remainders = Remainders::of(&frame, self.items, stages);
         if !remainders.matter() || budget.take(stages.len() as u64).is_none() {
@@ -345,15 +352,17 @@ impl<'m, const A: usize> Exact<'m, A> {
             }
             let own = |(stage, candidates): (&Stage<A>, &&[Candidate<A>])| {
                 let choice = stage.item(self.items, stage.best).choice;
-                u64::from(candidates[usize::from(choice)].cost[axis])
+                let cost = candidates.get(usize::from(choice)).and_then(|c| c.cost.get(axis));
+                u64::from(cost.copied().unwrap_or(0))
             };
-            let total = self.stages[..activities.len()].iter().zip(activities).map(own).sum();
-            let limit = problem.limits()[axis];
+            let costs = self.stages.iter().zip(activities).map(own);
+            let total = costs.fold(0, u64::saturating_add);
+            let (&limit, slot) = problem.limits().get(axis).zip(limits.get_mut(axis))?;
             if let Some(shortfall) = Shortfall::new(axis, limit, total) {
                 // Without the proof that no plan has less, this limit may well be met.
                 return matches!(ended, Ended::Optimal).then_some(shortfall);
             }
-            limits[axis] = limit;
+            *slot = limit;
         }
         None
     }
@@ -365,11 +374,12 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
         problem: &Problem<'_, A>,
         plan: &mut [u16],
     ) -> Result<Answer<A>, MemoryError> {
-        let candidates = problem.activities().iter().map(|candidates| candidates.len()).sum();
+        let lengths = problem.activities().iter().map(|candidates| candidates.len());
+        let candidates = lengths.fold(0, usize::saturating_add);
         enough("plan", problem.activities().len(), plan.len())?;
         enough("items of the exact allocator", candidates, self.items.len())?;
         enough("stages of the exact allocator", problem.activities().len(), self.stages.len())?;
-        let plan = &mut plan[..problem.activities().len()];
+        let plan = plan.get_mut(..problem.activities().len()).unwrap_or(&mut []);
 
         let mut budget = Budget { left: self.steps };
         let mut aim = Aim { objective: None, limits: problem.limits(), quality_floor: 0 };
@@ -383,11 +393,17 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 Ended::Stopped(bound) => Some(bound),
                 Ended::Infeasible if found.is_none() => {
                     let shortfall = self.shortfall(problem, &mut budget);
-                    return Ok(Answer::Infeasible { shortfall, steps: self.steps - budget.left });
+                    return Ok(Answer::Infeasible {
+                        shortfall,
+                        steps: self.steps.saturating_sub(budget.left),
+                    });
                 }
                 Ended::Unknown(bound) if found.is_none() => {
-                    let bound = u64::try_from(bound.abs()).unwrap_or(u64::MAX);
-                    return Ok(Answer::Unknown { bound, steps: self.steps - budget.left });
+                    let bound = u64::try_from(bound.unsigned_abs()).unwrap_or(u64::MAX);
+                    return Ok(Answer::Unknown {
+                        bound,
+                        steps: self.steps.saturating_sub(budget.left),
+                    });
                 }
                 // A later objective found nothing within the budget: the plan before it stands.
                 Ended::Infeasible | Ended::Unknown(_) => {
@@ -400,13 +416,13 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
             let amount = aim.objective.map(|objective| objective.amount(&cost, quality));
             let first_bound = found.and_then(|planned: Planned<A>| planned.bound);
             let own_bound =
-                bound.map_or(amount, |b| Some(u64::try_from(b.abs()).unwrap_or(u64::MAX)));
+                bound.map_or(amount, |b| Some(u64::try_from(b.unsigned_abs()).unwrap_or(u64::MAX)));
             found = Some(Planned {
                 cost,
                 quality,
                 bound: first_bound.or(own_bound),
                 optimal: bound.is_none(),
-                steps: self.steps - budget.left,
+                steps: self.steps.saturating_sub(budget.left),
             });
             if bound.is_some() {
                 break;
@@ -421,8 +437,14 @@ impl<const A: usize> Allocator<A> for Exact<'_, A> {
                 _ => break,
             }
         }
-        Ok(found.map_or(Answer::Unknown { bound: 0, steps: self.steps - budget.left }, |planned| {
-            Answer::Planned(Planned { steps: self.steps - budget.left, ..planned })
-        }))
+        Ok(found.map_or(
+            Answer::Unknown { bound: 0, steps: self.steps.saturating_sub(budget.left) },
+            |planned| {
+                Answer::Planned(Planned {
+                    steps: self.steps.saturating_sub(budget.left),
+                    ..planned
+                })
+            },
+        ))
     }
 }

@@ -4,6 +4,7 @@ use super::dual::Price;
 use super::load::Frame;
 use super::rows::Rows;
 use super::{Budget, Item, Stage};
+use crate::order::{numbered, sort_by_key};
 
 /// Sets every item's loss at these prices, sorts each activity's items by it (equal ones keep the
 /// canonical order) and looks for a plan near the best items. Returns its value, the plan in
@@ -17,22 +18,20 @@ pub(super) fn first_plan<const A: usize>(
 ) -> Option<i64> {
     let mut slack = frame.room;
     for stage in stages.iter_mut() {
-        let own = &mut items[stage.first as usize..(stage.first + stage.count) as usize];
+        let own = items.get_mut(stage.range()).unwrap_or(&mut []);
         let best =
             own.iter().map(|i| i.reduced(&price.multiplier, frame.fraction)).max().unwrap_or(0);
         for item in own.iter_mut() {
-            item.loss = best - item.reduced(&price.multiplier, frame.fraction);
+            item.loss = best.wrapping_sub(item.reduced(&price.multiplier, frame.fraction));
         }
         // The canonical order, as a key: items of equal loss come out as dominance sorted them.
-        own.sort_unstable_by_key(|i| {
-            (i.loss, core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice)
-        });
+        sort_by_key(own, |i| (i.loss, core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
         stage.current = 0;
-        slack = slack.minus(&own[0].rows());
+        slack = slack.minus(&stage.item(items, 0).rows());
     }
     // Each switch scans all activities; a plan that needs more switches than this is left to the
     // search.
-    for _ in 0..stages.len() + 8 {
+    for _ in 0..stages.len().saturating_add(8) {
         if slack.none_negative() {
             break;
         }
@@ -48,25 +47,28 @@ pub(super) fn first_plan<const A: usize>(
             None => break,
         }
     }
-    let mut value = 0;
+    let mut value = 0i64;
     for stage in stages.iter_mut() {
         stage.best = stage.current;
-        value += i64::from(stage.item(items, stage.best).value);
+        value = value.wrapping_add(i64::from(stage.item(items, stage.best).value));
     }
     Some(value)
 }
 
 /// How far over the room a slack is, each row as parts of 2^20 of its worst.
 fn violation<const A: usize>(slack: &Rows<A>, worst: &Rows<A>) -> i64 {
-    (0..Rows::<A>::COUNT)
-        .map(|row| match (slack.get(row), worst.get(row)) {
-            (over, least) if over < 0 && least < 0 => {
-                ((i128::from(over) << 20) / i128::from(least)) as i64
-            }
-            (over, _) if over < 0 => 1 << 20,
-            _ => 0,
-        })
-        .sum()
+    let parts = (0..Rows::<A>::COUNT).map(|row| match (slack.get(row), worst.get(row)) {
+        (over, least) if over < 0 && least < 0 => {
+            (i128::from(over) << 20).checked_div(i128::from(least)).unwrap_or(0) as i64
+        }
+        (over, _) if over < 0 => 1 << 20,
+        _ => 0,
+    });
+    parts.fold(0, i64::saturating_add)
+}
+
+fn product(a: i64, b: i64) -> i128 {
+    i128::from(a).wrapping_mul(i128::from(b))
 }
 
 /// Makes the one switch that costs the least loss for the violation it removes; `None` when none
@@ -78,17 +80,17 @@ fn repair<const A: usize>(
 ) -> Option<Rows<A>> {
     let before = violation(slack, slack);
     let mut best: Option<(i64, i64, usize, u32, Rows<A>)> = None;
-    for (at, stage) in stages.iter().enumerate() {
+    for (at, stage) in numbered(stages.iter()) {
         let current = stage.item(items, stage.current);
-        for (index, item) in stage.items(items).iter().enumerate() {
+        for (index, item) in numbered(stage.items(items)) {
             let after = slack.plus(&current.rows()).minus(&item.rows());
-            let removed = before - violation(&after, slack);
+            let removed = before.saturating_sub(violation(&after, slack));
             if removed <= 0 {
                 continue;
             }
-            let loss = (item.loss - current.loss).max(0);
+            let loss = item.loss.wrapping_sub(current.loss).max(0);
             let better = best.is_none_or(|(least, most, ..)| {
-                i128::from(loss) * i128::from(most) < i128::from(least) * i128::from(removed)
+                product(loss, most) < product(least, removed)
                     || (loss == 0 && least == 0 && removed > most)
             });
             if better {
@@ -97,7 +99,7 @@ fn repair<const A: usize>(
         }
     }
     let (_, _, at, index, after) = best?;
-    stages[at].current = index;
+    stages.get_mut(at)?.current = index;
     Some(after)
 }
 
@@ -108,9 +110,9 @@ fn improve<const A: usize>(
     slack: &Rows<A>,
 ) -> Option<Rows<A>> {
     let mut best: Option<(u32, usize, u32, Rows<A>)> = None;
-    for (at, stage) in stages.iter().enumerate() {
+    for (at, stage) in numbered(stages.iter()) {
         let current = stage.item(items, stage.current);
-        for (index, item) in stage.items(items).iter().enumerate() {
+        for (index, item) in numbered(stage.items(items)) {
             let Some(gain) = item.value.checked_sub(current.value) else { continue };
             if gain == 0 || best.is_some_and(|(most, ..)| gain <= most) {
                 continue;
@@ -122,6 +124,6 @@ fn improve<const A: usize>(
         }
     }
     let (_, at, index, after) = best?;
-    stages[at].current = index;
+    stages.get_mut(at)?.current = index;
     Some(after)
 }

@@ -1,5 +1,8 @@
 //! A number for each limited sum: every axis, and the quality where an objective before has fixed
 //! it.
+//!
+//! Amounts and prices are so small that no sum here overflows: see [`load`](super::load). Sums
+//! wrap, which then is the same, because the compiler cannot see it.
 
 /// One number for each axis and one for the quality.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,18 +41,20 @@ impl<const A: usize> Rows<A> {
 
     #[inline]
     pub(super) fn plus(&self, other: &Self) -> Self {
-        self.zip(other, |a, b| a + b)
+        self.zip(other, i64::wrapping_add)
     }
 
     #[inline]
     pub(super) fn minus(&self, other: &Self) -> Self {
-        self.zip(other, |a, b| a - b)
+        self.zip(other, i64::wrapping_sub)
     }
 
     #[inline]
     pub(super) fn dot(&self, other: &Self) -> i64 {
-        let axes: i64 = self.axes.iter().zip(&other.axes).map(|(a, b)| a * b).sum();
-        axes + self.quality * other.quality
+        let axes = self.axes.iter().zip(&other.axes);
+        axes.fold(self.quality.wrapping_mul(other.quality), |sum, (&a, &b)| {
+            sum.wrapping_add(a.wrapping_mul(b))
+        })
     }
 
     #[inline]

@@ -38,32 +38,32 @@ pub(super) fn search<const A: usize>(
 ) -> (Option<i64>, bool) {
     let multipliers = repricings(frame, price);
     let mut dive = Dive::new(frame, price, &multipliers, remainders, items, stages, seen);
-    let (mut width, mut turn, mut round) = (0, FIRST_TURN, 0);
+    let (mut width, mut turn, mut round) = (0i64, FIRST_TURN, 0);
     loop {
         // A plan worth the bound, or every plan excluded.
-        let floor = best.map_or(0, |value| value + 1);
+        let floor = best.map_or(0, |value| value.saturating_add(1));
         if *bound < floor {
             return (best, true);
         }
-        let target = (*bound - width).max(floor);
+        let target = bound.saturating_sub(width).max(floor);
         dive.target = target;
         dive.free_all();
         let complete = dive.run(budget, turn);
         if dive.target > target {
-            best = Some(dive.target - 1);
+            best = Some(dive.target.wrapping_sub(1));
         }
         if complete {
-            *bound = dive.target - 1;
-            width += width / 2 + 1;
+            *bound = dive.target.wrapping_sub(1);
+            width = width.saturating_add(width / 2).saturating_add(1);
             continue;
         }
         if budget.left == 0 {
             return (best, false);
         }
         if let Some(value) = best.filter(|value| value < bound) {
-            dive.target = value + 1;
+            dive.target = value.saturating_add(1);
             neighbours(&mut dive, *bound, &mut round, budget, turn);
-            best = Some(dive.target - 1);
+            best = Some(dive.target.wrapping_sub(1));
         }
         turn = turn.saturating_mul(LONGER);
         dive.remember(turn);
@@ -84,9 +84,9 @@ fn neighbours<const A: usize>(
         return;
     }
     let (mut home, mut worst) = dive.settle();
-    let mut fruitless = 0;
+    let mut fruitless = 0u64;
     while dive.target <= bound && budget.left > end && fruitless < turn / FRUITLESS {
-        *round += 1;
+        *round = round.wrapping_add(1);
         if budget.take(FREE as u64).is_none() {
             return;
         }
@@ -98,7 +98,7 @@ fn neighbours<const A: usize>(
             fruitless = 0;
             (home, worst) = dive.settle();
         } else {
-            fruitless += 1;
+            fruitless = fruitless.saturating_add(1);
         }
     }
 }
@@ -111,8 +111,9 @@ fn repricings<const A: usize>(frame: &Frame<A>, price: &Price<A>) -> [Rows<A>; R
     let binding = (0..Rows::<A>::COUNT).filter(|&row| frame.most_multiplier.get(row) > 0);
     for (row, pair) in binding.zip(multipliers.chunks_exact_mut(2)) {
         let best = price.multiplier.get(row);
-        pair[0].set(row, best.saturating_mul(2).min(frame.most_multiplier.get(row)));
-        pair[1].set(row, best / 2);
+        let [dearer, cheaper] = pair else { continue };
+        dearer.set(row, best.saturating_mul(2).min(frame.most_multiplier.get(row)));
+        cheaper.set(row, best / 2);
     }
     multipliers
 }

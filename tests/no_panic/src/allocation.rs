@@ -1,9 +1,7 @@
 //! The roots of the rest of core: allocators, front, monitor, problems and hardware, for the
 //! patrol's two axes.
 //!
-//! Every list is the caller's, of any length and with anything in it. What is `open` keeps its
-//! indices within bounds by invariants between lists that no type carries, adds amounts that only a
-//! checked problem keeps small, or sorts: the library's sort can say that an order is none.
+//! Every list is the caller's, of any length and with anything in it.
 
 use cotama_core::allocation::{Allocator, Answer, MemoryError};
 use cotama_core::exact::{Exact, Item, Objective, Stage};
@@ -28,12 +26,12 @@ fn root_problem_new<'a>(
 }
 
 #[unsafe(no_mangle)]
-fn open_problem_totals(problem: &Problem<'_, A>, plan: &[u16]) -> Option<([u64; A], u64)> {
+fn root_problem_totals(problem: &Problem<'_, A>, plan: &[u16]) -> Option<([u64; A], u64)> {
     problem.totals(plan)
 }
 
 #[unsafe(no_mangle)]
-fn open_problem_least(problem: &Problem<'_, A>, axis: usize) -> u64 {
+fn root_problem_least(problem: &Problem<'_, A>, axis: usize) -> u64 {
     problem.least(axis)
 }
 
@@ -43,7 +41,7 @@ fn root_problem_combinations(problem: &Problem<'_, A>) -> Option<u128> {
 }
 
 #[unsafe(no_mangle)]
-fn open_panorama_allocate(
+fn root_panorama_allocate(
     caps: &mut [[u32; A]],
     problem: &Problem<'_, A>,
     plan: &mut [u16],
@@ -52,7 +50,7 @@ fn open_panorama_allocate(
 }
 
 #[unsafe(no_mangle)]
-fn open_exact_allocate(
+fn root_exact_allocate(
     objectives: &[Objective],
     steps: u64,
     items: &mut [Item<A>],
@@ -64,7 +62,7 @@ fn open_exact_allocate(
 }
 
 #[unsafe(no_mangle)]
-fn open_front_find(
+fn root_front_find(
     nodes: &mut [Node<A>],
     problem: &Problem<'_, A>,
     at: usize,
@@ -91,7 +89,7 @@ fn root_monitor_spend(monitor: &mut Monitor<A>, cost: &[u64; A]) -> Result<(), A
 }
 
 #[unsafe(no_mangle)]
-fn open_monitor_assess(
+fn root_monitor_assess(
     monitor: &Monitor<A>,
     rest: &[u64; A],
     needs: Equipment,
@@ -122,6 +120,6 @@ fn root_hardware_units(bits: u64, kind: usize, count: u8) -> Option<Equipment> {
 }
 
 #[unsafe(no_mangle)]
-fn open_hardware_covers(available: Equipment, needs: Equipment) -> bool {
+fn root_hardware_covers(available: Equipment, needs: Equipment) -> bool {
     available.covers(needs)
 }

@@ -18,6 +18,7 @@ mod decisional_level;
 mod executive;
 mod models;
 mod on_time;
+mod readers;
 mod systems;
 mod team;
 

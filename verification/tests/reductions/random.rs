@@ -259,10 +259,20 @@ fn keep(random: &mut Random, pt: &Pt, goal: Goal) -> Keep {
 }
 
 #[test]
+fn four_thousand_random_nets_answer_the_same_when_reduced() {
+    random_nets_answer_the_same_when_reduced(2020, 4_000);
+}
+
+#[test]
+#[ignore = "seconds: CI runs it"]
 fn twenty_thousand_random_nets_answer_the_same_when_reduced() {
-    let mut random = Random(2020);
+    random_nets_answer_the_same_when_reduced(2021, 20_000);
+}
+
+fn random_nets_answer_the_same_when_reduced(seed: u64, nets: usize) {
+    let mut random = Random(seed);
     let (mut compared, mut shrunk, mut counts) = (BTreeMap::new(), 0, BTreeMap::new());
-    for at in 0..20_000 {
+    for at in 0..nets {
         let pt = random.net();
         // Reachability and deadlocks of each net, and one of the others.
         for goal in [Goal::Reachability, Goal::Deadlock, GOALS[2 + at % 3]] {
@@ -285,8 +295,8 @@ fn twenty_thousand_random_nets_answer_the_same_when_reduced() {
         }
     }
     eprintln!("compared: {compared:?}, reduced: {shrunk}, {counts:?}");
-    assert!(compared.values().all(|&it| it > 3_000), "{compared:?}");
-    assert!(Rule::ALL.iter().all(|it| counts[it] > 100), "{counts:?}");
+    assert!(compared.values().all(|&it| it > nets / 7), "{compared:?}");
+    assert!(Rule::ALL.iter().all(|it| counts[it] > nets / 200), "{counts:?}");
 }
 
 #[test]

@@ -36,6 +36,7 @@ fn two_supervised_robots_and_their_team_keep_all_requirements() {
 }
 
 #[test]
+#[ignore = "seconds: CI runs it"]
 fn three_supervised_robots_and_their_team_keep_all_requirements() {
     let team = Team::new(3, 1).without_old_messages();
     let asked = asked(&team, supervised(&team));

@@ -1,0 +1,82 @@
+//! Sorting and sifting without panics: the library's sort may say that an order is none.
+
+/// Elements with their positions, as `enumerate` does, which counts with a check that can panic.
+pub(crate) fn numbered<I: IntoIterator>(elements: I) -> impl Iterator<Item = (usize, I::Item)> {
+    (0..usize::MAX).zip(elements)
+}
+
+/// Sorts by a key in rising order, in place and not stably, by a heap (Williams 1964).
+pub(crate) fn sort_by_key<T, K: Ord>(list: &mut [T], key: impl Fn(&T) -> K) {
+    for top in (0..list.len() / 2).rev() {
+        sift(list, top, list.len(), &key);
+    }
+    for end in (1..list.len()).rev() {
+        if let Ok([first, last]) = list.get_disjoint_mut([0, end]) {
+            core::mem::swap(first, last);
+        }
+        sift(list, 0, end, &key);
+    }
+}
+
+/// Moves the elements that none kept before them dominates to the front, in their order, and
+/// returns those. Each is compared with the last `most` that are kept, the nearest first.
+pub(crate) fn keep_undominated<T: Copy>(
+    list: &mut [T],
+    most: usize,
+    dominates: impl Fn(&T, &T) -> bool,
+) -> &[T] {
+    let mut kept = 0usize;
+    for next in 0..list.len() {
+        let Some((before, rest)) = list.split_at_mut_checked(next) else { break };
+        let (Some(before), Some(&mut new)) = (before.get_mut(..kept), rest.first_mut()) else {
+            break;
+        };
+        if before.iter().rev().take(most).any(|other| dominates(other, &new)) {
+            continue;
+        }
+        if let Some(place) = list.get_mut(kept) {
+            *place = new;
+            kept = kept.wrapping_add(1);
+        }
+    }
+    list.get(..kept).unwrap_or(&[])
+}
+
+/// Lets the element at `top` sink below the larger ones, among those before `end`.
+fn sift<T, K: Ord>(list: &mut [T], mut top: usize, end: usize, key: &impl Fn(&T) -> K) {
+    let Some(list) = list.get_mut(..end) else { return };
+    loop {
+        let left = top.wrapping_mul(2).wrapping_add(1);
+        let right = left.wrapping_add(1);
+        let later = |a: usize, b: usize| match (list.get(a), list.get(b)) {
+            (Some(a), Some(b)) => key(a) < key(b),
+            _ => false,
+        };
+        let child = if later(left, right) { right } else { left };
+        if !later(top, child) {
+            return;
+        }
+        if let Ok([above, below]) = list.get_disjoint_mut([top, child]) {
+            core::mem::swap(above, below);
+        }
+        top = child;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sort_by_key;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_sorted_list_is_what_the_library_makes_of_it(
+            mut list in prop::collection::vec(0u16..50, 0..40)
+        ) {
+            let mut expected = list.clone();
+            expected.sort_unstable_by_key(|n| core::cmp::Reverse(*n));
+            sort_by_key(&mut list, |n| core::cmp::Reverse(*n));
+            prop_assert_eq!(list, expected);
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! The roots of what only reads or converts: each alone is small, together they are half of the
+//! operations of core.
+
+use cotama_core::allocation::{Allocator, Answer, MemoryError, Shortfall};
+use cotama_core::exact::{Exact, Item, Seen, Stage};
+use cotama_core::executive::{
+    Executive, Latest, Overruns, Task, TaskError, TaskSet, Unschedulable,
+};
+use cotama_core::front::FrontPlans;
+use cotama_core::hardware::Equipment;
+use cotama_core::monitor::{AmountOverflow, Monitor};
+use cotama_core::net::Ignored;
+use cotama_core::player::{Advanced, Outcome};
+use cotama_core::problem::Problem;
+use cotama_core::team::{Cost, Costs, Team};
+use cotama_core::units::{
+    Micros, Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts, mul_div_half_up,
+};
+use cotama_models::nets::door;
+
+const A: usize = 2;
+const N: usize = 8;
+
+#[unsafe(no_mangle)]
+fn root_read_shortfall(of: &Shortfall) -> [u64; 4] {
+    [of.axis() as u64, of.limit(), of.least(), of.gap()]
+}
+
+#[unsafe(no_mangle)]
+fn root_read_problem(of: Problem<'_, A>, limits: [u64; A]) -> (bool, usize, [usize; A]) {
+    let other = of.with_limits(limits);
+    (other.within_limits(&of.limits()), other.activities().len(), of.order())
+}
+
+#[unsafe(no_mangle)]
+fn root_exact_with_memory(
+    items: &mut [Item<A>],
+    stages: &mut [Stage<A>],
+    seen: &mut [Seen<A>],
+    problem: &Problem<'_, A>,
+    plan: &mut [u16],
+) -> Result<Answer<A>, MemoryError> {
+    Exact::new(&[], u64::MAX, items, stages).with_memory(seen).allocate(problem, plan)
+}
+
+#[unsafe(no_mangle)]
+fn root_read_front(plans: &FrontPlans<'_, A>, at: usize) -> (usize, bool, Option<([u64; A], u64)>) {
+    (plans.len(), plans.is_empty(), plans.totals(at))
+}
+
+#[unsafe(no_mangle)]
+fn root_read_hardware(of: Equipment, kind: usize) -> (u8, u64) {
+    (of.of(kind), of.to_bits())
+}
+
+#[unsafe(no_mangle)]
+fn root_read_monitor(
+    monitor: &mut Monitor<A>,
+    way: &[u64; A],
+) -> Result<([i64; A], [u64; A]), AmountOverflow> {
+    monitor.hardware_returned();
+    Ok((monitor.return_margin(way)?, monitor.used()))
+}
+
+#[unsafe(no_mangle)]
+fn root_read_latest(of: &mut Latest<u32>, now: Micros, oldest: Micros) -> Option<u32> {
+    let read = of.read_within(now, oldest).copied();
+    *of = Latest::empty();
+    read
+}
+
+#[unsafe(no_mangle)]
+fn root_read_executive(
+    of: &Executive<N>,
+    task: usize,
+) -> (Micros, Option<u8>, Option<Micros>, Option<bool>, Micros) {
+    let budget = of.tasks().get(task).map_or(Micros(0), Task::budget);
+    (of.now(), of.misses(task), of.used(task), of.is_active(task), budget)
+}
+
+#[unsafe(no_mangle)]
+fn root_read_fault(happening: &cotama_core::executive::Happening) -> bool {
+    happening.rt_fault()
+}
+
+#[unsafe(no_mangle)]
+fn root_response_times(
+    tasks: &[Task],
+    overruns: Overruns,
+    task: usize,
+    iterations: u32,
+) -> Result<Option<Result<Micros, Unschedulable>>, TaskError> {
+    let set = TaskSet::new(tasks)?.with_iterations(iterations);
+    Ok(set.response_times(overruns).nth(task.min(set.tasks().len())))
+}
+
+#[unsafe(no_mangle)]
+fn root_read_costs(of: Costs<'_>, limit: Cost, row: usize, column: usize) -> Option<u32> {
+    let below = of.below(limit);
+    let within = row < below.rows() && column < below.columns();
+    below.cost(row, column).filter(|_| within).map(Cost::get)
+}
+
+#[unsafe(no_mangle)]
+fn root_read_team(of: &Team<'_>) -> (u32, usize, usize, usize) {
+    (of.denominator(), of.tasks().len(), of.plans(), of.roles())
+}
+
+#[unsafe(no_mangle)]
+fn root_units(a: u64, b: u64, c: u64) -> [Option<u64>; 6] {
+    [
+        Millis(a).checked_add(Millis(b)).map(|it| it.0),
+        Millis(a).checked_sub(Millis(b)).map(|it| it.0),
+        mul_div_half_up(a, b, c),
+        Millis::to_travel(Millimetres(a), MillimetresPerSecond(b)).map(|it| it.0),
+        Micros::from_millis(Millis(a)).map(|it| it.0),
+        Millijoules::spent(Milliwatts(a), Millis(b)).map(|it| it.0),
+    ]
+}
+
+#[unsafe(no_mangle)]
+fn root_read_guard(ignored: &Ignored<'_>, tokens: &[u32]) -> bool {
+    ignored.holds(|place| tokens.get(place.0 as usize).copied().unwrap_or(0))
+}
+
+#[unsafe(no_mangle)]
+fn root_player_without_observer(
+    player: &mut door::Player,
+    now: Millis,
+    event: &door::Event,
+) -> (Outcome<door::Transition>, Advanced, bool, Millis, u64) {
+    let outcome = player.offer(now, event);
+    let advanced = player.advance(now);
+    let _ = player.program();
+    (outcome, advanced, player.round_is_due(), player.now(), player.marking()[0])
+}
