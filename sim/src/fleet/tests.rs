@@ -146,7 +146,7 @@ fn of_two_tasks_the_one_that_waits_longer_is_given_out() {
     let offers = [offer(0), offer(1)];
     for method in [Method::Optimal, Method::Rounds, Method::OneByOne] {
         scenario.method = method;
-        let mut chosen = |waited_ms: [u64; 2]| {
+        let chosen = |waited_ms: [u64; 2]| {
             let bids = [(0, &offers[..])];
             let shares = Allocator::default().choose(&scenario, &[0, 1], &waited_ms, &bids);
             shares.iter().map(|it| it.task).collect::<Vec<_>>()
