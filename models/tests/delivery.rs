@@ -5,7 +5,7 @@ use cotama_core::net::EventId;
 use cotama_core::player::Outcome;
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
-use cotama_models::cotama::delivery;
+use cotama_models::cotama::{delivery, permit};
 use std::collections::{BTreeSet, HashSet};
 
 const NOW: Millis = Millis(0);
@@ -27,6 +27,12 @@ fn the_shipped_supervisors_reach_110346_states_by_1346810_steps() {
     let (mut states, mut edges) = (vec![first], 0);
     let mut fired = BTreeSet::new();
     let outside = outside();
+    let moving = {
+        use cotama_models::cotama::{path_following::Place as Pf, teleoperation::Place as To};
+        let pf = [Pf::Optimal, Pf::Reduced, Pf::Odometric, Pf::Reactive, Pf::Degraded];
+        let to = [To::Full, To::Degraded].map(delivery::Place::to);
+        [&pf.map(delivery::Place::pf)[..], &to].concat()
+    };
     let mut at = 0;
     while let Some(&state) = states.get(at) {
         at += 1;
@@ -35,6 +41,9 @@ fn the_shipped_supervisors_reach_110346_states_by_1346810_steps() {
             fired.insert((firing.id.component, firing.id.id.0));
         };
         assert_eq!(after.round_with(NOW, &mut observer).waiting, 0, "no mailbox is ever full");
+        // Between rounds who is permitted to move is whom an adapter moves, and nobody else.
+        let moves = moving.iter().any(|it| after.tokens(*it) > 0);
+        assert_eq!(moves, after.tokens(delivery::Place::permit(permit::Place::Granted)) > 0);
         for event in std::iter::once(None).chain(outside.iter().map(Some)) {
             let mut next = after;
             if let Some(id) = event {

@@ -3,10 +3,11 @@
 #![cfg(feature = "std")]
 
 use cotama_core::problem::Problem;
-use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
+use cotama_models::missions::infeasible::{Relaxation, explain};
 use cotama_models::missions::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
 use cotama_models::missions::tables::{delivery, patrol};
-use cotama_models::missions::{Constraint, Mission, embedded};
+use cotama_models::missions::{Constraint, Mission, embedded, harmless_speed};
 
 fn patrol() -> Mission {
     let patrol = embedded::mission("patrol").unwrap();
@@ -47,6 +48,40 @@ fn the_activities_are_those_of_table_5() {
         .collect();
     assert_eq!(found, table_5);
     assert_eq!(mission.scenario().combinations(), Some(768_288_795_144_192));
+}
+
+/// The wide hall without its speed limit, and the robot could do 760 mm/s.
+#[test]
+fn where_no_zone_limits_the_speed_a_harmless_one_does() {
+    let hall = "speed_max_mm_s = 560 ";
+    let text = embedded::mission("patrol").unwrap().text;
+    let speeds = |text: &str| {
+        let mission = Mission::parse("patrol", text).unwrap();
+        let hall = mission.scenario().activities[8].clone();
+        let speeds = hall.alternatives.iter().map(|it| it.speed.0).collect::<Vec<_>>();
+        (hall.speed_max.0, speeds.iter().min().copied(), speeds.iter().max().copied())
+    };
+    assert_eq!(text.matches(hall).count(), 1);
+    let open = text.replace(hall, "#");
+    assert_eq!(speeds(&open), (560, Some(410), Some(560)));
+    assert_eq!(speeds(&open.replace("speed_harmless_mm_s", "#")), (565, Some(410), Some(565)));
+    let slow = open.replace("speed_max_mm_s = 760", "speed_max_mm_s = 400");
+    assert_eq!(speeds(&slow), (400, Some(400), Some(400)));
+}
+
+/// An impact must stay below its energy: 2 g at 1 m/s have 1 mJ.
+#[test]
+fn a_speed_that_just_reaches_the_energy_of_an_impact_is_not_harmless() {
+    assert_eq!(harmless_speed(2, Millijoules(1)), MillimetresPerSecond(999));
+    assert_eq!(harmless_speed(1, Millijoules(0)), MillimetresPerSecond(0));
+    let text = embedded::mission("patrol").unwrap().text;
+    let parse = |stated: u64| {
+        let stated = format!("speed_harmless_mm_s = {stated}");
+        Mission::parse("patrol", &text.replacen("speed_harmless_mm_s = 560", &stated, 1))
+    };
+    assert_eq!(parse(565).unwrap().robot.speed_harmless, MillimetresPerSecond(565));
+    assert_eq!(parse(500).unwrap().robot.speed_harmless, MillimetresPerSecond(500));
+    assert!(parse(566).unwrap_err().to_string().contains("the fastest harmless speed is 565 mm/s"));
 }
 
 #[test]
@@ -98,6 +133,44 @@ fn every_dropped_combination_names_all_its_constraints() {
         "zone `glass-out` requires the moving option to use 1 of `sonar`; \
          zone `valve1-approach` requires the option `L2`"
     );
+}
+
+/// The glazed zone with lasers in place of sonars: two of the moving options have none, and that the
+/// grid map of `L3` needs two is no help.
+#[test]
+fn required_hardware_must_be_of_the_moving_option() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let text = text.replacen("require_hardware = \"sonar\"", "require_hardware = \"laser\"", 1);
+    let mission = Mission::parse("patrol", &text).unwrap();
+    let a2 = &mission.scenario().activities[1];
+    assert_eq!((a2.alternatives.len(), a2.unconstrained()), (15, 21));
+    let dropped: Vec<_> = a2.dropped.iter().map(|it| it.label.as_str()).collect();
+    assert_eq!(dropped, ["M1 L1", "M1 L2", "M1 L3", "M2 L1", "M2 L2", "M2 L3"]);
+}
+
+#[test]
+fn the_axes_are_treated_in_the_order_of_the_file() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let with = |order: &str| {
+        let text = text.replacen("[\"duration\", \"energy\"]", order, 1);
+        Mission::parse("patrol", &text).map(|it| (it.order, it.scenario().order))
+    };
+    assert_eq!(with("[\"duration\", \"energy\"]").unwrap(), ([0, 1], [0, 1]));
+    assert_eq!(with("[\"energy\", \"duration\"]").unwrap(), ([1, 0], [1, 0]));
+    assert!(with("[\"energy\", \"energy\"]").is_err());
+}
+
+/// Both lasers are lost, and a glazed zone wants one: two would do as well.
+#[test]
+fn no_more_hardware_is_kept_than_suffices() {
+    let text = embedded::mission("patrol").unwrap().text;
+    let text = text.replacen("require_hardware = \"sonar\"", "require_hardware = \"laser\"", 1);
+    let mission = Mission::parse("patrol", &text).unwrap();
+    let left = mission.available().without(1, 2);
+    let why = explain(&mission, mission.limits, left).unwrap();
+    let kept: Vec<_> =
+        why.relaxations.iter().filter(|it| matches!(it, Relaxation::KeepHardware { .. })).collect();
+    assert_eq!(kept, [&Relaxation::KeepHardware { hardware: 1, units: 1 }]);
 }
 
 #[test]

@@ -99,3 +99,44 @@ fn found<A: Allocator<2>>(
         Err(_) => Err(NoPlan::Unknown { steps: 0 }),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::streams::Streams;
+    use cotama_core::problem::Candidate;
+
+    #[test]
+    fn where_the_rule_finds_nothing_a_search_finds_the_highest_on_the_axis_treated_last() {
+        let (mut stream, mut solver) = (Streams::new(1).stream("solver"), Solver::default());
+        let (mut searched, mut none) = (0, 0);
+        for _ in 0..3_000 {
+            let mut cost = || [0, 1].map(|_| 1 + stream.below(6) as u32);
+            let lists = [0, 1, 2].map(|_| {
+                [0, 1, 2].map(|id| Candidate { cost: cost(), quality: u32::from(id), id })
+            });
+            let lists = lists.each_ref().map(<[_; 3]>::as_slice);
+            let limits = [0, 1].map(|_| 6 + stream.below(8));
+            let order = if stream.below(2) == 0 { [0, 1] } else { [1, 0] };
+            let problem = Problem::new(&lists, limits, order).unwrap();
+            let all = (0..27).map(|it| [it / 9, it / 3 % 3, it % 3]).map(|choice: [usize; 3]| {
+                let chosen = choice.iter().zip(lists).map(|(&it, list)| list[it].cost);
+                chosen.fold([0; 2], |sum, it| [0, 1].map(|axis| sum[axis] + u64::from(it[axis])))
+            });
+            let kept = all.filter(|it| (0..2).all(|axis| it[axis] <= limits[axis]));
+            let most = kept.map(|it| it[order[1]]).max();
+            match solver.solve(Planner::PanoramaThenExact { steps: 1_000 }, &problem) {
+                Ok(found) if found.allocator == "exact" => {
+                    assert_eq!(Some(found.planned.cost[order[1]]), most);
+                    searched += 1;
+                }
+                Ok(found) => assert!(Some(found.planned.cost[order[1]]) <= most),
+                Err(_) => {
+                    assert_eq!(most, None);
+                    none += 1;
+                }
+            }
+        }
+        assert!(searched > 50 && none > 50, "{searched} {none}");
+    }
+}

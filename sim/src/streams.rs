@@ -140,4 +140,20 @@ mod tests {
         let wide = (1 << 63) + 1;
         assert!((0..1000).all(|_| stream.below(wide) < wide));
     }
+
+    /// Of a bound of 2^63 + 1, nearly half of all products are drawn again.
+    #[test]
+    fn what_would_be_more_likely_is_drawn_again() {
+        let bound = (1_u64 << 63) + 1;
+        let threshold = (1_u64 << 63) - 1; // 2^64 modulo the bound
+        let (mut stream, mut bits) =
+            (Streams::new(3).stream("wide"), Streams::new(3).stream("wide"));
+        let mut drawn = 0;
+        for _ in 0..50 {
+            let even = std::iter::repeat_with(|| u128::from(bits.bits()) * u128::from(bound));
+            let product = even.inspect(|_| drawn += 1).find(|it| *it as u64 >= threshold).unwrap();
+            assert_eq!(u128::from(stream.below(bound)), product >> 64);
+        }
+        assert!((80..120).contains(&drawn), "{drawn}");
+    }
 }

@@ -2,11 +2,14 @@
 #![allow(clippy::unwrap_used)]
 
 mod common;
+#[path = "stories/exact.rs"]
+mod exact;
 
 use common::{SHUTTLE, causes, labels, patrol, run, shuttle, under};
 use cotama_core::monitor::Upward;
-use cotama_core::units::Millis;
+use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
+use cotama_models::missions::faults::{Event, EventKind, Faults, PowerError, RandomEvent};
 use cotama_sim::options::{Aim, FaultChoice, Options, Planner};
 use cotama_sim::run::{MAX_REPLANS, NoPlan, Outcome, Reason};
 use cotama_sim::setup::{SetupError, Simulation};
@@ -187,6 +190,22 @@ fn another_random_event_does_not_shift_the_first() {
     }
 }
 
+/// Two kinds of people, equally many: they do not walk together.
+#[test]
+fn random_events_of_equal_rates_happen_at_other_places() {
+    let mission = patrol();
+    let some =
+        |name| format!("{{ name = \"{name}\", kind = \"odometry\", per_km = 60, extra_mm = 1 }}");
+    let body = format!("random = [{}, {}]", some("guards"), some("guests"));
+    let mut places = [Vec::new(), Vec::new()];
+    for record in records(&mission, &under(&mission, &body)) {
+        let Record::Event(event) = record else { continue };
+        places[usize::from(event.random.as_deref() == Some("guests"))].push(event.x_mm);
+    }
+    assert!(places.iter().all(|it| it.len() > 3), "{places:?}");
+    assert!(places[0].iter().all(|it| !places[1].contains(it)), "{places:?}");
+}
+
 #[test]
 fn random_events_come_as_often_as_the_file_says() {
     let mission = patrol();
@@ -292,4 +311,35 @@ fn options_that_do_not_fit_are_refused() {
         r#"event = [{ x_mm = 1, kind = "fault", hardware = "actuators", units_lost = 1 }]"#,
     );
     assert_eq!(Simulation::new(&mission, &foreign).unwrap_err(), SetupError::ForeignFaults);
+    // The shuttle has two kinds of hardware and three zones, numbered from 0.
+    let zone =
+        |zone| Faults { power_errors: vec![PowerError { zone, permille: 1 }], ..Faults::default() };
+    let fault = |hardware| {
+        let kind = EventKind::Fault { hardware, units: 1 };
+        Faults { events: vec![Event { x: Millimetres(1), kind }], ..Faults::default() }
+    };
+    let ready = |faults: Faults| {
+        let faults = FaultChoice::Given { source: "test".into(), faults };
+        Simulation::new(&mission, &Options { faults, ..Options::default() }).map(|_| ())
+    };
+    assert_eq!([zone(2), fault(1)].map(ready), [Ok(()), Ok(())]);
+    let foreign = [zone(3), fault(2)].map(|it| ready(it).unwrap_err());
+    assert_eq!(foreign, [SetupError::ForeignFaults, SetupError::ForeignFaults]);
+}
+
+#[test]
+fn random_events_may_take_so_many_draws_and_no_more() {
+    let drawn = |text: &str, count: usize| {
+        let mission = Mission::parse("shuttle.toml", text).unwrap();
+        let kind = EventKind::Obstacle { delay: Millis(1) };
+        let random = vec![RandomEvent { name: String::new(), per_km: 1, kind }; count];
+        let faults = Faults { random, ..Faults::default() };
+        let faults = FaultChoice::Given { source: "test".into(), faults };
+        Simulation::new(&mission, &Options { faults, ..Options::default() }).map(|_| ())
+    };
+    assert_eq!(drawn(SHUTTLE, 50_000), Ok(()));
+    assert_eq!(drawn(SHUTTLE, 50_001), Err(SetupError::TooManyDraws { draws: 10_000_200 }));
+    // Half of a metre takes a draw as well.
+    let longer = SHUTTLE.replace("200000", "200500");
+    assert_eq!(drawn(&longer, 49_752), Err(SetupError::TooManyDraws { draws: 10_000_152 }));
 }

@@ -146,6 +146,19 @@ fn errors_say_where_and_what() {
     let parse = |limits| Trace::parse_within("t.jsonl", original, limits).unwrap_err().to_string();
     assert!(parse(Limits { bytes: 10, ..Limits::default() }).contains("at most 10 are read"));
     assert!(parse(Limits { line_bytes: 10, ..Limits::default() }).contains("at most 10 are read"));
+    // Time runs on where the robot stands, too.
+    let records = Trace::parse("t.jsonl", original).unwrap().records;
+    let stands = |it: &[Record]| it[0].x_mm() == it[1].x_mm() && it[0].t_us() < it[1].t_us();
+    let at = records.windows(2).position(stands).unwrap();
+    let mut swapped = lines.clone();
+    swapped.swap(at + 1, at + 2);
+    assert!(error(&swapped.join("\n")).contains("before that of the last"));
+    // What is just within the limits is read.
+    let longest = lines.iter().map(|it| it.len()).max().unwrap();
+    let just = Limits { bytes: original.len(), line_bytes: longest, records: lines.len() - 1 };
+    assert!(Trace::parse_within("t.jsonl", original, just).is_ok());
+    assert!(parse(Limits { line_bytes: longest - 1, ..just }).contains("bytes, at most"));
+    assert!(parse(Limits { bytes: original.len() - 1, ..just }).contains("bytes, at most"));
     assert_eq!(
         parse(Limits { records: 3, ..Limits::default() }),
         "t.jsonl:5:1: more than 3 records"

@@ -50,15 +50,49 @@ fn write(path: &Path, text: &str) -> std::io::Result<()> {
     fs::rename(new, path)
 }
 
-/// The folder of public files that this environment variable names; `None`, said loudly, without
-/// it: then `what` is not tested.
+/// The folder of public files that this environment variable names; `None`, said loudly, where it
+/// names none and tests of public files are to be [skipped](skips). Then `what` is not tested.
+///
+/// # Panics
+/// When the variable names a folder that is not there, or that is empty; when it names none and the
+/// test is not to be skipped.
 #[must_use]
+#[track_caller]
 pub fn public_folder(variable: &str, what: &str) -> Option<PathBuf> {
-    let folder = std::env::var_os(variable).map(PathBuf::from);
-    if folder.is_none() {
-        skipped(&format!("{variable} names no folder to test {what} with"));
+    let named = std::env::var_os(variable).map(PathBuf::from);
+    match folder_or_skip(named, skips()) {
+        Ok(Some(folder)) => Some(folder),
+        Ok(None) => {
+            skipped(&format!("{variable} names no folder to test {what} with"));
+            None
+        }
+        Err(why) => panic!("{variable}: {why}"),
     }
-    folder
+}
+
+/// The folder that was named, or none where none was and that is no mistake.
+///
+/// # Errors
+/// What is wrong with the folder, or that there must be one.
+pub fn folder_or_skip(named: Option<PathBuf>, skips: bool) -> Result<Option<PathBuf>, String> {
+    let Some(folder) = named else {
+        let why = "it names no folder; COTAMA_SKIP_PUBLIC=1 skips this test";
+        return if skips { Ok(None) } else { Err(why.into()) };
+    };
+    match fs::read_dir(&folder).map(|mut files| files.next().is_some()) {
+        Ok(true) => Ok(Some(folder)),
+        Ok(false) => Err(format!("{} is empty", folder.display())),
+        Err(error) => Err(format!("{}: {error}", folder.display())),
+    }
+}
+
+/// Whether tests that need what is no part of the project, public files or Graphviz, are skipped
+/// where it is missing: if `COTAMA_SKIP_PUBLIC` is 1. Cargo sets it so in this workspace
+/// (`.cargo/config.toml`), so that tests pass where nothing else is installed; who has all of it
+/// sets 0, as `.ci/run` does.
+#[must_use]
+pub fn skips() -> bool {
+    std::env::var_os("COTAMA_SKIP_PUBLIC").is_some_and(|it| it == "1")
 }
 
 /// Says what a test does not test here, and why.

@@ -276,7 +276,7 @@ def run(defects):
 
 
 def main():
-    os.environ.update({"LC_ALL": "C", "CARGO_TERM_COLOR": "never"})
+    os.environ.update({"LC_ALL": "C", "CARGO_TERM_COLOR": "never", "COTAMA_SKIP_PUBLIC": "1"})
     for name in ("COTAMA_MCC_DIR", "COTAMA_TPN_DIR", "UPDATE_GOLDEN"):
         os.environ.pop(name, None)
     if "--table" in sys.argv:

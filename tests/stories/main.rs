@@ -7,6 +7,7 @@ mod greedy;
 mod once_wrong;
 mod patrol;
 mod players;
+mod skips;
 mod systems;
 #[allow(dead_code, unreachable_pub)] // the core tests and benchmarks read it too
 #[path = "../../core/tests/team/teams.rs"]

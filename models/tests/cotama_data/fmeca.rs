@@ -134,3 +134,52 @@ fn the_rows_counted() {
         [10, 7, 15, 8]
     );
 }
+
+#[test]
+fn of_several_settings_the_slowest_and_the_poorest_hold() {
+    use cotama_models::cotama::{Adjusted, Adjustment, Adjustments, Mode};
+    let both = Adjustments::of(&[Adjustment::TrustLocalisation, Adjustment::WidenTolerance]);
+    assert_eq!(both.effect(Mode::Autonomous), Adjusted { speed: 700, quality: 900 });
+    let none = Adjusted { speed: 1_000, quality: 1_000 };
+    assert_eq!(Adjustments::NONE.effect(Mode::Autonomous), none);
+    // Frames count where the operator drives.
+    let frames = Adjustments::of(&[Adjustment::FewerFrames]);
+    assert_eq!(frames.effect(Mode::Autonomous), none);
+    assert_eq!(frames.effect(Mode::Teleoperated), Adjusted { speed: 500, quality: 800 });
+}
+
+#[test]
+fn several_candidates_change_a_setting_only_if_they_agree() {
+    use cotama_models::cotama::FailureMode::{Cam2, Com2, Odo2, Odo3};
+    use cotama_models::cotama::{Adjustment, Diagnosis, FailureModes};
+    let of = |modes: &[_]| Diagnosis::Ambiguous(FailureModes::of(modes)).adjustment();
+    assert_eq!(of(&[Cam2, Com2]), Some(Adjustment::FewerFrames));
+    assert_eq!(of(&[Odo2, Odo3]), None);
+}
+
+/// The worst of what it may be, and the report that all of it has.
+#[test]
+fn what_is_not_unique_is_judged_by_its_worst() {
+    use cotama_models::cotama::FailureMode::{Cam1, Cam2, Mot1, Mot2, Odo2, Odo4, Son1};
+    use cotama_models::cotama::{Diagnosis, FailureModes, Flag, Flags, Mode, Report, Severity};
+    let judged = |modes: &[_], flags: &[_]| {
+        let diagnosis = Diagnosis::Ambiguous(FailureModes::of(modes));
+        diagnosis.judged(Flags::of(flags), Mode::Autonomous)
+    };
+    // Medium and weak, both minor.
+    assert_eq!(judged(&[Odo2, Odo4], &[]), (Some(Report::Minor), Severity::Medium));
+    assert_eq!(judged(&[Son1, Cam2], &[]), (Some(Report::Ambiguous), Severity::Hard));
+    assert_eq!(judged(&[Cam1, Mot2], &[Flag::Bumper]), (Some(Report::Collision), Severity::Hard));
+    assert_eq!(judged(&[Mot1], &[]), (Some(Report::Vital), Severity::Fatal));
+}
+
+#[test]
+fn what_makes_or_reads_sonar_values_is_lost_as_the_sonars_are() {
+    use cotama_models::cotama::{Health, Loss, Resource, Resources};
+    let faulty = |it| Losses::from(Health { faulty: Modules::of(&[it]), ..Health::SOUND });
+    assert!([Module::Sim, Module::Ust].into_iter().all(|it| faulty(it).has(Loss::Sonar)));
+    assert!(!faulty(Module::Mcl).has(Loss::Sonar) && faulty(Module::Mcl).has(Loss::Mcl));
+    let lost = |it| Losses::from(Health { lost: Resources::of(&[it]), ..Health::SOUND });
+    assert!(lost(Resource::SonarArrays).has(Loss::Sonar) && lost(Resource::Map).has(Loss::Mcl));
+    assert!(lost(Resource::Camera).has(Loss::Camera) && lost(Resource::LaptopCpu).has(Loss::Vital));
+}

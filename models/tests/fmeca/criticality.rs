@@ -30,6 +30,17 @@ fn the_small_file() {
     assert_eq!(told, expected);
 }
 
+/// 0.4 * 0.25 * 10 / 150,000 is 6,666.67 in parts of 10^9.
+#[test]
+fn a_criticality_number_is_rounded_half_up() {
+    let number = |mtbf: &str| {
+        let read = Analysis::parse("small.toml", &with(&[("mtbf_h = 1e5", mtbf)])).unwrap();
+        read.criticality(&read.modes()[3]).number_e9
+    };
+    assert_eq!(number("mtbf_h = 150000"), Some(6_667));
+    assert_eq!(number("mtbf_h = 300000"), Some(3_333));
+}
+
 #[test]
 fn what_the_file_says_of_detection_replaces_the_table() {
     let text = with(&[("latency_ms = 100\n", "latency_ms = 100\ndetection_rank = 6\n")]);

@@ -173,3 +173,10 @@ fn comma_separated_values_hold_all_but_the_declarations() {
     assert_eq!(read.names(&a.flags), ["one", "two"]);
     assert_eq!(read.names(&b.flags), ["one two"]);
 }
+
+#[test]
+fn quotes_in_comma_separated_values_are_doubled() {
+    let text = with(&[("cause = \"another device\"", "cause = 'a \"foreign\" device, late'")]);
+    let csv = Analysis::parse("small.toml", &text).unwrap().to_csv();
+    assert!(csv.contains(",\"a \"\"foreign\"\" device, late\","), "{csv}");
+}

@@ -3,9 +3,9 @@
 use cotama_core::units::{MillimetresPerSecond, Millis};
 use cotama_models::cotama::FailureMode::{self, Bmp1, Mot3, Opr1, Son1, Son2};
 use cotama_models::cotama::{
-    Body, Configuration, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags, Modules,
-    NoPlanLeft, NoPlans, PATIENCE, PATIENCE_WITH_PLANNER, Perceived, Plans, Requests, Resource,
-    Resources, Told, Why, Word, available, delivery, faults, operator,
+    Body, Class, Configuration, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags,
+    Modules, NoPlanLeft, NoPlans, PATIENCE, PATIENCE_WITH_PLANNER, Perceived, Plans, Requests,
+    Resource, Resources, Told, Why, Word, available, delivery, faults, operator,
 };
 
 const STANDS: Body = Body { at_goal: false, stands: true };
@@ -116,9 +116,11 @@ fn a_sonar_that_sees_too_far_costs_the_sonars_and_the_speed() {
 #[test]
 fn a_failure_that_has_passed_does_not_hide_another_one() {
     let mut robot = Robot::following();
-    assert_eq!(robot.sees(&[Flag::SonarFar]).diagnosis, Diagnosis::Unique(Son1));
+    let first = robot.sees(&[Flag::SonarFar]);
+    assert_eq!((first.diagnosis, first.cause.0), (Diagnosis::Unique(Son1), 1));
     robot.step(Perceived { lowered: Flags::of(&[Flag::SonarFar]), ..QUIET }, None);
-    assert_eq!(robot.sees(&[Flag::SonarSilent]).diagnosis, Diagnosis::Unique(Son2));
+    let second = robot.sees(&[Flag::SonarSilent]);
+    assert_eq!((second.diagnosis, second.cause.0), (Diagnosis::Unique(Son2), 2));
 }
 
 #[test]
@@ -148,11 +150,32 @@ fn a_planner_that_is_silent_for_too_long_has_failed() {
         }
         told
     };
-    assert_eq!(told(&mut robot, PATIENCE_WITH_PLANNER.0), []);
+    let first = robot.now + 100;
+    assert_eq!(told(&mut robot, first), []);
+    let since = robot.decider.since().0;
+    assert_eq!(told(&mut robot, since + PATIENCE_WITH_PLANNER.0 - 100), []);
     let failed = Told::Failure(faults::Event::no_path);
-    assert_eq!(told(&mut robot, PATIENCE_WITH_PLANNER.0 + 500), [failed]);
+    assert_eq!(told(&mut robot, since + PATIENCE_WITH_PLANNER.0), [failed]);
     assert_eq!(robot.decider.plannings_failed(), 1);
-    assert!(robot.decider.requests().ask);
+    assert!(robot.after(3).ask);
+}
+
+#[test]
+fn a_planner_has_not_failed_while_a_failure_is_still_to_be_told() {
+    let mut robot = Robot::given(Word::MissionReceived);
+    robot.step(QUIET, None);
+    let last = robot.decider.since().0 + PATIENCE_WITH_PLANNER.0 - 100;
+    while robot.now < last {
+        robot.step(QUIET, None);
+    }
+    let told = robot.step(Perceived { raised: Flags::of(&[Flag::SonarFar]), ..QUIET }, None).1;
+    assert_eq!(told, Some(Told::Failure(faults::Event::lose_sonar)));
+    assert_eq!(robot.decider.plannings_failed(), 0);
+    while !robot.decider.listens() {
+        robot.step(QUIET, None);
+    }
+    robot.step(QUIET, None);
+    assert_eq!(robot.decider.plannings_failed(), 1);
 }
 
 #[test]
@@ -170,17 +193,44 @@ fn an_operator_who_is_silent_for_too_long_ends_the_mission_once() {
     assert_eq!(at - asked, PATIENCE.0 + 100);
     let requests = robot.decider.requests();
     assert!(requests.halt && requests.alarm && !requests.drive);
+    // It is in `Safe`, behind waiting, four objectives, done and security.
+    assert_eq!(robot.decider.global().0, 7);
+}
+
+#[test]
+fn an_operator_who_drives_is_not_silent_until_the_robot_stands() {
+    let mut robot = Robot::following();
+    robot.sees(&[Flag::Stall]);
+    assert!(robot.after(3).ask);
+    robot.step(QUIET, Some(Word::Operator(operator::Event::teleoperate)));
+    robot.after(2);
+    let mut until_found = |stands: bool, until: u64| {
+        while robot.now < until {
+            robot.now += 100;
+            let now = Millis(robot.now);
+            assert_eq!(robot.decider.perceive(now, QUIET, &mut NoPlans), None);
+            let body = Body { at_goal: false, stands };
+            if robot.decider.round(now, None, body, &mut ()).finding.is_some() {
+                break;
+            }
+        }
+        robot.now
+    };
+    assert_eq!(until_found(false, 300_000), 300_000);
+    assert_eq!(until_found(true, 600_000), 300_000 + PATIENCE.0);
 }
 
 /// A plan that needs the sonars, and a limit that cannot be kept without them.
+#[derive(Default)]
 struct Tight {
     asked: Vec<(Why, Modules)>,
     short: Option<usize>,
+    over: bool,
 }
 
 impl Plans for Tight {
     fn is_over(&self) -> bool {
-        false
+        self.over
     }
 
     fn plan(&mut self, why: Why, available: Modules) -> Result<bool, NoPlanLeft> {
@@ -200,7 +250,7 @@ impl Plans for Tight {
 #[test]
 fn no_plan_that_keeps_the_limits_is_a_question_to_the_operator() {
     let mut robot = Robot::following();
-    let mut plans = Tight { asked: Vec::new(), short: None };
+    let mut plans = Tight::default();
     let seen = Perceived { raised: Flags::of(&[Flag::SonarFar]), ..QUIET };
     robot.step_with(seen, None, &mut plans);
     let left = robot.decider.relied_on();
@@ -211,9 +261,30 @@ fn no_plan_that_keeps_the_limits_is_a_question_to_the_operator() {
 }
 
 #[test]
+fn when_all_is_done_nothing_is_planned_again() {
+    let mut robot = Robot::following();
+    let mut plans = Tight { over: true, ..Tight::default() };
+    let seen = Perceived { raised: Flags::of(&[Flag::SonarFar]), ..QUIET };
+    robot.step_with(seen, None, &mut plans);
+    assert_eq!(plans.asked, []);
+}
+
+/// He drives, and the link to him is lost: nobody can be asked whether the robot goes on alone.
+#[test]
+fn an_operator_who_cannot_be_reached_is_no_way_out() {
+    let mut robot = Robot::following();
+    robot.sees(&[Flag::Stall]);
+    assert!(robot.after(3).ask);
+    robot.step(QUIET, Some(Word::Operator(operator::Event::teleoperate)));
+    robot.after(2);
+    let judged = robot.sees(&[Flag::LinkDown]).judged.unwrap();
+    assert_eq!(judged.by_availability, Class::Global);
+}
+
+#[test]
 fn a_margin_below_zero_is_looked_at_once_a_second_and_asked_about_once() {
     let mut robot = Robot::following();
-    let mut plans = Tight { asked: Vec::new(), short: Some(1) };
+    let mut plans = Tight { short: Some(1), ..Tight::default() };
     while robot.now < 5_000 {
         robot.step_with(QUIET, None, &mut plans);
     }
@@ -233,4 +304,52 @@ fn flags_that_no_row_explains_are_for_the_operator_and_never_a_panic() {
             assert!(!(requests.halt && requests.drive), "{a:?} {b:?}");
         }
     }
+}
+
+/// A plan that is always there, and never keeps its limit.
+struct Short(u32);
+
+impl Plans for Short {
+    fn is_over(&self) -> bool {
+        false
+    }
+
+    fn plan(&mut self, _: Why, _: Modules) -> Result<bool, NoPlanLeft> {
+        self.0 += 1;
+        Ok(true)
+    }
+
+    fn configuration(&self) -> Option<Configuration> {
+        None
+    }
+
+    fn short(&self) -> Option<usize> {
+        Some(0)
+    }
+}
+
+#[test]
+fn a_margin_below_zero_is_planned_away_once_a_second() {
+    let (mut robot, mut plans) = (Robot::following(), Short(0));
+    assert!(robot.now < 1_000);
+    while robot.now < 5_900 {
+        robot.step_with(QUIET, None, &mut plans);
+    }
+    assert_eq!(plans.0, 5);
+    assert!(!robot.decider.requests().ask);
+}
+
+/// The adapter takes fewer particles while readings are rejected, and for five seconds afterwards.
+#[test]
+fn an_adapted_setting_lasts_for_five_seconds_after_its_flag() {
+    let mut robot = Robot::following();
+    robot.sees(&[Flag::SonarOutliers]);
+    robot.after(9);
+    let last_seen = robot.now;
+    robot.step(Perceived { lowered: Flags::of(&[Flag::SonarOutliers]), ..QUIET }, None);
+    assert_eq!(robot.decider.requests().adjusted.quality, 750);
+    while robot.decider.requests().adjusted.quality < 1_000 {
+        robot.after(1);
+    }
+    assert_eq!(robot.now - last_seen, 5_000);
 }

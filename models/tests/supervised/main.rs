@@ -7,6 +7,8 @@
 mod broken;
 mod decider;
 mod delivery;
+mod edges;
 mod file;
 mod nets;
 mod pending;
+mod returns;

@@ -257,3 +257,32 @@ fn the_largest_bid_is_exact() {
     assert_eq!(Some(cost), Ratio::new(u128::from(u32::MAX) * twice, 2));
     assert_eq!(failure_aware_cost(&[step; 33]), None);
 }
+
+#[test]
+fn a_plan_has_so_many_steps_and_no_more() {
+    // (1 + 2 + .. + 32) / 32
+    assert_eq!(failure_cost([1; 32]), Ratio::new(33, 2));
+    assert_eq!(failure_cost([1; 33]), None);
+}
+
+/// What costs nothing costs nothing when it fails: the bid is for the plan that fails less.
+#[test]
+fn of_bids_that_cost_the_same_the_most_reliable_is_made() {
+    let [loose, firm] = [0, 1].map(|it| Capability::new(it).unwrap());
+    let skills = [
+        Skill { capability: loose, reliability: Reliability::Permille(500) },
+        Skill::certain(firm),
+    ];
+    let robot = Robot { name: "two grippers", skills: &skills };
+    let actions = [loose, firm].map(|it| [Action { name: "grasp", needs: Constraint::Has(it) }]);
+    let plans = actions.each_ref().map(|it| ActionPlan { name: "grasp", actions: it });
+    let role = Role { name: "grasp", plans: &plans };
+    assert_eq!(Bid::for_role(&robot, &role, |_, _| 0).unwrap().plan, 1);
+}
+
+/// Half more than the cost, but no more than another robot asks; its own cost in any case.
+#[test]
+fn a_pledge_is_never_below_the_cost() {
+    let most = |second| Pledge::of(100, second, 500).most;
+    assert_eq!([None, Some(200), Some(120), Some(50)].map(most), [150, 150, 120, 100]);
+}

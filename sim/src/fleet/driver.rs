@@ -360,4 +360,23 @@ mod tests {
         let (slow, stage) = last(FailureMode::Son1);
         assert!(stage == Stage::Done && slow > 80_000, "{slow}");
     }
+
+    /// The link to the robot drops packets for ten seconds, twice and overlapping: it goes at seven
+    /// tenths until five seconds after the last of them.
+    #[test]
+    fn a_flag_stays_up_while_another_failure_holds_it() {
+        let mut driver = Driver::new(true);
+        driver.begin(0, [60_000, 60_000]);
+        let mut slowed = Vec::new();
+        for now in (0..60_000).step_by(100) {
+            if now == 20_000 || now == 26_000 {
+                driver.fail(now, FailureMode::P3d2);
+            }
+            driver.round(now, false);
+            slowed.extend((driver.speed_mm_s == 210).then_some(now));
+        }
+        let ends = (slowed.first().copied(), slowed.last().copied());
+        assert_eq!(ends, (Some(22_100), Some(40_800)));
+        assert_eq!(slowed.len() as u64, (40_800 - 22_100) / 100 + 1);
+    }
 }

@@ -1,9 +1,10 @@
 //! What must hold of every run.
 
-use super::campaign::compare;
+use super::allocate::Allocator;
+use super::campaign::{Spread, compare};
 use super::record::{Fate, Record, Run};
 use super::scenarios::{FleetOptions, ServiceOptions, Worst, fleet, service, worst};
-use super::task::Method;
+use super::task::{Method, Offer, TaskSpec};
 use super::world::{Variant, World};
 use super::{Kind, run, run_recorded};
 
@@ -129,4 +130,59 @@ fn every_task_is_done_once_or_reported_over_a_thousand_seeds() {
         assert_eq!((ended, unsound), (200 * 200, 0), "{loss_permille}: {results:?}");
         println!("{loss_permille}: {results:?}");
     }
+}
+
+/// One robot, two tasks of the same cost and the same use: who has waited longer comes first, and
+/// one robot does one task.
+#[test]
+fn of_two_tasks_the_one_that_waits_longer_is_given_out() {
+    let mut scenario = fleet(&FleetOptions::default());
+    let alone = scenario.tasks.iter().find_map(|task| {
+        let plan = task.plans.iter().find(|it| it.roles.len() == 1)?;
+        Some(TaskSpec { utility_ms: 1_000, plans: vec![plan.clone()], ..task.clone() })
+    });
+    scenario.tasks = vec![alone.unwrap(); 2];
+    let offer = |task| Offer { task, plan: 0, role: 0, cost_ms: 100 };
+    let offers = [offer(0), offer(1)];
+    for method in [Method::Optimal, Method::Rounds, Method::OneByOne] {
+        scenario.method = method;
+        let chosen = |waited_ms: [u64; 2]| {
+            let bids = [(0, &offers[..])];
+            let shares = Allocator::default().choose(&scenario, &[0, 1], &waited_ms, &bids);
+            shares.iter().map(|it| it.task).collect::<Vec<_>>()
+        };
+        // One by one they come in their order.
+        let second = if method == Method::OneByOne { 0 } else { 1 };
+        assert_eq!([chosen([500, 0]), chosen([0, 500])], [[0], [second]], "{method:?}");
+    }
+}
+
+#[test]
+fn a_spread_is_a_mean_rounded_half_away_from_zero_and_a_width_rounded_up() {
+    let of = |values: &[i64]| Spread::of(values).map(|it| (it.mean, it.half_width));
+    assert_eq!(of(&[]), None);
+    assert_eq!(of(&[7]), Some((7, 0)));
+    // 2.5 and 1.96 times the root of 5/12, 1.27; 25 and 49 sharp.
+    assert_eq!((of(&[1, 2, 3, 4]), of(&[-1, -2, -3, -4])), (Some((3, 2)), Some((-3, 2))));
+    assert_eq!(of(&[0, 50]), Some((25, 49)));
+}
+
+#[test]
+fn a_run_is_sound_if_each_task_ended_and_was_delivered_once_where_it_is_done() {
+    let sound = |fate, deliveries| {
+        Run { fates: vec![fate], deliveries: vec![deliveries], ..Run::default() }.is_sound()
+    };
+    assert_eq!([0, 1, 2].map(|it| sound(Fate::Done, it)), [false, true, false]);
+    // It was put down at its goal, and nobody heard of it.
+    assert_eq!([0, 1, 2].map(|it| sound(Fate::Reported, it)), [true, true, false]);
+    assert_eq!([0, 1].map(|it| sound(Fate::Open, it)), [false, false]);
+}
+
+#[test]
+fn what_nobody_can_do_is_reported_after_three_auctions() {
+    let options = FleetOptions { robots: 2, tasks: 1, failures: 0, ..FleetOptions::default() };
+    let mut scenario = fleet(&options);
+    scenario.robots.iter_mut().for_each(|it| it.skills.clear());
+    let run = run(&scenario);
+    assert_eq!((&run.fates[..], run.rounds), (&[Fate::Reported][..], 3));
 }

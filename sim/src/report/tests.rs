@@ -6,6 +6,7 @@ use cotama_core::units::Millis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 
+mod data;
 mod reading;
 
 fn recorded(text: &str, options: &Options) -> Trace {

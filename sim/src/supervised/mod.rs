@@ -16,6 +16,7 @@ mod laptop;
 pub mod operator;
 mod plan;
 pub mod robot;
+mod script;
 pub mod story;
 mod summary;
 mod world;
@@ -24,6 +25,7 @@ pub use cotama_models::cotama::Judged;
 pub use effect::{Effect, Ends, Motion, effect};
 pub(crate) use effect::{observable, raises};
 pub use operator::Answers;
+pub use script::{Injection, Script, When};
 pub use world::{PERIOD, PLANNING};
 
 use crate::options::{Aim, Planner};
@@ -35,91 +37,11 @@ use cotama_core::player::{Packed, Program};
 use cotama_core::system::{Component, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{
-    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Module, Told, delivery, global,
-    local, recovering,
+    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Told, delivery, global, local,
+    recovering,
 };
-use cotama_models::missions::faults::{Faults, IncidentKind};
 use cotama_models::missions::{Does, Mission};
 use world::{CLOCKS, World};
-
-/// What goes wrong, and what the operator answers.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Script {
-    /// Failures, each once.
-    pub injections: Vec<Injection>,
-    /// The operator's answers to requests, in their order; where there is none he has his habits.
-    pub answers: Vec<Answers>,
-}
-
-impl From<&Faults> for Script {
-    /// The failures and answers of a mission's own script.
-    fn from(faults: &Faults) -> Self {
-        let mut script = Self::default();
-        for incident in &faults.incidents {
-            match &incident.kind {
-                IncidentKind::Failure(mode) => {
-                    script.injections.push(Injection::new(When::Place(incident.x), *mode));
-                }
-                IncidentKind::Repair(mode) => {
-                    let under_way = |it: &&mut Injection| it.mode == *mode && it.until.is_none();
-                    if let Some(it) = script.injections.iter_mut().rfind(under_way) {
-                        it.until = Some(When::Place(incident.x));
-                    }
-                }
-                IncidentKind::Operator { answers, delay } => {
-                    let (answers, delay) = (answers.clone(), *delay);
-                    script.answers.push(Answers { x: incident.x, answers, delay });
-                }
-            }
-        }
-        script
-    }
-}
-
-/// A failure that is to happen.
-///
-/// ```
-/// use cotama_core::units::Millis;
-/// use cotama_models::cotama::FailureMode;
-/// use cotama_models::missions::{Mission, embedded};
-/// use cotama_sim::supervised::{Decided, Injection, Script, Supervised, When};
-/// let delivery = embedded::mission("delivery").unwrap();
-/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
-/// let failure = Injection::new(When::At(Millis(20_000)), FailureMode::Rt1);
-/// let script = Script { injections: vec![failure], ..Script::default() };
-/// let run = Supervised::new(&mission).unwrap().run(&script).unwrap();
-/// // Localisation is late again and again: an adapter takes fewer particles.
-/// assert_eq!(run.conduct[0].decided.unwrap().1, Decided::Adapter);
-/// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Injection {
-    /// When.
-    pub when: When,
-    /// What fails.
-    pub mode: FailureMode,
-    /// Which module, if the failure is one of a module, whichever it is.
-    pub part: Module,
-    /// When it ends, if not by itself.
-    pub until: Option<When>,
-}
-
-impl Injection {
-    /// A failure; if it is one of a module, whichever it is, then of avoidance.
-    pub const fn new(when: When, mode: FailureMode) -> Self {
-        Self { when, mode, part: Module::Smz, until: None }
-    }
-}
-
-/// When something is to fail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum When {
-    /// So long after the start.
-    At(Millis),
-    /// Where the robot has come so far along the path.
-    Place(Millimetres),
-    /// So long after the local supervisor has come to a place for the first time.
-    During(local::State, Millis),
-}
 
 /// A transition of a supervisor that fired.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -350,16 +272,55 @@ impl<'m> Supervised<'m> {
         period: Millis,
         recorder: &mut R,
     ) -> Result<Run, NoPlan> {
+        self.started(script, period, Millis(0), recorder).map(|it| it.0)
+    }
+
+    /// Runs it, and watches the robot for so long after the end: how far it still goes. The
+    /// supervisors stay as they are at the end, failures go on, and nobody gives a new mission.
+    ///
+    /// ```
+    /// use cotama_core::units::{Millimetres, Millis};
+    /// use cotama_models::cotama::FailureMode::Bat2;
+    /// use cotama_models::missions::{Mission, embedded};
+    /// use cotama_sim::run::Outcome;
+    /// use cotama_sim::supervised::{Injection, Script, Supervised, When};
+    /// let delivery = embedded::mission("delivery").unwrap();
+    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// let injections = vec![Injection::new(When::Place(Millimetres(5_000)), Bat2)];
+    /// let script = Script { injections, ..Script::default() };
+    /// let supervised = Supervised::new(&mission).unwrap();
+    /// let (run, way) = supervised.run_and_watch(&script, Millis(60_000)).unwrap();
+    /// assert_eq!((run.outcome, way), (Outcome::Safe, Millimetres(0)));
+    /// ```
+    ///
+    /// # Errors
+    /// When there is no plan at the start; nothing is run then.
+    pub fn run_and_watch(
+        &self,
+        script: &Script,
+        after: Millis,
+    ) -> Result<(Run, Millimetres), NoPlan> {
+        self.started(script, Millis(1_000), after, &mut Silent)
+    }
+
+    /// A run, and how far the robot still goes after its end.
+    fn started<R: Recorder>(
+        &self,
+        script: &Script,
+        period: Millis,
+        after: Millis,
+        recorder: &mut R,
+    ) -> Result<(Run, Millimetres), NoPlan> {
         let (mission, planner) = (self.mission, self.planner);
         match &self.supervisors {
             Supervisors::Delivery => {
                 let world = World::start(mission, global::NET, delivery::Program, script, planner)?;
-                Ok(finish(world, period, recorder))
+                Ok(finish(world, period, after, recorder))
             }
             Supervisors::Recovering => {
                 let world =
                     World::start(mission, global::NET, recovering::Program, script, planner)?;
-                Ok(finish(world, period, recorder))
+                Ok(finish(world, period, after, recorder))
             }
             Supervisors::Made(net, packed) => {
                 let view = net.view();
@@ -368,7 +329,7 @@ impl<'m> Supervised<'m> {
                 let system = System { components: &components, ..shipped(mission) };
                 let program = packed.load(&system);
                 let world = World::start(mission, net, program, script, planner)?;
-                Ok(finish(world, period, recorder))
+                Ok(finish(world, period, after, recorder))
             }
         }
     }
@@ -393,11 +354,12 @@ fn is_delivery(mission: &Mission) -> bool {
     does.eq([Drive, Receive, Drive, Deliver].map(Some))
 }
 
-fn finish<P: Program<W, CLOCKS, S>, const W: usize, const S: usize, R: Recorder>(
+fn finish<P: Program<W, CLOCKS, S> + Clone, const W: usize, const S: usize, R: Recorder>(
     mut world: World<'_, P, W, S>,
     period: Millis,
+    after: Millis,
     recorder: &mut R,
-) -> Run {
+) -> (Run, Millimetres) {
     let mut recorded = world::Recorded::default();
     loop {
         if R::WANTED {
@@ -411,5 +373,6 @@ fn finish<P: Program<W, CLOCKS, S>, const W: usize, const S: usize, R: Recorder>
         world.record(&mut recorded, period, recorder);
         world.record_end(&mut recorded, recorder);
     }
-    world.into_run()
+    let way = if after > Millis(0) { world.clone().way_in(after) } else { Millimetres(0) };
+    (world.into_run(), way)
 }

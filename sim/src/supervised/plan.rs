@@ -216,3 +216,37 @@ impl<'m> Planning<'m> {
 fn signed(amount: u64) -> i64 {
     i64::try_from(amount).unwrap_or(i64::MAX)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cotama_models::missions::embedded;
+
+    #[test]
+    fn a_plan_that_fills_a_limit_to_the_last_unit_keeps_it() {
+        let delivery = embedded::mission("delivery").unwrap();
+        let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+        let mut planning = Planning::new(&mission, crate::supervised::PLANNER);
+        let start = Progress { activity: 0, rest: None, now: Millis(0), x_mm: 0, used: [0; 2] };
+        planning.plan(PlanCause::Start, start, Modules::ALL).unwrap();
+        let rest = planning.rest(start);
+        let left = [0, 1].map(|axis| mission.limits[axis] - rest[axis]);
+        let short = |used| planning.short(Progress { used, ..start });
+        assert_eq!(short(left), None);
+        assert_eq!(short([left[0] + 1, left[1]]), Some(0));
+        assert_eq!(short([left[0], left[1] + 1]), Some(1));
+        assert_eq!(short(left.map(|it| it + 1)), Some(mission.order[0]));
+    }
+
+    #[test]
+    fn where_an_activity_begins_it_is_under_way() {
+        let delivery = embedded::mission("delivery").unwrap();
+        let zone = "[[zone]]\nid = \"hall\"\nx_start_mm = 60000\nx_end_mm = 70000\n[run]";
+        let text = delivery.text.replacen("[run]", zone, 1);
+        let mission = Mission::parse(delivery.name, &text).unwrap();
+        let planning = Planning::new(&mission, crate::supervised::PLANNER);
+        let at = |x_mm: u64| planning.activity(2, x_mm);
+        // The first drive, the object, and three parts of the second drive.
+        assert_eq!([40_000, 59_999, 60_000, 69_999, 70_000, 80_000].map(at), [2, 2, 3, 3, 4, 4]);
+    }
+}

@@ -61,6 +61,7 @@ impl Failure {
 }
 
 /// A mission under way.
+#[derive(Clone)]
 pub(super) struct World<'m, P, const W: usize, const S: usize> {
     mission: &'m Mission,
     /// The supervisors, and the net of the global one, which may be another one.
@@ -176,6 +177,15 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         end.is_some()
     }
 
+    /// How far the robot goes in this time.
+    pub(super) fn way_in(mut self, time: Millis) -> Millimetres {
+        let (from, until) = (self.robot.x(), Millis(self.now.0.saturating_add(time.0)));
+        while self.now < until {
+            self.period();
+        }
+        Millimetres(self.robot.x().0 - from.0)
+    }
+
     /// The run, when it is over.
     pub(super) fn into_run(mut self) -> Run {
         self.run.time = self.now;
@@ -271,15 +281,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         broken.fold(Health::SOUND, Health::union)
     }
 
-    /// The robot goes on for a period.
+    /// The robot goes on for a period, whatever the mission is about: who holds a permit moves it.
     fn travel(&mut self) {
-        let (Objective::Stands(_) | Objective::Drives(_)) = self.objective() else {
-            let before = self.robot;
-            self.robot.go(MillimetresPerSecond(0), self.end(), PERIOD);
-            self.run.moved_when_safe |=
-                matches!(self.objective(), Objective::Safe) && before.speed().0 > 0;
-            return;
-        };
+        let (objective, before) = (self.objective(), self.robot.x());
         let activity = self.activity();
         let (pace, power) = self.planning.pace(activity, self.decider.situation().configuration());
         // Only who holds a permit may command motion.
@@ -317,11 +321,13 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         } else {
             self.end()
         };
-        let before = self.robot.x().0;
         self.robot.go(towards, end, PERIOD);
-        self.drive_well(activity, self.robot.x().0 - before);
-        self.energy_uj += power.0 * PERIOD.0;
-        self.measure();
+        if matches!(objective, Objective::Stands(_) | Objective::Drives(_)) {
+            self.drive_well(activity, self.robot.x().0 - before.0);
+            self.energy_uj += power.0 * PERIOD.0;
+        }
+        self.run.moved_when_safe |= objective == Objective::Safe && self.robot.x() > before;
+        self.measure(before);
     }
 
     /// So much of the path was driven.
@@ -369,8 +375,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         pace.min(limit)
     }
 
-    /// What must never happen, or not for long.
-    fn measure(&mut self) {
+    /// What must never happen, or not for long; the period began here.
+    fn measure(&mut self, before: Millimetres) {
         let moving = self.robot.speed().0 > 0;
         let required = self
             .decider
@@ -390,7 +396,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         }
         let permitted = self.decider.permit().is_some();
         if self.permitted && !permitted {
-            self.withdrawn = Some(self.robot.x());
+            self.withdrawn = Some(before);
         }
         if (permitted || self.robot.speed().0 == 0)
             && let Some(from) = self.withdrawn.take()

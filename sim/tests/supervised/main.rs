@@ -5,6 +5,7 @@
 
 mod answers;
 mod crashes;
+mod ends;
 mod matrix;
 mod observers;
 mod other_missions;

@@ -2,7 +2,7 @@
 
 use super::delivery;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{FailureMode, Module};
+use cotama_models::cotama::{Diagnosis, FailureMode, Module};
 use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
 
@@ -27,8 +27,7 @@ fn acted(run: &Run) -> String {
 /// module that it takes.
 fn seen(run: &Run) -> Vec<(FailureMode, bool, u64)> {
     let of = |it: &cotama_sim::supervised::Conduct| {
-        let diagnosed =
-            it.detected.is_some_and(|it| it.1 != cotama_models::cotama::Diagnosis::None);
+        let diagnosed = it.detected.is_some_and(|it| it.1 != Diagnosis::None);
         (it.mode, diagnosed, it.exposed.0)
     };
     run.conduct.iter().map(of).collect()
@@ -64,4 +63,20 @@ fn nobody_drives_by_a_camera_that_nobody_watches() {
     );
     assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 2));
     assert_eq!(run.exposed, Millis(0));
+}
+
+/// The array falls silent twice, and the first time ends: it is silent still, and who looks at its
+/// readings sees nothing of a third failure.
+#[test]
+fn a_flag_goes_back_when_the_last_failure_that_holds_it_is_over() {
+    let at = |m: u64| When::Place(Millimetres(m * 1_000));
+    let first = Injection { until: Some(at(20)), ..Injection::new(at(5), FailureMode::Son2) };
+    let last = Injection::new(at(30), FailureMode::Son3);
+    let seen = |injections: Vec<Injection>| {
+        let run = run(injections);
+        run.conduct.last().unwrap().detected.unwrap().1
+    };
+    assert_eq!(seen(vec![first, last]), Diagnosis::Unique(FailureMode::Son3));
+    let second = Injection::new(at(12), FailureMode::Son2);
+    assert_eq!(seen(vec![first, second, last]), Diagnosis::None);
 }

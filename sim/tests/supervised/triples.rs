@@ -33,12 +33,18 @@ fn injection(stream: &mut Stream) -> Injection {
     Injection { part: one(stream, Module::ALL), ..Injection::new(when, mode) }
 }
 
-/// What must hold of every run, whatever fails; whether the robot also stopped in time.
-fn judge(run: &Run, script: &Script) -> bool {
+/// What must hold of every run, whatever fails, and of how far the robot still goes in a minute
+/// after its end; whether it also stopped in time.
+fn judge(run: &Run, way: Millimetres, script: &Script) -> bool {
     assert!(!run.moved_when_safe, "M1: {script:?}");
     let runs_away =
         |it: &Injection| matches!(effect(it.mode), Effect { motion: Motion::Runaway, .. });
-    if !script.injections.iter().any(runs_away) {
+    let runs_away = script.injections.iter().any(runs_away);
+    // Motors that run away when the laptop is down are stopped by nobody.
+    let was_ended = run.fired.iter().any(|it| it.net == "gs" && it.transition == "secured");
+    let stays = run.outcome == Outcome::Safe && (was_ended || !runs_away);
+    assert!(!stays || way == Millimetres(0), "{way} after {script:?}");
+    if !runs_away {
         assert!(run.braked <= Millimetres(150), "M2: {} after {script:?}", run.braked);
     }
     // What is done too late or with too much energy is done all the same.
@@ -102,8 +108,8 @@ fn campaign(mission: &Mission, runs: u64) -> Campaign {
         let mut stream = Streams::new(seed).stream("triple");
         let injections = (0..3).map(|_| injection(&mut stream)).collect();
         let script = Script { injections, answers: Vec::new() };
-        let run = supervised.run(&script).unwrap();
-        let in_time = judge(&run, &script);
+        let (run, way) = supervised.run_and_watch(&script, Millis(60_000)).unwrap();
+        let in_time = judge(&run, way, &script);
         *outcomes.entry((run.outcome, in_time)).or_default() += 1;
         if !in_time {
             *late.entry(explained(&supervised, &script, &run)).or_default() += 1;

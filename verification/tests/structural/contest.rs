@@ -100,7 +100,9 @@ fn deadlocks_are_never_contradicted() {
 #[test]
 fn siphons_and_dead_transitions_are_never_contradicted() {
     let Some(folder) = folder() else { return };
-    for row in facts(&folder, &["model", "deadlock", "live", "quasi_live"]) {
+    let rows = facts(&folder, &["model", "deadlock", "live", "quasi_live"]);
+    assert_eq!(rows.len(), 30);
+    for row in rows {
         let [model, deadlock, live, quasi_live] = &row[..] else { panic!("a short row") };
         let pt = net(&folder, model);
         let found = structural::commoner(&pt, &structural::minimal_siphons(&pt, 100, 2_000_000));

@@ -344,8 +344,9 @@ requirements! {
         tested in "verification/tests/tpn/watchdog.rs";
     WD3 Inferred "The violations counted are at most the limit.",
         tested in "verification/tests/tpn/watchdog.rs";
-    WD4 Inferred "A module that overruns delays the others by its extra time at most.",
-        tested in "verification/tests/tpn/watchdog.rs";
+    WD4 Inferred "In a loop of one period, a module that overruns delays the others by its extra \
+                  time at most.",
+        tested in "core/src/executive/tests/watchdogs.rs";
     WD5 Inferred "A job that was skipped publishes nothing.",
         tested in "verification/tests/tpn/watchdog.rs";
     WD6 Inferred "A job in time ends the count.",

@@ -64,7 +64,21 @@ fn raise(from: [u64; 2], cost: [u64; 2]) -> Relaxation {
     }
 }
 
-/// Orders raised limits by the larger part of a limit that they add, and then by axis and amount.
+impl Relaxation {
+    /// Orders raised limits as an explanation lists them: by the larger part of a limit that they
+    /// add, and then by axis and amount.
+    ///
+    /// ```
+    /// use cotama_models::missions::infeasible::Relaxation::RaiseLimit;
+    /// let energy = RaiseLimit { axis: 1, from: 1_000, to: 1_099 }; // 9.9 % more
+    /// let duration = RaiseLimit { axis: 0, from: 10, to: 11 }; // 10 %
+    /// assert!(energy.by_size(&duration).is_lt());
+    /// ```
+    pub fn by_size(&self, other: &Self) -> Ordering {
+        by_size(self, other)
+    }
+}
+
 fn by_size(a: &Relaxation, b: &Relaxation) -> Ordering {
     // The part is a fraction of two whole numbers; fractions are compared by multiplying across. Of
     // a limit of nothing every part is larger than any.

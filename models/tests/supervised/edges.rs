@@ -1,0 +1,143 @@
+//! What a unit more or less changes: ends of missions, limits, the order of files.
+
+use cotama_models::missions::faults::{EventKind, Faults, IncidentKind};
+use cotama_models::missions::infeasible::Relaxation::{self, RaiseLimit, RaiseLimits};
+use cotama_models::missions::{Mission, MissionErrors, embedded};
+
+fn delivery_with(edits: &[(&str, &str)]) -> Result<Mission, MissionErrors> {
+    let delivery = embedded::mission("delivery").unwrap();
+    let edit = |text: String, (old, new): &(&str, &str)| {
+        assert!(text.contains(old), "{old}");
+        text.replacen(old, new, 1)
+    };
+    let text = edits.iter().fold(delivery.text.to_owned(), edit);
+    Mission::parse("delivery.toml", &text)
+}
+
+/// Two events of each kind: at the end of the second drive, and a millimetre behind it.
+const LAST_DRIVE: &str = r#"
+[[objective]]
+id = "DriveC"
+does = "drive"
+x_start_mm = 80000
+x_end_mm = 90000
+tasks = ["MOV"]
+[run]
+event = [
+    { x_mm = 80001, kind = "failure", mode = "SON1" },
+    { x_mm = 80000, kind = "failure", mode = "RT1" },
+    { x_mm = 80001, kind = "obstacle", delay_ms = 1 },
+    { x_mm = 80000, kind = "obstacle", delay_ms = 2 },
+]
+"#;
+
+#[test]
+fn what_happens_at_the_end_of_a_shorter_mission_still_happens() {
+    let delivery = embedded::mission("delivery").unwrap().text;
+    let (mission, _) = delivery.split_once("[run]").unwrap();
+    let mission = mission.replacen("path_length_mm = 80000", "path_length_mm = 90000", 1);
+    let mission = Mission::parse("longer.toml", &(mission + LAST_DRIVE)).unwrap();
+    let places = |mission: &Mission| {
+        let faults = &mission.run.faults;
+        let events: Vec<_> = faults.events.iter().map(|it| it.x.0).collect();
+        let incidents: Vec<_> = faults.incidents.iter().map(|it| it.x.0).collect();
+        (events, incidents)
+    };
+    // The file has them in the other order.
+    assert_eq!(places(&mission), (vec![80_000, 80_001], vec![80_000, 80_001]));
+    let shorter = mission.without_objective(4).unwrap();
+    assert_eq!((shorter.path_length.0, shorter.objectives.len()), (80_000, 4));
+    assert_eq!(places(&shorter), (vec![80_000], vec![80_000]));
+    assert_eq!(mission.without_objective(5), None);
+}
+
+#[test]
+fn what_happens_at_one_place_keeps_the_order_of_the_file() {
+    let mission = delivery_with(&[]).unwrap();
+    let text = r#"format = "panorama-faults/1"
+        event = [
+            { x_mm = 9000, kind = "obstacle", delay_ms = 1 },
+            { x_mm = 7000, kind = "failure", mode = "SON1" },
+            { x_mm = 8000, kind = "obstacle", delay_ms = 2 },
+            { x_mm = 6000, kind = "repair", mode = "RT1" },
+            { x_mm = 8000, kind = "obstacle", delay_ms = 3 },
+            { x_mm = 6000, kind = "failure", mode = "RT1" },
+        ]"#;
+    let faults = Faults::parse("faults.toml", text, &mission).unwrap();
+    let delays = faults.events.iter().map(|it| match it.kind {
+        EventKind::Obstacle { delay } => (it.x.0, delay.0),
+        _ => unreachable!(),
+    });
+    assert_eq!(delays.collect::<Vec<_>>(), [(8_000, 2), (8_000, 3), (9_000, 1)]);
+    let fails = faults.incidents.iter().map(|it| match it.kind {
+        IncidentKind::Failure(mode) => (it.x.0, mode.name(), true),
+        IncidentKind::Repair(mode) => (it.x.0, mode.name(), false),
+        IncidentKind::Operator { .. } => unreachable!(),
+    });
+    let expected = [(6_000, "RT1", false), (6_000, "RT1", true), (7_000, "SON1", true)];
+    assert_eq!(fails.collect::<Vec<_>>(), expected);
+}
+
+/// A drive of 40 m at 300 mm/s takes 133,333 ms, and the slowest of its own limits is that.
+#[test]
+fn an_objective_may_fill_its_limit_alone() {
+    let within =
+        |ms: u64| delivery_with(&[("duration_ms = 900000", &format!("duration_ms = {ms}"))]);
+    assert!(within(133_333).is_ok());
+    let said = within(133_332).unwrap_err().to_string();
+    let too_long = "`DriveA` alone passes the limit of duration: at least 133333 ms of 133332 ms";
+    assert!(said.contains(too_long), "{said}");
+    // 40 m in the degraded set at 150 mm/s: 266,667 ms at 6 W; the others take less.
+    let within = |mj: u64| delivery_with(&[("energy_mj = 7200000", &format!("energy_mj = {mj}"))]);
+    assert!(within(1_029_331).is_ok());
+    let said = within(1_029_330).unwrap_err().to_string();
+    let too_much = "`DriveA` alone passes the limit of energy: at least 1029331 mJ of 1029330 mJ";
+    assert!(said.contains(too_much), "{said}");
+}
+
+#[test]
+fn all_units_of_a_hardware_may_fail_at_the_end_of_the_path_and_no_more_or_further() {
+    let patrol = embedded::mission("patrol").unwrap();
+    let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+    let read = |x_mm: u64, units: u64| {
+        let event = format!(
+            "{{ x_mm = {x_mm}, kind = \"fault\", hardware = \"laser\", units_lost = {units} }}"
+        );
+        let text = format!("format = \"panorama-faults/1\"\nevent = [{event}]");
+        Faults::parse("faults.toml", &text, &mission).map_err(|it| it.to_string())
+    };
+    let kind = EventKind::Fault { hardware: 1, units: 2 };
+    assert_eq!(read(187_000, 2).unwrap().events[0].kind, kind);
+    let said = read(187_000, 3).unwrap_err();
+    assert!(said.contains("`units_lost` is 3, but the robot has only 2 of `laser`"), "{said}");
+    let said = read(187_001, 2).unwrap_err();
+    assert!(said.contains("lies behind the end of the path, 187000 mm"), "{said}");
+}
+
+#[test]
+fn raised_limits_are_ordered_by_the_larger_part_that_they_add() {
+    let raise = |axis, from, to| RaiseLimit { axis, from, to };
+    let both = |from, to| RaiseLimits { from, to };
+    let ordered = [
+        raise(1, 1_000, 1_099), // 9.9 %
+        raise(0, 10, 11),       // 10 %
+        raise(0, 1_000, 1_100),
+        raise(1, 10, 11),
+        raise(1, 1_000, 1_100),
+        both([1_000, 10], [1_001, 11]),
+        both([1_000, 10], [1_100, 11]),
+        both([10, 1_000], [12, 1_001]), // 20 %
+        both([1_000, 10], [1_001, 13]), // 30 %
+        raise(0, 2, 3),                 // 50 %
+        raise(0, 0, 1),                 // of nothing: more than any
+        raise(1, 0, 1),
+        raise(0, 0, 2),
+    ];
+    let mut mixed = ordered.to_vec();
+    mixed.reverse();
+    mixed.sort_by(Relaxation::by_size);
+    assert_eq!(mixed, ordered);
+    // Products of large numbers are compared, too.
+    let half = u64::MAX / 2;
+    assert!(raise(0, half, u64::MAX - 1).by_size(&raise(0, half, u64::MAX)).is_lt());
+}

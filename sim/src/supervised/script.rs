@@ -1,0 +1,85 @@
+//! What goes wrong in a supervised run, and what the operator answers.
+
+use super::operator::Answers;
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::cotama::{FailureMode, Module, local};
+use cotama_models::missions::faults::{Faults, IncidentKind};
+
+/// What goes wrong, and what the operator answers.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Script {
+    /// Failures, each once.
+    pub injections: Vec<Injection>,
+    /// The operator's answers to requests, in their order; where there is none he has his habits.
+    pub answers: Vec<Answers>,
+}
+
+impl From<&Faults> for Script {
+    /// The failures and answers of a mission's own script.
+    fn from(faults: &Faults) -> Self {
+        let mut script = Self::default();
+        for incident in &faults.incidents {
+            match &incident.kind {
+                IncidentKind::Failure(mode) => {
+                    script.injections.push(Injection::new(When::Place(incident.x), *mode));
+                }
+                IncidentKind::Repair(mode) => {
+                    let under_way = |it: &&mut Injection| it.mode == *mode && it.until.is_none();
+                    if let Some(it) = script.injections.iter_mut().rfind(under_way) {
+                        it.until = Some(When::Place(incident.x));
+                    }
+                }
+                IncidentKind::Operator { answers, delay } => {
+                    let (answers, delay) = (answers.clone(), *delay);
+                    script.answers.push(Answers { x: incident.x, answers, delay });
+                }
+            }
+        }
+        script
+    }
+}
+
+/// A failure that is to happen.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::FailureMode;
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::supervised::{Decided, Injection, Script, Supervised, When};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let failure = Injection::new(When::At(Millis(20_000)), FailureMode::Rt1);
+/// let script = Script { injections: vec![failure], ..Script::default() };
+/// let run = Supervised::new(&mission).unwrap().run(&script).unwrap();
+/// // Localisation is late again and again: an adapter takes fewer particles.
+/// assert_eq!(run.conduct[0].decided.unwrap().1, Decided::Adapter);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Injection {
+    /// When.
+    pub when: When,
+    /// What fails.
+    pub mode: FailureMode,
+    /// Which module, if the failure is one of a module, whichever it is.
+    pub part: Module,
+    /// When it ends, if not by itself.
+    pub until: Option<When>,
+}
+
+impl Injection {
+    /// A failure; if it is one of a module, whichever it is, then of avoidance.
+    pub const fn new(when: When, mode: FailureMode) -> Self {
+        Self { when, mode, part: Module::Smz, until: None }
+    }
+}
+
+/// When something is to fail.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum When {
+    /// So long after the start.
+    At(Millis),
+    /// Where the robot has come so far along the path.
+    Place(Millimetres),
+    /// So long after the local supervisor has come to a place for the first time.
+    During(local::State, Millis),
+}
