@@ -180,6 +180,7 @@ fn the_decisional_level_has_4166_states_between_rounds() {
 /// What watches ask is answered by the graph of the rounds as by a graph of its own: with the same
 /// runs, counts and evidence.
 #[test]
+#[ignore = "seconds: CI runs it"]
 fn one_graph_answers_what_watches_ask() {
     let options = Options { evidence: true, ..Options::default() };
     let plain = rounds(&reconstruction::SYSTEM).unwrap().net().unwrap();

@@ -232,6 +232,7 @@ fn players_and_nets_of_rounds_agree() {
 }
 
 #[test]
+#[ignore = "seconds: CI runs it"]
 fn players_and_nets_of_rounds_agree_with_shared_places() {
     assert_eq!(compared(40, true), (37, 535, 3));
 }

@@ -67,6 +67,7 @@ fn found(system: &System<'_>, size: (u64, u64), violated: &[(&str, &str)]) {
 const GOALS: [&str; 4] = ["ls.l3", "ls.l11", "gom.goal", "gom.operator_goal"];
 
 #[test]
+#[ignore = "seconds: CI runs it"]
 fn as_written_nothing_is_violated() {
     found(&reconstruction::SYSTEM, (4_166, 22_810), &[]);
 }
