@@ -80,8 +80,8 @@ fi
 find ../../core/src -name '*.rs' ! -path '*/tests/*' ! -path '*/proofs/*' \
     ! -name 'tests.rs' ! -name 'proofs.rs' \
     ! -path '*/laws/*' ! -path '*/net/[lsov]*' ! -path '*/system/source.rs' -exec awk '
-    FNR == 1 { tests = 0 } /^#\[cfg\((test|kani)\)\]/ { tests = 1 }
-    !tests && match($0, /^( {4})?pub (const )?fn [a-z0-9_]+/) { print $NF ~ /./ ? $0 : "" }
+    FNR == 1 { tests = 0 } /^mod tests \{/ { tests = 1 }
+    !tests && /^(    )?pub (const )?fn [a-z0-9_]+/
 ' {} + | sed -E 's/^ *pub (const )?fn ([a-z0-9_]+).*/\2/' | sort -u >"$work/public"
 grep -ohE '[.:][a-z0-9_]+\b|\b[a-z0-9_]+\(' src/*.rs | tr -d '.:(' | sort -u >"$work/named"
 sed -n 's/^\([a-z0-9_]*\): ..*/\1/p' left_out.txt | sort -u >"$work/left_out"
