@@ -1,0 +1,341 @@
+/* A supervisor, the decisional level, the allocator and the monitor of margins in C. The program of
+ * the same steps in Rust, which calls no C, is examples/same_steps.rs: both print the same text. */
+
+#include "cotama.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Whatever goes wrong here is a mistake of this program. */
+static void must(cotama_error error) {
+  if (error != COTAMA_ERROR_OK) {
+    fprintf(stderr, "refused: %s\n", cotama_error_text(error));
+    exit(EXIT_FAILURE);
+  }
+}
+
+/* A watchdog of a module. */
+
+enum { ROOM = 32 };
+
+static const char *const OUTCOMES[] = {"fired",     "ignored on purpose", "not enabled", "too early",
+                                       "too late", "full",               "behind",      "refused"};
+
+static void print_firings(const cotama_firings *firings) {
+  for (size_t at = 0; at < firings->count && at < firings->room; at++) {
+    const cotama_firing it = firings->list[at];
+    cotama_text name;
+    must(cotama_watchdog_transition_name(it.transition, &name));
+    printf("  %" PRIu64 " ms %.*s", it.at_ms, (int)name.length, name.bytes);
+    if (it.outputs & 1u << COTAMA_WATCHDOG_OUTPUT_SKIP_JOB) {
+      printf(" SkipJob");
+    }
+    if (it.outputs & 1u << COTAMA_WATCHDOG_OUTPUT_RT_FAULT) {
+      printf(" RtFault");
+    }
+    printf("\n");
+  }
+}
+
+static void print_watchdog(const cotama_watchdog *watchdog) {
+  uint32_t place, misses;
+  uint64_t wake;
+  must(cotama_watchdog_state(watchdog, &place));
+  must(cotama_watchdog_tokens(watchdog, COTAMA_WATCHDOG_PLACE_MISSES, &misses));
+  must(cotama_watchdog_wake_at(watchdog, &wake));
+  printf("  state %" PRIu32 ", misses %" PRIu32 ", wakes ", place, misses);
+  if (wake == COTAMA_NEVER) {
+    printf("never\n");
+  } else {
+    printf("at %" PRIu64 " ms\n", wake);
+  }
+}
+
+static void watchdog_steps(void) {
+  static const struct {
+    uint64_t at_ms;
+    uint32_t event;
+  } TABLE[] = {
+      {0, COTAMA_WATCHDOG_EVENT_RELEASE},   {40, COTAMA_WATCHDOG_EVENT_DONE},
+      {100, COTAMA_WATCHDOG_EVENT_RELEASE}, {210, COTAMA_WATCHDOG_EVENT_DONE},
+      {300, COTAMA_WATCHDOG_EVENT_RELEASE}, {350, COTAMA_WATCHDOG_EVENT_RELEASE},
+      {500, COTAMA_WATCHDOG_EVENT_DONE},    {600, COTAMA_WATCHDOG_EVENT_RELEASE},
+      {900, COTAMA_WATCHDOG_EVENT_CS_ACK},  {1000, COTAMA_WATCHDOG_EVENT_RELEASE},
+      {1030, COTAMA_WATCHDOG_EVENT_DONE},
+  };
+  uint64_t memory[COTAMA_WATCHDOG_BYTES / 8];
+  cotama_firing list[ROOM];
+  cotama_firings firings = {list, ROOM, 0};
+  cotama_watchdog *watchdog;
+  must(cotama_watchdog_start(memory, sizeof memory, 0, &watchdog));
+  for (size_t at = 0; at < sizeof TABLE / sizeof *TABLE; at++) {
+    cotama_outcome outcome;
+    must(cotama_watchdog_offer(watchdog, TABLE[at].at_ms, TABLE[at].event, &outcome, &firings));
+    printf("%" PRIu64 " ms: event %" PRIu32 " %s\n", TABLE[at].at_ms, TABLE[at].event,
+           OUTCOMES[outcome]);
+    print_firings(&firings);
+    print_watchdog(watchdog);
+  }
+
+  /* The power goes 60 ms after a release, and is back after four seconds. */
+  must(cotama_watchdog_offer(watchdog, 1100, COTAMA_WATCHDOG_EVENT_RELEASE, NULL, NULL));
+  must(cotama_watchdog_advance(watchdog, 1160, NULL, NULL));
+  uint8_t flash[COTAMA_WATCHDOG_STORED_BYTES];
+  size_t written;
+  must(cotama_watchdog_store(watchdog, flash, sizeof flash, &written));
+  printf("stored %zu bytes:", written);
+  for (size_t at = 0; at < written; at++) {
+    printf(" %02x", flash[at]);
+  }
+  printf("\n");
+  must(cotama_watchdog_restore(memory, sizeof memory, 5160, flash, sizeof flash, &watchdog));
+  print_watchdog(watchdog);
+  bool behind;
+  must(cotama_watchdog_advance(watchdog, 9000, &behind, &firings));
+  printf("%s\n", behind ? "behind" : "not behind");
+  print_firings(&firings);
+  print_watchdog(watchdog);
+}
+
+/* The decisional level. */
+
+struct plans {
+  uint32_t asked;
+};
+
+static uint8_t is_over(void *context) {
+  (void)context;
+  return 0;
+}
+
+static uint32_t plan(void *context, uint32_t why, uint32_t detail, uint32_t available) {
+  struct plans *plans = context;
+  plans->asked++;
+  printf("  a plan is asked for: why %" PRIu32 ", %#" PRIx32 " of %#" PRIx32 "\n", why, detail,
+         available);
+  return COTAMA_REPLANNED_PLANNED;
+}
+
+static uint32_t configuration(void *context) {
+  const struct plans *plans = context;
+  return plans->asked == 0 ? (uint32_t)COTAMA_CONFIGURATION_FOLLOWING_OPTIMAL
+                           : (uint32_t)COTAMA_CONFIGURATION_FOLLOWING_DEGRADED;
+}
+
+static uint32_t short_axis(void *context) {
+  (void)context;
+  return COTAMA_NONE;
+}
+
+static uint64_t flag(cotama_flag it) { return UINT64_C(1) << it; }
+
+static void print_finding(const cotama_finding *finding) {
+  if (finding->number == 0) {
+    return;
+  }
+  printf("  finding %" PRIu32 "%s:", finding->number, finding->recorded ? ", recorded" : "");
+  for (uint32_t mode = 0; mode < 64; mode++) {
+    if (finding->modes >> mode & 1) {
+      cotama_text name;
+      must(cotama_failure_mode_name(mode, &name));
+      printf(" %.*s", (int)name.length, name.bytes);
+    }
+  }
+  printf("\n");
+}
+
+static void level_steps(void) {
+  static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+  cotama_firing list[ROOM];
+  cotama_firings firings = {list, ROOM, 0};
+  struct plans context = {0};
+  const cotama_plans plans = {&context, is_over, plan, configuration, short_axis};
+  cotama_level *level;
+  must(cotama_level_start(memory, sizeof memory, COTAMA_CONFIGURATION_FOLLOWING_OPTIMAL, &level));
+  for (uint64_t now = 0; now <= 4000; now += 100) {
+    cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
+    cotama_body body = {now == 1000 || now == 3600, now <= 200 || now >= 1000};
+    uint32_t word = COTAMA_WORD_NOTHING;
+    switch (now) {
+      case 0: word = COTAMA_WORD_MISSION_RECEIVED; break;
+      case 200: word = COTAMA_WORD_PATH_READY; break;
+      case 1300: word = COTAMA_WORD_OBJECT_RECEIVED; break;
+      case 1500: word = COTAMA_WORD_PATH_READY; break;
+      case 1800: seen.raised = flag(COTAMA_FLAG_SONAR_FAR); break;
+      case 2500: seen.raised = flag(COTAMA_FLAG_BUMPER); break;
+      case 2600: seen.lowered = flag(COTAMA_FLAG_BUMPER); break;
+      case 2900: word = COTAMA_WORD_TELEOPERATE; break;
+      case 3300: word = COTAMA_WORD_ARRIVED; break;
+      case 3800: word = COTAMA_WORD_OBJECT_DELIVERED; break;
+      default: break;
+    }
+    printf("%" PRIu64 " ms\n", now);
+    cotama_finding finding;
+    must(cotama_level_perceive(level, now, &seen, &plans, &finding));
+    print_finding(&finding);
+    bool listens;
+    must(cotama_level_listens(level, &listens));
+    cotama_round round;
+    must(cotama_level_round(level, now, word, &body, &round, &firings));
+    print_finding(&round.finding);
+    if (round.net != COTAMA_NONE) {
+      cotama_text net, event;
+      must(cotama_level_event_names(round.net, round.event, &net, &event));
+      printf("  told %.*s.%.*s%s\n", (int)net.length, net.bytes, (int)event.length, event.bytes,
+             listens ? "" : ", a report");
+    }
+    for (size_t at = 0; at < firings.count && at < firings.room; at++) {
+      const cotama_firing it = list[at];
+      cotama_text net, name;
+      must(cotama_level_transition_names(it.net, it.transition, &net, &name));
+      printf("  %.*s.%.*s says %#" PRIx64 "\n", (int)net.length, net.bytes, (int)name.length,
+             name.bytes, it.outputs);
+    }
+    cotama_requests requests;
+    must(cotama_level_requests(level, &requests));
+    cotama_text runs = {"nothing", 7};
+    if (requests.configuration != COTAMA_NONE) {
+      must(cotama_configuration_name(requests.configuration, &runs));
+    }
+    printf("  runs %.*s,%s%s%s%s %" PRIu64 " mm/s, %u and %u per mille\n", (int)runs.length,
+           runs.bytes, requests.drive ? " drive" : "", requests.halt ? " halt" : "",
+           requests.ask ? " ask" : "", requests.alarm ? " alarm" : "", requests.speed_mm_s,
+           (unsigned)requests.speed_permille, (unsigned)requests.quality_permille);
+  }
+}
+
+/* Allocation. */
+
+enum { ACTIVITIES = 17, CANDIDATES = 21 };
+
+/* Knuth's MMIX generator; the upper bits are the better ones. */
+static uint64_t state = 1;
+static uint32_t draw(uint32_t below) {
+  state = state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+  return (uint32_t)(state >> 33) % below;
+}
+
+static void print_answer(const char *by, const cotama_answer *answer, const uint16_t *chosen,
+                         size_t activities) {
+  printf("  %s: ", by);
+  switch (answer->verdict) {
+    case COTAMA_VERDICT_PLANNED:
+      for (size_t at = 0; at < activities; at++) {
+        printf("%u ", (unsigned)chosen[at]);
+      }
+      printf("costs %" PRIu64 " ms, %" PRIu64 " mJ, quality %" PRIu64 "%s", answer->cost[0],
+             answer->cost[1], answer->quality, answer->optimal ? ", the best" : "");
+      if (answer->bounded) {
+        printf(", bound %" PRIu64, answer->bound);
+      }
+      break;
+    case COTAMA_VERDICT_INFEASIBLE:
+      printf("infeasible");
+      if (answer->axis != COTAMA_NONE) {
+        printf(", axis %" PRIu32 ": %" PRIu64 " of %" PRIu64, answer->axis, answer->least,
+               answer->limit);
+      }
+      break;
+    case COTAMA_VERDICT_OUT_OF_BUDGET: printf("out of budget, bound %" PRIu64, answer->bound); break;
+    case COTAMA_VERDICT_WITHOUT_HARDWARE:
+      printf("without hardware, activity %" PRIu32, answer->activity);
+      break;
+    default: printf("no such verdict"); break;
+  }
+  printf(", %" PRIu64 " steps\n", answer->steps);
+}
+
+static void allocation_steps(void) {
+  static uint64_t memory[COTAMA_EXACT_BYTES(ACTIVITIES, ACTIVITIES *CANDIDATES) / 8];
+  static cotama_candidate candidates[ACTIVITIES * CANDIDATES];
+  static const uint32_t OBJECTIVES[] = {COTAMA_OBJECTIVE_MOST_QUALITY,
+                                        COTAMA_OBJECTIVE_LEAST_ENERGY};
+  uint32_t counts[ACTIVITIES];
+  uint16_t chosen[ACTIVITIES];
+  for (int number = 0; number < 100; number++) {
+    const uint32_t activities = 1 + draw(ACTIVITIES);
+    uint64_t most[COTAMA_AXES] = {0, 0};
+    size_t filled = 0;
+    for (uint32_t activity = 0; activity < activities; activity++) {
+      counts[activity] = 1 + draw(CANDIDATES);
+      most[0] += 30000;
+      most[1] += 400000;
+      for (uint32_t at = 0; at < counts[activity]; at++) {
+        cotama_candidate *it = &candidates[filled++];
+        it->cost[0] = 1000 + draw(50000);
+        it->cost[1] = 10000 + draw(700000);
+        it->quality = draw(100);
+        it->units = UINT64_C(1) << 4 * draw(4);
+      }
+    }
+    const cotama_problem problem = {
+        candidates,
+        filled,
+        counts,
+        activities,
+        draw(4) == 0 ? 0x0111 : 0x1111,
+        {most[0] * (40 + draw(60)) / 100, most[1] * (30 + draw(60)) / 100},
+        {number % 2 == 0 ? 0 : 1, number % 2 == 0 ? 1 : 0},
+    };
+    const uint64_t steps = draw(5) == 0 ? 20 + draw(200) : 100000;
+    cotama_answer answer;
+    printf("problem %d: %" PRIu32 " activities, %zu candidates\n", number, activities, filled);
+    must(cotama_plan_by_rule(&problem, memory, sizeof memory, chosen, ACTIVITIES, &answer));
+    print_answer("by the rule", &answer, chosen, activities);
+    must(cotama_plan_exactly(&problem, OBJECTIVES, 2, steps, memory, sizeof memory, chosen,
+                             ACTIVITIES, &answer));
+    print_answer("exactly", &answer, chosen, activities);
+  }
+}
+
+/* Margins. */
+
+static void monitor_steps(void) {
+  static const char *const REQUESTS[] = {"keep", "down, a margin", "down, hardware", "up"};
+  static const uint64_t LIMITS[] = {600000, 8640000}, GROWTH[] = {0, 50000}, RESERVE[] = {0, 10000};
+  static const uint64_t REST[] = {527924, 8563613};
+  static const uint32_t ORDER[] = {0, 1};
+  uint64_t memory[COTAMA_MONITOR_BYTES / 8];
+  cotama_monitor *monitor;
+  must(cotama_monitor_start(memory, sizeof memory, LIMITS, ORDER, &monitor));
+  must(cotama_monitor_ask_upward(monitor, GROWTH, RESERVE));
+  must(cotama_monitor_planned(monitor, REST));
+  uint64_t rest[] = {527924, 8563613};
+  for (int step = 0; step < 12; step++) {
+    const uint64_t cost[] = {40000, step < 6 ? 560000 : 900000};
+    rest[0] -= 40000;
+    rest[1] -= 700000;
+    must(cotama_monitor_spend(monitor, cost));
+    int64_t margins[COTAMA_AXES];
+    must(cotama_monitor_margins(monitor, rest, margins));
+    uint64_t left[COTAMA_AXES];
+    must(cotama_monitor_left(monitor, left));
+    cotama_request request;
+    uint32_t axis;
+    must(cotama_monitor_assess(monitor, rest, 0x11, step == 3 ? 0x10 : 0x11, &request, &axis));
+    printf("margins %" PRId64 " ms, %" PRId64 " mJ of %" PRIu64 " ms, %" PRIu64 " mJ: %s",
+           margins[0], margins[1], left[0], left[1], REQUESTS[request]);
+    if (axis != COTAMA_NONE) {
+      printf(" of axis %" PRIu32, axis);
+    }
+    printf("\n");
+    if (request == COTAMA_REQUEST_UP) {
+      must(cotama_monitor_planned(monitor, rest));
+    }
+  }
+}
+
+int main(void) {
+  const uint32_t version =
+      COTAMA_VERSION_MAJOR << 16 | COTAMA_VERSION_MINOR << 8 | COTAMA_VERSION_PATCH;
+  if (cotama_version() != version) {
+    fprintf(stderr, "the library is of another version than the header\n");
+    return EXIT_FAILURE;
+  }
+  watchdog_steps();
+  level_steps();
+  allocation_steps();
+  monitor_steps();
+  return EXIT_SUCCESS;
+}

@@ -1,0 +1,1021 @@
+/* Cotama from C: supervisors, the decisional level of the delivery robot, allocation.
+ *
+ * Memory is the caller's, and there is no heap: each handle has a number of bytes, the constant
+ * COTAMA_..._BYTES, and lies at an address that is a multiple of 8. Functions answer with a
+ * cotama_error; where it is not COTAMA_ERROR_OK, nothing has happened. Times are milliseconds of
+ * the caller's clock. A handle is for one thread at a time. */
+
+#ifndef COTAMA_H
+#define COTAMA_H
+
+/* Made by cbindgen of firmware/c; firmware/c/check.sh compares it. */
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+// The version of this header, as numbers. Programs made with one minor version of 0 need a library
+// of that one.
+#define COTAMA_VERSION_MAJOR 0
+
+// See [`COTAMA_VERSION_MAJOR`].
+#define COTAMA_VERSION_MINOR 1
+
+// See [`COTAMA_VERSION_MAJOR`].
+#define COTAMA_VERSION_PATCH 0
+
+// The axes of a mission: 0 is the duration in ms, 1 the energy in mJ.
+#define COTAMA_AXES 2
+
+// The most objectives of a call.
+#define COTAMA_OBJECTIVES 4
+
+// Bytes of memory that planning by the rule needs for each activity,
+#define COTAMA_RULE_ACTIVITY_BYTES 24
+
+// for each candidate,
+#define COTAMA_RULE_CANDIDATE_BYTES 16
+
+// bytes that planning exactly needs for each activity,
+#define COTAMA_EXACT_ACTIVITY_BYTES 288
+
+// for each candidate,
+#define COTAMA_EXACT_CANDIDATE_BYTES 48
+
+// and what either needs beside these.
+#define COTAMA_PLANNING_BYTES 64
+
+// "None", where a number stands for something: no configuration, no axis.
+#define COTAMA_NONE UINT32_MAX
+
+// "Never", where a number is an instant.
+#define COTAMA_NEVER UINT64_MAX
+
+// The bytes of a `cotama_level`, at an address that is a multiple of 8.
+#define COTAMA_LEVEL_BYTES 960
+
+// The bytes of a `cotama_monitor`, at an address that is a multiple of 8.
+#define COTAMA_MONITOR_BYTES 128
+
+// All modules, as a set.
+#define COTAMA_MODULES_ALL 1048575
+
+// The bytes of a `cotama_watchdog`, at an address that is a multiple of 8.
+#define COTAMA_WATCHDOG_BYTES 48
+
+// The bytes of a stored one.
+#define COTAMA_WATCHDOG_STORED_BYTES 32
+
+// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: no memory is
+// written, and nothing has fired.
+enum cotama_error
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // It is done.
+  COTAMA_ERROR_OK = 0,
+  // A pointer is null that must not be.
+  COTAMA_ERROR_NULL_POINTER = 1,
+  // Memory is not aligned as its type needs it.
+  COTAMA_ERROR_MISALIGNED = 2,
+  // Memory is shorter than what it is for.
+  COTAMA_ERROR_TOO_SMALL = 3,
+  // Memory that is written overlaps memory that is used at the same time.
+  COTAMA_ERROR_OVERLAP = 4,
+  // The memory holds no such handle: none was started there, or one of another type.
+  COTAMA_ERROR_NOT_STARTED = 5,
+  // The handle is in use by the call from which this one is made, in a callback.
+  COTAMA_ERROR_BUSY = 6,
+  // A number stands for nothing here, or is out of its range.
+  COTAMA_ERROR_BAD_NUMBER = 7,
+  // An activity has no candidate.
+  COTAMA_ERROR_NO_CANDIDATES = 8,
+  // Stored bytes are not as they were written.
+  COTAMA_ERROR_DAMAGED = 9,
+  // Stored bytes are of another net, or of another version of it.
+  COTAMA_ERROR_OTHER_NET = 10,
+  // Stored bytes say what cannot be, such as a broken law.
+  COTAMA_ERROR_IMPOSSIBLE = 11,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_error cotama_error;
+#else
+typedef int32_t cotama_error;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What an allocator comes to.
+enum cotama_verdict
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // A plan within every limit.
+  COTAMA_VERDICT_PLANNED = 0,
+  // No plan: proven by the exact one; the rule may miss a plan.
+  COTAMA_VERDICT_INFEASIBLE = 1,
+  // The steps ended before a plan was found or excluded.
+  COTAMA_VERDICT_OUT_OF_BUDGET = 2,
+  // An activity has no candidate with the hardware that there is.
+  COTAMA_VERDICT_WITHOUT_HARDWARE = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_verdict cotama_verdict;
+#else
+typedef int32_t cotama_verdict;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What a monitor asks for.
+enum cotama_request
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nothing; go on.
+  COTAMA_REQUEST_KEEP = 0,
+  // A plan that needs less: the margin of the axis named is below zero.
+  COTAMA_REQUEST_DOWN_MARGIN = 1,
+  // A plan without hardware that is lost.
+  COTAMA_REQUEST_DOWN_HARDWARE = 2,
+  // A better plan, as margins have grown.
+  COTAMA_REQUEST_UP = 3,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_request cotama_request;
+#else
+typedef int32_t cotama_request;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What became of an event that was offered.
+enum cotama_outcome
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : int32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // A transition on it fired.
+  COTAMA_OUTCOME_FIRED = 0,
+  // It is ignored: a marked place does so on purpose.
+  COTAMA_OUTCOME_IGNORED_ON_PURPOSE = 1,
+  // It is ignored: no transition on it has the tokens that it needs.
+  COTAMA_OUTCOME_NOT_ENABLED = 2,
+  // It is ignored: the interval of the transition on it has not begun.
+  COTAMA_OUTCOME_TOO_EARLY = 3,
+  // It is ignored: the interval of the transition on it is over.
+  COTAMA_OUTCOME_TOO_LATE = 4,
+  // It is ignored: a place would hold more than its bound.
+  COTAMA_OUTCOME_FULL = 5,
+  // It is ignored: there is more to catch up with first, so advance, and offer it again.
+  COTAMA_OUTCOME_BEHIND = 6,
+  // It is refused: a mailbox on its way is full.
+  COTAMA_OUTCOME_REFUSED = 7,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_outcome cotama_outcome;
+#else
+typedef int32_t cotama_outcome;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What an observer saw: flag `n` is bit `n` of a set of flags.
+enum cotama_flag
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // O-SEN: a sonar at its largest range for long while the robot moves.
+  COTAMA_FLAG_SONAR_FAR = 0,
+  // O-SEN: no fresh range.
+  COTAMA_FLAG_SONAR_SILENT = 1,
+  // O-SEN: a sonar at one short range while the robot moves.
+  COTAMA_FLAG_SONAR_NEAR = 2,
+  // O-SEN: many readings rejected.
+  COTAMA_FLAG_SONAR_OUTLIERS = 3,
+  // O-SEN: the sonars see free space where the bumper is closed.
+  COTAMA_FLAG_FREE_AHEAD = 4,
+  // O-SEN: no camera frame.
+  COTAMA_FLAG_NO_FRAME = 5,
+  // O-COM or O-SEN: camera frames come late.
+  COTAMA_FLAG_OLD_FRAME = 6,
+  // O-SEN, O-LOC or O-PF, for any module: a value out of its interval.
+  COTAMA_FLAG_VALUE_OUTSIDE = 7,
+  // O-EFF: the filter's residual says that wheel and encoder disagree.
+  COTAMA_FLAG_WHEEL_RESIDUAL = 8,
+  // O-EFF: a residual that went back to normal.
+  COTAMA_FLAG_WHEEL_PEAK = 9,
+  // O-EFF: a wheel does not follow its command.
+  COTAMA_FLAG_WHEEL_DISOBEYS = 10,
+  // O-EFF: the estimated gain of an actuator is low.
+  COTAMA_FLAG_WHEEL_GAIN = 11,
+  // O-EFF or P3D: speed above the limit, or against the command.
+  COTAMA_FLAG_RUNAWAY = 12,
+  // O-LOC: odometric and MCL pose are far apart.
+  COTAMA_FLAG_POSE_DISTANCE = 13,
+  // O-LOC: odometric and MCL pose move apart quickly.
+  COTAMA_FLAG_POSE_GROWTH = 14,
+  // O-LOC: odometric and MCL pose moved apart for a moment.
+  COTAMA_FLAG_POSE_PEAK = 15,
+  // O-LOC: odometric and MCL pose move apart slowly, always the same way.
+  COTAMA_FLAG_SLOW_DRIFT = 16,
+  // O-LOC: a pose jumped.
+  COTAMA_FLAG_POSE_JUMP = 17,
+  // O-LOC: the particles are spread wide.
+  COTAMA_FLAG_SPREAD = 18,
+  // O-PF: backward for too long.
+  COTAMA_FLAG_BACKWARD = 19,
+  // O-PF: the path error does not converge.
+  COTAMA_FLAG_NO_CONVERGENCE = 20,
+  // O-PF: hardly any progress.
+  COTAMA_FLAG_NO_PROGRESS = 21,
+  // O-COM: no link, no heartbeat.
+  COTAMA_FLAG_LINK_DOWN = 22,
+  // O-COM: level or noise out of its interval.
+  COTAMA_FLAG_LINK_POOR = 23,
+  // P3D: a bumper is closed.
+  COTAMA_FLAG_BUMPER = 24,
+  // P3D: the motors stall.
+  COTAMA_FLAG_STALL = 25,
+  // P3D: the emergency button.
+  COTAMA_FLAG_EMERGENCY_STOP = 26,
+  // P3D: low voltage.
+  COTAMA_FLAG_BATTERY_LOW = 27,
+  // P3D: critical voltage.
+  COTAMA_FLAG_BATTERY_CRITICAL = 28,
+  // P3D: no packet from the robot.
+  COTAMA_FLAG_PACKET_SILENCE = 29,
+  // P3D: many checksum errors.
+  COTAMA_FLAG_PACKET_ERRORS = 30,
+  // P3D: the packet sequence starts anew.
+  COTAMA_FLAG_SEQUENCE_RESTART = 31,
+  // SCH: MCL missed several deadlines in a row.
+  COTAMA_FLAG_MCL_LATE = 32,
+  // SCH: one job was late, inside its extra time.
+  COTAMA_FLAG_ONE_LATE = 33,
+  // SCH: another module missed several deadlines in a row.
+  COTAMA_FLAG_MODULE_LATE = 34,
+  // SCH: a module completes nothing any more.
+  COTAMA_FLAG_MODULE_SILENT = 35,
+  // PPL: the planner failed or timed out.
+  COTAMA_FLAG_PLAN_FAILED = 36,
+  // The contextual supervisor's timer: the operator does not answer.
+  COTAMA_FLAG_OPERATOR_SILENT = 37,
+  // On the operator's side: no heartbeat from the robot.
+  COTAMA_FLAG_ROBOT_SILENT = 38,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_flag cotama_flag;
+#else
+typedef uint32_t cotama_flag;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A module of the executive level: module `n` is bit `n` of a set of modules.
+enum cotama_module
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Scheduler, and observer of real-time faults.
+  COTAMA_MODULE_SCH = 0,
+  // Global observation module: collects flags, diagnoses, keeps the status vector.
+  COTAMA_MODULE_GOM = 1,
+  // Link to the robot's micro-controller.
+  COTAMA_MODULE_P3D = 2,
+  // Hardware in the loop: makes the sonar values.
+  COTAMA_MODULE_SIM = 3,
+  // Sonar values made usable.
+  COTAMA_MODULE_UST = 4,
+  // Monte Carlo localisation.
+  COTAMA_MODULE_MCL = 5,
+  // Odometric pose.
+  COTAMA_MODULE_ODO = 6,
+  // Navigation: selection of the pose, control law.
+  COTAMA_MODULE_NAV = 7,
+  // The asymptotic control law with saturation of the actuators.
+  COTAMA_MODULE_CTR = 8,
+  // Path planning.
+  COTAMA_MODULE_PPL = 9,
+  // Guidance: path following alone.
+  COTAMA_MODULE_GUI = 10,
+  // Safe manoeuvring zone: avoidance and guidance in one.
+  COTAMA_MODULE_SMZ = 11,
+  // Deformable virtual zone: reactive avoidance.
+  COTAMA_MODULE_DVZ = 12,
+  // The wireless link to the operator.
+  COTAMA_MODULE_LAN = 13,
+  // Camera stream for the operator.
+  COTAMA_MODULE_CAM = 14,
+  // Observer of sensor data.
+  COTAMA_MODULE_O_SEN = 15,
+  // Observer of motors and wheels.
+  COTAMA_MODULE_O_EFF = 16,
+  // Observer of the link to the operator.
+  COTAMA_MODULE_O_COM = 17,
+  // Observer of localisation.
+  COTAMA_MODULE_O_LOC = 18,
+  // Observer of path following.
+  COTAMA_MODULE_O_PF = 19,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_module cotama_module;
+#else
+typedef uint32_t cotama_module;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A set of modules that serves one sub-objective.
+enum cotama_configuration
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Path planning.
+  COTAMA_CONFIGURATION_PLANNING = 0,
+  // Path following, optimal.
+  COTAMA_CONFIGURATION_FOLLOWING_OPTIMAL = 1,
+  // The same with fewer particles.
+  COTAMA_CONFIGURATION_FOLLOWING_REDUCED = 2,
+  // Path following by odometry, with avoidance.
+  COTAMA_CONFIGURATION_FOLLOWING_ODOMETRIC = 3,
+  // Path following without avoidance and localisation, slower.
+  COTAMA_CONFIGURATION_FOLLOWING_DEGRADED = 4,
+  // Path following with the other avoidance.
+  COTAMA_CONFIGURATION_FOLLOWING_DVZ = 5,
+  // The robot stands; the operator edits way-points or a path.
+  COTAMA_CONFIGURATION_TELEPROGRAMMING = 6,
+  // Teleoperation with avoidance.
+  COTAMA_CONFIGURATION_TELEOPERATION_FULL = 7,
+  // Teleoperation without.
+  COTAMA_CONFIGURATION_TELEOPERATION_DEGRADED = 8,
+  // Stop, alarm, warning.
+  COTAMA_CONFIGURATION_SECURITY = 9,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_configuration cotama_configuration;
+#else
+typedef uint32_t cotama_configuration;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// A word of the mission, of the planner of paths, or of the operator.
+enum cotama_word
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Nobody says anything.
+  COTAMA_WORD_NOTHING = 0,
+  // A mission is given.
+  COTAMA_WORD_MISSION_RECEIVED = 1,
+  // The object is on board.
+  COTAMA_WORD_OBJECT_RECEIVED = 2,
+  // The object was handed over.
+  COTAMA_WORD_OBJECT_DELIVERED = 3,
+  // A path is planned.
+  COTAMA_WORD_PATH_READY = 4,
+  // The operator wants to edit way-points or a path.
+  COTAMA_WORD_TELEPROGRAM = 5,
+  // The operator wants to drive.
+  COTAMA_WORD_TELEOPERATE = 6,
+  // The operator gives way-points.
+  COTAMA_WORD_WAYPOINTS = 7,
+  // The operator gives a path.
+  COTAMA_WORD_NEW_PATH = 8,
+  // The operator has driven to the goal.
+  COTAMA_WORD_ARRIVED = 9,
+  // The operator gives up.
+  COTAMA_WORD_GIVES_UP = 10,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_word cotama_word;
+#else
+typedef uint32_t cotama_word;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What a plan is chosen for.
+enum cotama_objective
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The most total quality.
+  COTAMA_OBJECTIVE_MOST_QUALITY = 0,
+  // The least total duration.
+  COTAMA_OBJECTIVE_LEAST_DURATION = 1,
+  // The least total energy.
+  COTAMA_OBJECTIVE_LEAST_ENERGY = 2,
+  // The most total duration within its limit; objectives behind it are not treated.
+  COTAMA_OBJECTIVE_MOST_DURATION = 3,
+  // The most total energy within its limit; objectives behind it are not treated.
+  COTAMA_OBJECTIVE_MOST_ENERGY = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_objective cotama_objective;
+#else
+typedef uint32_t cotama_objective;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Why a plan is needed.
+enum cotama_why
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // Modules are lost: `detail` is their set.
+  COTAMA_WHY_LOST = 0,
+  // Modules have returned: `detail` is their set.
+  COTAMA_WHY_RETURNED = 1,
+  // The margin of an axis is below zero: `detail` is the axis.
+  COTAMA_WHY_MARGIN = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_why cotama_why;
+#else
+typedef uint32_t cotama_why;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What became of a plan that was asked for.
+enum cotama_replanned
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // There is a plan, and the one in force had to be looked at.
+  COTAMA_REPLANNED_PLANNED = 0,
+  // The plan in force was not touched by it.
+  COTAMA_REPLANNED_NOT_TOUCHED = 1,
+  // No plan is left that keeps the limits; the one in force stays.
+  COTAMA_REPLANNED_NO_PLAN_LEFT = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_replanned cotama_replanned;
+#else
+typedef uint32_t cotama_replanned;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What a watchdog is told.
+enum cotama_watchdog_event
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The scheduler starts a job.
+  COTAMA_WATCHDOG_EVENT_RELEASE = 0,
+  // The job is done.
+  COTAMA_WATCHDOG_EVENT_DONE = 1,
+  // The supervisor has dealt with the fault.
+  COTAMA_WATCHDOG_EVENT_CS_ACK = 2,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_watchdog_event cotama_watchdog_event;
+#else
+typedef uint32_t cotama_watchdog_event;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// What a watchdog says: the bits of `outputs` in a firing, by their numbers.
+enum cotama_watchdog_output
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // The job is stopped.
+  COTAMA_WATCHDOG_OUTPUT_SKIP_JOB = 0,
+  // The module misses its deadlines persistently.
+  COTAMA_WATCHDOG_OUTPUT_RT_FAULT = 1,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_watchdog_output cotama_watchdog_output;
+#else
+typedef uint32_t cotama_watchdog_output;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// Its places; one of the first four is marked.
+enum cotama_watchdog_place
+#if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+  : uint32_t
+#endif // defined(__cplusplus) || __STDC_VERSION__ >= 202311L
+ {
+  // No job of the module runs.
+  COTAMA_WATCHDOG_PLACE_IDLE = 0,
+  // A job runs, and its deadline is ahead.
+  COTAMA_WATCHDOG_PLACE_RUN = 1,
+  // A job runs on in its extra time.
+  COTAMA_WATCHDOG_PLACE_EXTRA = 2,
+  // The fault was reported; the module stands still.
+  COTAMA_WATCHDOG_PLACE_FAULT = 3,
+  // Deadlines missed in a row: ask for its tokens.
+  COTAMA_WATCHDOG_PLACE_MISSES = 4,
+};
+#ifndef __cplusplus
+#if __STDC_VERSION__ >= 202311L
+typedef enum cotama_watchdog_place cotama_watchdog_place;
+#else
+typedef uint32_t cotama_watchdog_place;
+#endif // __STDC_VERSION__ >= 202311L
+#endif // __cplusplus
+
+// The decisional level, in the caller's memory: supervisors, diagnosis and decisions.
+typedef struct cotama_level cotama_level;
+
+// A monitor of the margins of a mission, in the caller's memory.
+typedef struct cotama_monitor cotama_monitor;
+
+// The watchdog of one module, in the caller's memory.
+typedef struct cotama_watchdog cotama_watchdog;
+
+// One way to do an activity.
+typedef struct cotama_candidate {
+  // The hardware that it needs: 0 to 7 units of each of 16 kinds, four bits a kind, the top one
+  // of them 0. Kind 0 is lowest.
+  uint64_t units;
+  // What it costs on each axis.
+  uint32_t cost[COTAMA_AXES];
+  // How good the activity is done this way; larger is better. Qualities add up.
+  uint32_t quality;
+} cotama_candidate;
+
+// Activities in sequence with their candidates, and limits.
+typedef struct cotama_problem {
+  // The candidates of all activities, one activity after the other.
+  const struct cotama_candidate *candidates;
+  // How many there are in all.
+  size_t candidate_count;
+  // How many of them each activity has.
+  const uint32_t *counts;
+  // How many activities there are; at most 65,535, as of the candidates of one.
+  size_t activity_count;
+  // The hardware that there is, as in `units`: candidates that need more are left out.
+  uint64_t available;
+  // The most that a plan may cost on each axis.
+  uint64_t limits[COTAMA_AXES];
+  // The axes in their order of treatment: each once.
+  uint32_t order[COTAMA_AXES];
+} cotama_problem;
+
+// The answer of an allocator. What is not said of its verdict is 0.
+typedef struct cotama_answer {
+  // What it came to.
+  cotama_verdict verdict;
+  // Of a plan: no plan is better in the objectives.
+  bool optimal;
+  // `bound` is known.
+  bool bounded;
+  // Of a plan: its cost on each axis.
+  uint64_t cost[COTAMA_AXES];
+  // Of a plan: its quality.
+  uint64_t quality;
+  // No plan has more in the first objective; or less, where the least is asked for.
+  uint64_t bound;
+  // The work done, in the allocator's steps.
+  uint64_t steps;
+  // Where no plan is: the axis whose limit is not met; `COTAMA_NONE` where that is not known.
+  uint32_t axis;
+  // Without hardware: the activity.
+  uint32_t activity;
+  // Where no plan is: the limit of that axis,
+  uint64_t limit;
+  // and the least that can be reached there.
+  uint64_t least;
+} cotama_answer;
+
+// What observers and the scheduler tell in a period.
+typedef struct cotama_perceived {
+  // Flags that are raised now: bit `n` is `cotama_flag` `n`.
+  uint64_t raised;
+  // Flags that were raised and have gone back.
+  uint64_t lowered;
+  // The module that raised flags are about, where they are about one whichever it is: bit `n` is
+  // `cotama_module` `n`.
+  uint32_t part;
+  // The modules that say that they work, in use or not.
+  uint32_t works;
+} cotama_perceived;
+
+// The plan of a mission: which configuration each drive uses. Where a function is null, the
+// mission has no limits and each drive uses the best that works.
+//
+// The functions are called while the level perceives, and may not use that level: it answers
+// `COTAMA_ERROR_BUSY`.
+typedef struct cotama_plans {
+  // Handed to the functions.
+  void *context;
+  // Whether nothing is left to be planned: 0 no, any other number yes.
+  uint8_t (*is_over)(void *context);
+  // Plans what is left with these modules, because of a `cotama_why`; answers with a
+  // `cotama_replanned`, and any other number says that no plan is left.
+  uint32_t (*plan)(void *context, uint32_t why, uint32_t detail, uint32_t available);
+  // The `cotama_configuration` that is planned for the drive under way or the next one, or
+  // `COTAMA_NONE`.
+  uint32_t (*configuration)(void *context);
+  // The axis on which the drive under way no longer keeps its limit, or `COTAMA_NONE`.
+  uint32_t (*short_axis)(void *context);
+} cotama_plans;
+
+// What was diagnosed of raised flags.
+typedef struct cotama_finding {
+  // What was raised.
+  uint64_t flags;
+  // The rows of the FMECA that explain it, bit `n` for mode `n`: one where the diagnosis is
+  // unique, none where nothing explains it.
+  uint64_t modes;
+  // Its number, from 1 on; 0 where nothing was found.
+  uint32_t number;
+  // A part of it at least is recorded only, and nobody has to decide.
+  bool recorded;
+} cotama_finding;
+
+// Where the robot is: 0 says no, any other number yes.
+typedef struct cotama_body {
+  // The goal of the drive is reached.
+  uint8_t at_goal;
+  // It does not move.
+  uint8_t stands;
+} cotama_body;
+
+// What a round came to.
+typedef struct cotama_round {
+  // What was found of the silence of the operator.
+  struct cotama_finding finding;
+  // The net that was told something, else `COTAMA_NONE`;
+  uint32_t net;
+  // and the event of that net.
+  uint32_t event;
+} cotama_round;
+
+// A transition that has fired.
+typedef struct cotama_firing {
+  // When, ms: what was due earlier than the call fired when it was due.
+  uint64_t at_ms;
+  // What it says: bit `n` is output `n` of its net.
+  uint64_t outputs;
+  // Its net, by its number in the system; 0 for a net alone.
+  uint32_t net;
+  // The transition, by its number in the net.
+  uint32_t transition;
+} cotama_firing;
+
+// Memory for what fires during a call, in its order.
+typedef struct cotama_firings {
+  // Memory for firings; null when `room` is 0.
+  struct cotama_firing *list;
+  // For how many.
+  size_t room;
+  // How many there were: written by each call. Those beyond `room` are counted, not noted.
+  size_t count;
+} cotama_firings;
+
+// What is to be done until the next round.
+typedef struct cotama_requests {
+  // The fastest it may go, mm/s.
+  uint64_t speed_mm_s;
+  // The modules that are to run, a `cotama_configuration`; `COTAMA_NONE` where nothing does.
+  uint32_t configuration;
+  // What adapted settings leave of the speed, in thousandths,
+  uint16_t speed_permille;
+  // and of the quality of what is driven.
+  uint16_t quality_permille;
+  // Motion may be commanded.
+  bool drive;
+  // Motor power is to be cut for good.
+  bool halt;
+  // The operator is asked.
+  bool ask;
+  // The mission was given up and the robot stands: alarm.
+  bool alarm;
+} cotama_requests;
+
+// A text of so many bytes, with no zero at the end: `printf("%.*s", (int)it.length, it.bytes)`.
+typedef struct cotama_text {
+  // Where it begins; it stays there as long as the program runs.
+  const char *bytes;
+  // How many bytes it has.
+  size_t length;
+} cotama_text;
+
+#ifdef __cplusplus
+extern "C" {
+#endif // __cplusplus
+
+// The version of the library: the major number times 65,536, and the minor one times 256, and the
+// patch.
+uint32_t cotama_version(void);
+
+// Plans by the rule of PANORAMA (Lambert et al. 2024), in memory of `COTAMA_RULE_BYTES` bytes.
+//
+// `plan` has room for a number of each activity: the place of its candidate among those of the
+// activity. It is written when the verdict is `COTAMA_VERDICT_PLANNED`. The memory is free again
+// afterwards, and none of it may overlap the problem, the plan or the answer.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given.
+cotama_error cotama_plan_by_rule(const struct cotama_problem *problem,
+                                 void *memory,
+                                 size_t bytes,
+                                 uint16_t *plan,
+                                 size_t plan_length,
+                                 struct cotama_answer *answer);
+
+// Plans exactly, for up to `COTAMA_OBJECTIVES` of `cotama_objective` in lexicographic order, in
+// memory of `COTAMA_EXACT_BYTES` bytes and at most `steps` steps.
+//
+// Without an objective any plan within the limits will do. The rest is as for
+// `cotama_plan_by_rule`.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given.
+cotama_error cotama_plan_exactly(const struct cotama_problem *problem,
+                                 const uint32_t *objectives,
+                                 size_t objective_count,
+                                 uint64_t steps,
+                                 void *memory,
+                                 size_t bytes,
+                                 uint16_t *plan,
+                                 size_t plan_length,
+                                 struct cotama_answer *answer);
+
+// What an error says, in English, ended by a zero. Never null.
+const char *cotama_error_text(int32_t error);
+
+// Starts the level of a robot at rest, all of which works, in `bytes` bytes of memory, which are
+// its from now on.
+//
+// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given.
+cotama_error cotama_level_start(void *memory,
+                                size_t bytes,
+                                uint32_t planned,
+                                struct cotama_level **level);
+
+// Observers tell what they see. At most one finding comes of it.
+//
+// `plans` is how the mission is planned, and may be null: then each drive uses the best that works.
+// `finding` may be null.
+//
+// # Safety
+// The pointers are null or point to what their types say; the functions of `plans` may be called
+// with its context; no other thread uses the level.
+cotama_error cotama_level_perceive(struct cotama_level *level,
+                                   uint64_t now_ms,
+                                   const struct cotama_perceived *seen,
+                                   const struct cotama_plans *plans,
+                                   struct cotama_finding *finding);
+
+// Whether what is said in the coming round is heard: reports go first.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the level.
+cotama_error cotama_level_listens(const struct cotama_level *level, bool *listens);
+
+// A round: the supervisors take their turns, and are told one thing: the oldest report, else what
+// the body shows, else `word`, a `cotama_word`. It is not heard unless the level listens.
+//
+// `round` and `firings` may be null.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the level.
+cotama_error cotama_level_round(struct cotama_level *level,
+                                uint64_t now_ms,
+                                uint32_t word,
+                                const struct cotama_body *body,
+                                struct cotama_round *round,
+                                struct cotama_firings *firings);
+
+// What is to be done until the next round.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the level.
+cotama_error cotama_level_requests(const struct cotama_level *level,
+                                   struct cotama_requests *requests);
+
+// The names of a net of the level and of one of its transitions, as in a firing.
+//
+// # Safety
+// The pointers are null or point to memory for texts.
+cotama_error cotama_level_transition_names(uint32_t net,
+                                           uint32_t transition,
+                                           struct cotama_text *net_name,
+                                           struct cotama_text *transition_name);
+
+// The names of a net of the level and of one of its events, as in a round.
+//
+// # Safety
+// The pointers are null or point to memory for texts.
+cotama_error cotama_level_event_names(uint32_t net,
+                                      uint32_t event,
+                                      struct cotama_text *net_name,
+                                      struct cotama_text *event_name);
+
+// Starts a monitor of these inclusive limits, with nothing used, that never asks for a better
+// plan; `order` are the axes in their order of treatment.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given; `limits` and
+// `order` to `COTAMA_AXES` numbers each. The memory is the monitor's from now on.
+cotama_error cotama_monitor_start(void *memory,
+                                  size_t bytes,
+                                  const uint64_t *limits,
+                                  const uint32_t *order,
+                                  struct cotama_monitor **monitor);
+
+// Asks for a better plan too: when some margin has grown by `growth` since the last plan (0: not
+// on this axis), with `reserve` left on each.
+//
+// # Safety
+// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
+// thread uses the monitor.
+cotama_error cotama_monitor_ask_upward(struct cotama_monitor *monitor,
+                                       const uint64_t *growth,
+                                       const uint64_t *reserve);
+
+// Notes that hardware has come back: a reason to ask for a better plan.
+//
+// # Safety
+// The pointer is null or points to a monitor that no other thread uses.
+cotama_error cotama_monitor_hardware_returned(struct cotama_monitor *monitor);
+
+// Notes that a plan which will cost `rest` is in force from now on.
+//
+// # Safety
+// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
+// thread uses the monitor.
+cotama_error cotama_monitor_planned(struct cotama_monitor *monitor,
+                                    const uint64_t *rest);
+
+// Adds what was used.
+//
+// # Safety
+// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
+// thread uses the monitor.
+cotama_error cotama_monitor_spend(struct cotama_monitor *monitor,
+                                  const uint64_t *cost);
+
+// What is left of each limit: the limits of the next problem.
+//
+// # Safety
+// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
+// thread uses the monitor.
+cotama_error cotama_monitor_left(const struct cotama_monitor *monitor,
+                                 uint64_t *left);
+
+// The margins: limit less used less what is planned for the rest, on each axis.
+//
+// # Safety
+// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
+// thread uses the monitor.
+cotama_error cotama_monitor_margins(const struct cotama_monitor *monitor,
+                                    const uint64_t *rest,
+                                    int64_t *margins);
+
+// Whether the plan still holds, from what it will cost, the units that it needs and those that
+// there are. `axis` is the one whose margin is below zero, else `COTAMA_NONE`; it may be null.
+//
+// # Safety
+// The pointers are null or point to what their types say, lists to `COTAMA_AXES` numbers; no other
+// thread uses the monitor.
+cotama_error cotama_monitor_assess(const struct cotama_monitor *monitor,
+                                   const uint64_t *rest,
+                                   uint64_t needs,
+                                   uint64_t available,
+                                   cotama_request *request,
+                                   uint32_t *axis);
+
+// The name of a `cotama_flag` in print.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_flag_name(uint32_t flag, struct cotama_text *name);
+
+// The name of a `cotama_module` in print.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_module_name(uint32_t module, struct cotama_text *name);
+
+// The name of a `cotama_configuration` in print.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_configuration_name(uint32_t configuration, struct cotama_text *name);
+
+// The name of a row of the FMECA, such as SON1: mode `n` is bit `n` of the modes of a finding.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_failure_mode_name(uint32_t mode, struct cotama_text *name);
+
+// Starts a watchdog at `now_ms` in `bytes` bytes of memory, which are its from now on.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given.
+cotama_error cotama_watchdog_start(void *memory,
+                                   size_t bytes,
+                                   uint64_t now_ms,
+                                   struct cotama_watchdog **watchdog);
+
+// Lets time pass up to `now_ms`, then offers a `cotama_watchdog_event`.
+//
+// `outcome` and `firings` may be null.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the watchdog.
+cotama_error cotama_watchdog_offer(struct cotama_watchdog *watchdog,
+                                   uint64_t now_ms,
+                                   uint32_t event,
+                                   cotama_outcome *outcome,
+                                   struct cotama_firings *firings);
+
+// Lets time pass up to `now_ms`: what was due fires at the time when it was due.
+//
+// `behind` is set when there is more to catch up with: call again. It and `firings` may be null.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the watchdog.
+cotama_error cotama_watchdog_advance(struct cotama_watchdog *watchdog,
+                                     uint64_t now_ms,
+                                     bool *behind,
+                                     struct cotama_firings *firings);
+
+// When the watchdog wants to be woken, ms; `COTAMA_NEVER` when nothing is due by itself.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the watchdog.
+cotama_error cotama_watchdog_wake_at(const struct cotama_watchdog *watchdog, uint64_t *at_ms);
+
+// The marked one of the first four of `cotama_watchdog_place`.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the watchdog.
+cotama_error cotama_watchdog_state(const struct cotama_watchdog *watchdog, uint32_t *place);
+
+// The tokens of a `cotama_watchdog_place`.
+//
+// # Safety
+// The pointers are null or point to what their types say; no other thread uses the watchdog.
+cotama_error cotama_watchdog_tokens(const struct cotama_watchdog *watchdog,
+                                    uint32_t place,
+                                    uint32_t *tokens);
+
+// Stores the watchdog in `COTAMA_WATCHDOG_STORED_BYTES` bytes with a checksum; `written` may be
+// null.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given; no other thread
+// uses the watchdog.
+cotama_error cotama_watchdog_store(const struct cotama_watchdog *watchdog,
+                                   uint8_t *bytes,
+                                   size_t room,
+                                   size_t *written);
+
+// Starts a watchdog at `now_ms` where a stored one was, with what its clocks had left.
+//
+// # Safety
+// The pointers are null or point to what their types say, of the lengths given.
+cotama_error cotama_watchdog_restore(void *memory,
+                                     size_t bytes,
+                                     uint64_t now_ms,
+                                     const uint8_t *stored,
+                                     size_t length,
+                                     struct cotama_watchdog **watchdog);
+
+// The name of a transition in a firing.
+//
+// # Safety
+// The pointer is null or points to memory for a text.
+cotama_error cotama_watchdog_transition_name(uint32_t transition, struct cotama_text *name);
+
+#ifdef __cplusplus
+}  // extern "C"
+#endif  // __cplusplus
+
+#endif  /* COTAMA_H */
+
+/* Bytes of memory for planning so many activities and candidates, by the rule and exactly. */
+#define COTAMA_RULE_BYTES(activities, candidates) \
+  ((activities) * COTAMA_RULE_ACTIVITY_BYTES + (candidates) * COTAMA_RULE_CANDIDATE_BYTES + \
+   COTAMA_PLANNING_BYTES)
+#define COTAMA_EXACT_BYTES(activities, candidates) \
+  ((activities) * COTAMA_EXACT_ACTIVITY_BYTES + (candidates) * COTAMA_EXACT_CANDIDATE_BYTES + \
+   COTAMA_PLANNING_BYTES)

@@ -1,0 +1,148 @@
+//! What fired, noted in the caller's memory; names of nets, transitions and events.
+
+use crate::error::cotama_error;
+use crate::memory::{Piece, list_to_write, read};
+use core::ffi::c_char;
+use cotama_core::net::EventId;
+use cotama_core::player::{Firing, Names, Observer};
+use cotama_core::system::{Of, System};
+
+/// "None", where a number stands for something: no configuration, no axis.
+pub const COTAMA_NONE: u32 = u32::MAX;
+
+/// "Never", where a number is an instant.
+pub const COTAMA_NEVER: u64 = u64::MAX;
+
+/// A text of so many bytes, with no zero at the end: `printf("%.*s", (int)it.length, it.bytes)`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct cotama_text {
+    /// Where it begins; it stays there as long as the program runs.
+    pub bytes: *const c_char,
+    /// How many bytes it has.
+    pub length: usize,
+}
+
+impl From<&'static str> for cotama_text {
+    fn from(text: &'static str) -> Self {
+        Self { bytes: text.as_ptr().cast(), length: text.len() }
+    }
+}
+
+/// A transition that has fired.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct cotama_firing {
+    /// When, ms: what was due earlier than the call fired when it was due.
+    pub at_ms: u64,
+    /// What it says: bit `n` is output `n` of its net.
+    pub outputs: u64,
+    /// Its net, by its number in the system; 0 for a net alone.
+    pub net: u32,
+    /// The transition, by its number in the net.
+    pub transition: u32,
+}
+
+/// Memory for what fires during a call, in its order.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct cotama_firings {
+    /// Memory for firings; null when `room` is 0.
+    pub list: *mut cotama_firing,
+    /// For how many.
+    pub room: usize,
+    /// How many there were: written by each call. Those beyond `room` are counted, not noted.
+    pub count: usize,
+}
+
+/// Notes firings.
+pub(crate) struct Notes<'l> {
+    /// Whose transitions fire.
+    system: System<'static>,
+    to: Option<*mut cotama_firings>,
+    list: &'l mut [cotama_firing],
+    count: usize,
+}
+
+impl Notes<'_> {
+    /// # Safety
+    /// `firings` is null, or points to such a value whose list has as much room as it says.
+    pub(crate) unsafe fn new(
+        system: System<'static>,
+        firings: *mut cotama_firings,
+        beside: Piece,
+    ) -> Result<Self, cotama_error> {
+        if firings.is_null() {
+            return Ok(Self { system, to: None, list: &mut [], count: 0 });
+        }
+        // SAFETY: it is promised that such a value is there.
+        let given = unsafe { read(firings) }?;
+        Piece::of(firings, 1).apart_from(beside)?;
+        let list = Piece::of(given.list, given.room);
+        list.apart_from(beside)?;
+        list.apart_from(Piece::of(firings, 1))?;
+        // SAFETY: it is promised that the list has this room, and it overlaps nothing in use.
+        let list = unsafe { list_to_write(given.list, given.room) }?;
+        Ok(Self { system, to: Some(firings), list, count: 0 })
+    }
+
+    /// Tells the caller how many there were.
+    pub(crate) fn end(self) {
+        if let Some(to) = self.to {
+            // SAFETY: the address was checked when the notes began.
+            unsafe { (&raw mut (*to).count).write(self.count) };
+        }
+    }
+}
+
+impl<P: Names, M> Observer<P, M> for Notes<'_> {
+    fn on_fire(&mut self, firing: &Firing<'_, P, M>) {
+        let Of { component, id } = firing.id;
+        let net = self.system.components.get(usize::from(component)).map(|it| it.net);
+        let transition = net.and_then(|it| it.transitions.get(id.0 as usize));
+        let emits = transition.map_or(&[][..], |it| it.emits).iter();
+        let outputs = emits.fold(0, |all, it| all | 1_u64.checked_shl(it.0).unwrap_or(0));
+        if let Some(place) = self.list.get_mut(self.count) {
+            let net = u32::from(component);
+            *place = cotama_firing { at_ms: firing.at.0, outputs, net, transition: id.0 };
+        }
+        self.count = self.count.saturating_add(1);
+    }
+}
+
+/// The names of a net of a system and of one of its transitions.
+pub(crate) fn transition_names(
+    system: &System<'static>,
+    net: u32,
+    transition: u32,
+) -> Result<(cotama_text, cotama_text), cotama_error> {
+    let component = usize::try_from(net).ok().and_then(|it| system.components.get(it));
+    let component = component.ok_or(cotama_error::BadNumber)?;
+    let named = component.net.transitions.get(transition as usize);
+    let named = named.ok_or(cotama_error::BadNumber)?;
+    Ok((component.name.into(), named.name.into()))
+}
+
+/// The names of a net of a system and of one of its events.
+pub(crate) fn event_names(
+    system: &System<'static>,
+    net: u32,
+    EventId(event): EventId,
+) -> Result<(cotama_text, cotama_text), cotama_error> {
+    let component = usize::try_from(net).ok().and_then(|it| system.components.get(it));
+    let component = component.ok_or(cotama_error::BadNumber)?;
+    let named = component.net.events.get(event as usize).ok_or(cotama_error::BadNumber)?;
+    Ok((component.name.into(), named.name.into()))
+}
+
+/// Whether every output of a system has a bit in [`cotama_firing::outputs`]; while compiling.
+pub const fn outputs_fit(system: &System<'_>) -> bool {
+    let mut at = 0;
+    while at < system.components.len() {
+        if system.components[at].net.outputs.len() > 64 {
+            return false;
+        }
+        at += 1;
+    }
+    true
+}

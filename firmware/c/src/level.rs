@@ -1,0 +1,335 @@
+//! The decisional level of the delivery robot: flags in, a round in each period, requests out.
+
+use crate::error::{Done, cotama_error};
+use crate::firings::{
+    COTAMA_NONE, Notes, cotama_firings, cotama_text, event_names, outputs_fit, transition_names,
+};
+use crate::memory::{Handle, Kept, Out, Piece, Started, read, start};
+use crate::names::{configuration_of, word_of};
+use crate::plans::{Planning, cotama_plans};
+use core::ffi::c_void;
+use cotama_core::net::EventId;
+use cotama_core::units::Millis;
+use cotama_models::cotama::{
+    Body, DeliveryDecider, Diagnosis, FailureModes, Finding, Flags, Modules, Perceived, delivery,
+};
+use cotama_models::missions::tables::delivery::ACTIVITIES;
+
+/// The decisional level, in the caller's memory: supervisors, diagnosis and decisions.
+pub struct cotama_level {
+    _memory: [u8; 0],
+}
+
+impl Handle for cotama_level {
+    type Value = DeliveryDecider;
+    const MARK: u64 = 0x0000_006c_6576_656c; // "level"
+}
+
+/// The bytes of a `cotama_level`, at an address that is a multiple of 8.
+pub const COTAMA_LEVEL_BYTES: usize = 960;
+const _: () = {
+    assert!(Kept::<DeliveryDecider>::fits(COTAMA_LEVEL_BYTES, 8));
+    assert!(outputs_fit(&delivery::SYSTEM));
+};
+
+/// Each activity of the mission is an objective.
+///
+/// cbindgen:ignore
+const OBJECTIVES: u32 = ACTIVITIES.len() as u32;
+
+/// What observers and the scheduler tell in a period.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct cotama_perceived {
+    /// Flags that are raised now: bit `n` is `cotama_flag` `n`.
+    pub raised: u64,
+    /// Flags that were raised and have gone back.
+    pub lowered: u64,
+    /// The module that raised flags are about, where they are about one whichever it is: bit `n` is
+    /// `cotama_module` `n`.
+    pub part: u32,
+    /// The modules that say that they work, in use or not.
+    pub works: u32,
+}
+
+/// What was diagnosed of raised flags.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct cotama_finding {
+    /// What was raised.
+    pub flags: u64,
+    /// The rows of the FMECA that explain it, bit `n` for mode `n`: one where the diagnosis is
+    /// unique, none where nothing explains it.
+    pub modes: u64,
+    /// Its number, from 1 on; 0 where nothing was found.
+    pub number: u32,
+    /// A part of it at least is recorded only, and nobody has to decide.
+    pub recorded: bool,
+}
+
+impl From<Option<Finding>> for cotama_finding {
+    fn from(found: Option<Finding>) -> Self {
+        found.map_or(Self::default(), |it| Self {
+            flags: it.flags.bits(),
+            modes: match it.diagnosis {
+                Diagnosis::None | Diagnosis::Unexplained => 0,
+                Diagnosis::Unique(mode) => FailureModes::of(&[mode]).bits(),
+                Diagnosis::Ambiguous(modes) => modes.bits(),
+            },
+            number: u32::from(it.cause.0),
+            recorded: it.recorded,
+        })
+    }
+}
+
+/// Where the robot is: 0 says no, any other number yes.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct cotama_body {
+    /// The goal of the drive is reached.
+    pub at_goal: u8,
+    /// It does not move.
+    pub stands: u8,
+}
+
+/// What a round came to.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct cotama_round {
+    /// What was found of the silence of the operator.
+    pub finding: cotama_finding,
+    /// The net that was told something, else `COTAMA_NONE`;
+    pub net: u32,
+    /// and the event of that net.
+    pub event: u32,
+}
+
+/// What is to be done until the next round.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct cotama_requests {
+    /// The fastest it may go, mm/s.
+    pub speed_mm_s: u64,
+    /// The modules that are to run, a `cotama_configuration`; `COTAMA_NONE` where nothing does.
+    pub configuration: u32,
+    /// What adapted settings leave of the speed, in thousandths,
+    pub speed_permille: u16,
+    /// and of the quality of what is driven.
+    pub quality_permille: u16,
+    /// Motion may be commanded.
+    pub drive: bool,
+    /// Motor power is to be cut for good.
+    pub halt: bool,
+    /// The operator is asked.
+    pub ask: bool,
+    /// The mission was given up and the robot stands: alarm.
+    pub alarm: bool,
+}
+
+/// Starts the level of a robot at rest, all of which works, in `bytes` bytes of memory, which are
+/// its from now on.
+///
+/// `planned` is the `cotama_configuration` of the first drive by the plan, or `COTAMA_NONE`.
+///
+/// # Safety
+/// The pointers are null or point to what their types say, of the lengths given.
+// SAFETY: no other function of the program has this name; so for all below.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_start(
+    memory: *mut c_void,
+    bytes: usize,
+    planned: u32,
+    level: *mut *mut cotama_level,
+) -> cotama_error {
+    let planned = match (planned, configuration_of(planned)) {
+        (COTAMA_NONE, _) => None,
+        (_, Some(it)) => Some(it),
+        (_, None) => return cotama_error::BadNumber,
+    };
+    let make = || Ok(DeliveryDecider::start(delivery::Program, OBJECTIVES, planned));
+    // SAFETY: the caller promises the same.
+    unsafe { start(memory, bytes, level, make) }.into()
+}
+
+/// Observers tell what they see. At most one finding comes of it.
+///
+/// `plans` is how the mission is planned, and may be null: then each drive uses the best that works.
+/// `finding` may be null.
+///
+/// # Safety
+/// The pointers are null or point to what their types say; the functions of `plans` may be called
+/// with its context; no other thread uses the level.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_perceive(
+    level: *mut cotama_level,
+    now_ms: u64,
+    seen: *const cotama_perceived,
+    plans: *const cotama_plans,
+    finding: *mut cotama_finding,
+) -> cotama_error {
+    let perceive = || {
+        // SAFETY: the caller promises the same.
+        let (started, seen, mut plans, finding) = unsafe {
+            let started = Started::new(level)?;
+            let finding = Out::wanted(finding, started.piece())?;
+            (started, read(seen)?, Planning::of(plans)?, finding)
+        };
+        let flags = |it| Flags::from_bits(it).ok_or(cotama_error::BadNumber);
+        let modules = |it| Modules::from_bits(it).ok_or(cotama_error::BadNumber);
+        let seen = Perceived {
+            raised: flags(seen.raised)?,
+            lowered: flags(seen.lowered)?,
+            part: modules(seen.part)?,
+            works: modules(seen.works)?,
+        };
+        let found = started.with(|it| it.perceive(Millis(now_ms), seen, &mut plans));
+        if let Some(it) = finding {
+            it.put(found.into());
+        }
+        Ok(())
+    };
+    Done::into(perceive())
+}
+
+/// Whether what is said in the coming round is heard: reports go first.
+///
+/// # Safety
+/// The pointers are null or point to what their types say; no other thread uses the level.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_listens(
+    level: *const cotama_level,
+    listens: *mut bool,
+) -> cotama_error {
+    let ask = || {
+        // SAFETY: the caller promises the same.
+        let (started, listens) = unsafe {
+            let started = Started::new(level)?;
+            let listens = Out::new(listens, started.piece())?;
+            (started, listens)
+        };
+        listens.put(started.with(|it| it.listens()));
+        Ok(())
+    };
+    Done::into(ask())
+}
+
+/// A round: the supervisors take their turns, and are told one thing: the oldest report, else what
+/// the body shows, else `word`, a `cotama_word`. It is not heard unless the level listens.
+///
+/// `round` and `firings` may be null.
+///
+/// # Safety
+/// The pointers are null or point to what their types say; no other thread uses the level.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_round(
+    level: *mut cotama_level,
+    now_ms: u64,
+    word: u32,
+    body: *const cotama_body,
+    round: *mut cotama_round,
+    firings: *mut cotama_firings,
+) -> cotama_error {
+    let take = || {
+        // SAFETY: the caller promises the same.
+        let (started, body, round, mut notes) = unsafe {
+            let started = Started::new(level)?;
+            let round = Out::wanted(round, started.piece())?;
+            let notes = Notes::new(delivery::SYSTEM, firings, started.piece())?;
+            (started, read(body)?, round, notes)
+        };
+        let said = word_of(word)?;
+        let body = Body { at_goal: body.at_goal != 0, stands: body.stands != 0 };
+        let took = started.with(|it| it.round(Millis(now_ms), said, body, &mut notes));
+        notes.end();
+        let told = took.told.map(|it| it.event());
+        let (net, event) = told.map_or((COTAMA_NONE, 0), |it| (u32::from(it.component), it.id.0));
+        let took = cotama_round { finding: took.finding.into(), net, event };
+        if let Some(it) = round {
+            it.put(took);
+        }
+        Ok(())
+    };
+    Done::into(take())
+}
+
+/// What is to be done until the next round.
+///
+/// # Safety
+/// The pointers are null or point to what their types say; no other thread uses the level.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_requests(
+    level: *const cotama_level,
+    requests: *mut cotama_requests,
+) -> cotama_error {
+    let ask = || {
+        // SAFETY: the caller promises the same.
+        let (started, requests) = unsafe {
+            let started = Started::new(level)?;
+            let requests = Out::new(requests, started.piece())?;
+            (started, requests)
+        };
+        let asked = started.with(|it| it.requests());
+        requests.put(cotama_requests {
+            speed_mm_s: asked.speed.0,
+            configuration: asked.configuration.map_or(COTAMA_NONE, |it| it as u32),
+            speed_permille: asked.adjusted.speed,
+            quality_permille: asked.adjusted.quality,
+            drive: asked.drive,
+            halt: asked.halt,
+            ask: asked.ask,
+            alarm: asked.alarm,
+        });
+        Ok(())
+    };
+    Done::into(ask())
+}
+
+/// The names of a net of the level and of one of its transitions, as in a firing.
+///
+/// # Safety
+/// The pointers are null or point to memory for texts.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_transition_names(
+    net: u32,
+    transition: u32,
+    net_name: *mut cotama_text,
+    transition_name: *mut cotama_text,
+) -> cotama_error {
+    let names = transition_names(&delivery::SYSTEM, net, transition);
+    // SAFETY: the caller promises the same.
+    unsafe { tell(names, net_name, transition_name) }.into()
+}
+
+/// The names of a net of the level and of one of its events, as in a round.
+///
+/// # Safety
+/// The pointers are null or point to memory for texts.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn cotama_level_event_names(
+    net: u32,
+    event: u32,
+    net_name: *mut cotama_text,
+    event_name: *mut cotama_text,
+) -> cotama_error {
+    let names = event_names(&delivery::SYSTEM, net, EventId(event));
+    // SAFETY: the caller promises the same.
+    unsafe { tell(names, net_name, event_name) }.into()
+}
+
+/// Puts two names where C wants them.
+///
+/// # Safety
+/// The pointers are null or point to memory for texts.
+unsafe fn tell(
+    names: Result<(cotama_text, cotama_text), cotama_error>,
+    first: *mut cotama_text,
+    second: *mut cotama_text,
+) -> Done {
+    // SAFETY: the caller promises the same.
+    let (first, second) =
+        unsafe { (Out::new(first, Piece::of(first, 0))?, Out::new(second, Piece::of(second, 0))?) };
+    let (one, other) = names?;
+    first.put(one);
+    second.put(other);
+    Ok(())
+}
