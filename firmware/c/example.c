@@ -269,13 +269,14 @@ static void allocation_steps(void) {
         it->units = UINT64_C(1) << 4 * draw(4);
       }
     }
+    /* One draw after the other: C does not say in which order a list is evaluated. */
+    const uint64_t available = draw(4) == 0 ? 0x0111 : 0x1111;
+    const uint64_t duration_ms = most[0] * (40 + draw(60)) / 100;
+    const uint64_t energy_mj = most[1] * (30 + draw(60)) / 100;
     const cotama_problem problem = {
-        candidates,
-        filled,
-        counts,
-        activities,
-        draw(4) == 0 ? 0x0111 : 0x1111,
-        {most[0] * (40 + draw(60)) / 100, most[1] * (30 + draw(60)) / 100},
+        candidates, filled,
+        counts, activities,
+        available, {duration_ms, energy_mj},
         {number % 2 == 0 ? 0 : 1, number % 2 == 0 ? 1 : 0},
     };
     const uint64_t steps = draw(5) == 0 ? 20 + draw(200) : 100000;

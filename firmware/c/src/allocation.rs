@@ -258,13 +258,14 @@ unsafe fn plan<'m>(
         &mut [u16],
     ) -> Result<Answer<COTAMA_AXES>, cotama_error>,
 ) -> Done {
-    let (working, chosen) = (Piece::of(memory.0.cast::<u8>(), memory.1), Piece::of(plan.0, plan.1));
+    let working = Piece::of_list(memory.0.cast::<u8>(), memory.1)?;
+    let chosen = Piece::of_list(plan.0, plan.1)?;
     // SAFETY: the caller promises the same; what is read and what is written lie apart.
     let (given, answer, mut carver, plan) = unsafe {
         let given = read(problem)?;
         let read = [
-            Piece::of(given.candidates, given.candidate_count),
-            Piece::of(given.counts, given.activity_count),
+            Piece::of_list(given.candidates, given.candidate_count)?,
+            Piece::of_list(given.counts, given.activity_count)?,
         ];
         for it in read {
             it.apart_from(working)?;

@@ -1,11 +1,11 @@
-//! What fired, noted in the caller's memory; names of nets, transitions and events.
+//! What fired, noted in the caller's memory.
 
 use crate::error::cotama_error;
 use crate::memory::{Piece, list_to_write, read};
+use crate::tables::Says;
 use core::ffi::c_char;
-use cotama_core::net::EventId;
 use cotama_core::player::{Firing, Names, Observer};
-use cotama_core::system::{Of, System};
+use cotama_core::system::Of;
 
 /// "None", where a number stands for something: no configuration, no axis.
 pub const COTAMA_NONE: u32 = u32::MAX;
@@ -57,8 +57,8 @@ pub struct cotama_firings {
 
 /// Notes firings.
 pub(crate) struct Notes<'l> {
-    /// Whose transitions fire.
-    system: System<'static>,
+    /// What transitions say.
+    says: Says<'static>,
     to: Option<*mut cotama_firings>,
     list: &'l mut [cotama_firing],
     count: usize,
@@ -68,22 +68,22 @@ impl Notes<'_> {
     /// # Safety
     /// `firings` is null, or points to such a value whose list has as much room as it says.
     pub(crate) unsafe fn new(
-        system: System<'static>,
+        says: Says<'static>,
         firings: *mut cotama_firings,
         beside: Piece,
     ) -> Result<Self, cotama_error> {
         if firings.is_null() {
-            return Ok(Self { system, to: None, list: &mut [], count: 0 });
+            return Ok(Self { says, to: None, list: &mut [], count: 0 });
         }
         // SAFETY: it is promised that such a value is there.
         let given = unsafe { read(firings) }?;
         Piece::of(firings, 1).apart_from(beside)?;
-        let list = Piece::of(given.list, given.room);
+        let list = Piece::of_list(given.list, given.room)?;
         list.apart_from(beside)?;
         list.apart_from(Piece::of(firings, 1))?;
         // SAFETY: it is promised that the list has this room, and it overlaps nothing in use.
         let list = unsafe { list_to_write(given.list, given.room) }?;
-        Ok(Self { system, to: Some(firings), list, count: 0 })
+        Ok(Self { says, to: Some(firings), list, count: 0 })
     }
 
     /// Tells the caller how many there were.
@@ -98,51 +98,11 @@ impl Notes<'_> {
 impl<P: Names, M> Observer<P, M> for Notes<'_> {
     fn on_fire(&mut self, firing: &Firing<'_, P, M>) {
         let Of { component, id } = firing.id;
-        let net = self.system.components.get(usize::from(component)).map(|it| it.net);
-        let transition = net.and_then(|it| it.transitions.get(id.0 as usize));
-        let emits = transition.map_or(&[][..], |it| it.emits).iter();
-        let outputs = emits.fold(0, |all, it| all | 1_u64.checked_shl(it.0).unwrap_or(0));
+        let outputs = self.says.of(component, id.0);
         if let Some(place) = self.list.get_mut(self.count) {
             let net = u32::from(component);
             *place = cotama_firing { at_ms: firing.at.0, outputs, net, transition: id.0 };
         }
         self.count = self.count.saturating_add(1);
     }
-}
-
-/// The names of a net of a system and of one of its transitions.
-pub(crate) fn transition_names(
-    system: &System<'static>,
-    net: u32,
-    transition: u32,
-) -> Result<(cotama_text, cotama_text), cotama_error> {
-    let component = usize::try_from(net).ok().and_then(|it| system.components.get(it));
-    let component = component.ok_or(cotama_error::BadNumber)?;
-    let named = component.net.transitions.get(transition as usize);
-    let named = named.ok_or(cotama_error::BadNumber)?;
-    Ok((component.name.into(), named.name.into()))
-}
-
-/// The names of a net of a system and of one of its events.
-pub(crate) fn event_names(
-    system: &System<'static>,
-    net: u32,
-    EventId(event): EventId,
-) -> Result<(cotama_text, cotama_text), cotama_error> {
-    let component = usize::try_from(net).ok().and_then(|it| system.components.get(it));
-    let component = component.ok_or(cotama_error::BadNumber)?;
-    let named = component.net.events.get(event as usize).ok_or(cotama_error::BadNumber)?;
-    Ok((component.name.into(), named.name.into()))
-}
-
-/// Whether every output of a system has a bit in [`cotama_firing::outputs`]; while compiling.
-pub const fn outputs_fit(system: &System<'_>) -> bool {
-    let mut at = 0;
-    while at < system.components.len() {
-        if system.components[at].net.outputs.len() > 64 {
-            return false;
-        }
-        at += 1;
-    }
-    true
 }

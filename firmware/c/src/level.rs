@@ -1,14 +1,11 @@
 //! The decisional level of the delivery robot: flags in, a round in each period, requests out.
 
 use crate::error::{Done, cotama_error};
-use crate::firings::{
-    COTAMA_NONE, Notes, cotama_firings, cotama_text, event_names, outputs_fit, transition_names,
-};
+use crate::firings::{COTAMA_NONE, Notes, cotama_firings, cotama_text};
 use crate::memory::{Handle, Kept, Out, Piece, Started, read, start};
 use crate::names::{configuration_of, word_of};
 use crate::plans::{Planning, cotama_plans};
 use core::ffi::c_void;
-use cotama_core::net::EventId;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Body, DeliveryDecider, Diagnosis, FailureModes, Finding, Flags, Modules, Perceived, delivery,
@@ -27,10 +24,9 @@ impl Handle for cotama_level {
 
 /// The bytes of a `cotama_level`, at an address that is a multiple of 8.
 pub const COTAMA_LEVEL_BYTES: usize = 960;
-const _: () = {
-    assert!(Kept::<DeliveryDecider>::fits(COTAMA_LEVEL_BYTES, 8));
-    assert!(outputs_fit(&delivery::SYSTEM));
-};
+const _: () = assert!(Kept::<DeliveryDecider>::fits(COTAMA_LEVEL_BYTES, 8));
+
+crate::tables! { delivery::SYSTEM }
 
 /// Each activity of the mission is an objective.
 ///
@@ -234,7 +230,7 @@ pub unsafe extern "C" fn cotama_level_round(
         let (started, body, round, mut notes) = unsafe {
             let started = Started::new(level)?;
             let round = Out::wanted(round, started.piece())?;
-            let notes = Notes::new(delivery::SYSTEM, firings, started.piece())?;
+            let notes = Notes::new(SAYS, firings, started.piece())?;
             (started, read(body)?, round, notes)
         };
         let said = word_of(word)?;
@@ -295,7 +291,7 @@ pub unsafe extern "C" fn cotama_level_transition_names(
     net_name: *mut cotama_text,
     transition_name: *mut cotama_text,
 ) -> cotama_error {
-    let names = transition_names(&delivery::SYSTEM, net, transition);
+    let names = TRANSITIONS.of(net, transition);
     // SAFETY: the caller promises the same.
     unsafe { tell(names, net_name, transition_name) }.into()
 }
@@ -311,7 +307,7 @@ pub unsafe extern "C" fn cotama_level_event_names(
     net_name: *mut cotama_text,
     event_name: *mut cotama_text,
 ) -> cotama_error {
-    let names = event_names(&delivery::SYSTEM, net, EventId(event));
+    let names = EVENTS.of(net, event);
     // SAFETY: the caller promises the same.
     unsafe { tell(names, net_name, event_name) }.into()
 }
@@ -321,7 +317,7 @@ pub unsafe extern "C" fn cotama_level_event_names(
 /// # Safety
 /// The pointers are null or point to memory for texts.
 unsafe fn tell(
-    names: Result<(cotama_text, cotama_text), cotama_error>,
+    names: Result<(&'static str, &'static str), cotama_error>,
     first: *mut cotama_text,
     second: *mut cotama_text,
 ) -> Done {
@@ -329,7 +325,7 @@ unsafe fn tell(
     let (first, second) =
         unsafe { (Out::new(first, Piece::of(first, 0))?, Out::new(second, Piece::of(second, 0))?) };
     let (one, other) = names?;
-    first.put(one);
-    second.put(other);
+    first.put(one.into());
+    second.put(other.into());
     Ok(())
 }

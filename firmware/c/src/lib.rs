@@ -26,6 +26,7 @@ pub mod monitor;
 pub mod names;
 pub mod plans;
 pub mod supervisor;
+pub mod tables;
 pub mod watchdog;
 
 /// The version of this header, as numbers. Programs made with one minor version of 0 need a library

@@ -47,6 +47,14 @@ impl Piece {
         Self { address: at.addr(), bytes: count.saturating_mul(size_of::<T>()) }
     }
 
+    /// Of a list that can be one: aligned, not null unless it is empty, and not too long.
+    pub(crate) fn of_list<T>(at: *const T, count: usize) -> Result<Self, cotama_error> {
+        if count > 0 {
+            usable(at, count)?;
+        }
+        Ok(Self::of(at, count))
+    }
+
     fn end(self) -> usize {
         self.address.saturating_add(self.bytes)
     }

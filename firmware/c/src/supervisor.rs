@@ -7,7 +7,8 @@
 //!    one line each that compares their names with the net's while compiling ([`same_names`]);
 //! 3. a constant with the bytes of a handle and one with those of a stored state, for the header,
 //!    and a line that compares them with what Rust needs;
-//! 4. one function for each operation, which hands its arguments to the one of this module.
+//! 4. `tables!`, and the trait [`Alone`] for the net's program;
+//! 5. one function for each operation, which hands its arguments to the one of this module.
 //!
 //! Such a file stands in a crate of yours that depends on this one, beside a panic handler as in
 //! `library`; its `crate-type` is `staticlib`, and cbindgen makes its header with
@@ -18,16 +19,15 @@
 #![allow(clippy::missing_errors_doc, reason = "`cotama_error` says what each error is")]
 
 use crate::error::{Done, cotama_error};
-use crate::firings::{
-    COTAMA_NEVER, Notes, cotama_firings, cotama_text, event_names, transition_names,
-};
+use crate::firings::{COTAMA_NEVER, Notes, cotama_firings, cotama_text};
 use crate::memory::{Handle, Out, Piece, Started, list, list_to_write, start as start_handle};
+use crate::tables::{NamesOf, Says};
 use core::ffi::c_void;
 use cotama_core::net::{EventId, Net, PlaceId, Signal};
 use cotama_core::player::{
     Checked, Outcome, Player, Program, RestoreError, Snapshot, StateMachine, Why,
 };
-use cotama_core::system::{Of, System};
+use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
 /// What became of an event that was offered.
@@ -74,15 +74,16 @@ impl<T> From<Outcome<T>> for cotama_outcome {
 /// cbindgen:ignore
 pub type Playing<P, const W: usize, const C: usize> = Player<Checked<P>, W, C>;
 
-/// The system of a net alone, as long as the program runs.
-fn system<P: Program<W, C> + Alone, const W: usize, const C: usize>() -> System<'static> {
-    P::PROGRAM.system()
-}
-
 /// A net alone whose program has no bytes, as `net!` makes one.
 pub trait Alone: Sized + 'static {
     /// The program.
-    const PROGRAM: &'static Self;
+    const PROGRAM: Self;
+    /// What its transitions say: of [`tables!`](crate::tables!).
+    const SAYS: Says<'static>;
+    /// How many events it has.
+    const EVENTS: u32;
+    /// How many places it has.
+    const PLACES: u32;
 }
 
 /// Starts a net at `now`; transitions that fire at once are noted.
@@ -104,9 +105,9 @@ where
     let piece = Piece::of(memory.cast::<u8>(), bytes);
     // SAFETY: the caller promises the same.
     unsafe {
-        let mut notes = Notes::new(system::<P, W, C>(), firings, piece)?;
+        let mut notes = Notes::new(P::SAYS, firings, piece)?;
         start_handle(memory, bytes, handle, || {
-            Ok(Player::start(Checked(*P::PROGRAM), Millis(now), &mut notes))
+            Ok(Player::start(Checked(P::PROGRAM), Millis(now), &mut notes))
         })?;
         notes.end();
     }
@@ -132,10 +133,12 @@ where
     let (started, outcome, mut notes) = unsafe {
         let started = Started::new(handle)?;
         let outcome = Out::wanted(outcome, started.piece())?;
-        let notes = Notes::new(system::<P, W, C>(), firings, started.piece())?;
+        let notes = Notes::new(P::SAYS, firings, started.piece())?;
         (started, outcome, notes)
     };
-    event_names(&system::<P, W, C>(), 0, EventId(event))?;
+    if event >= P::EVENTS {
+        return Err(cotama_error::BadNumber);
+    }
     let event = Of { component: 0, id: EventId(event) };
     let became = started.with(|it| it.offer_id(Millis(now), event, (), &mut notes));
     notes.end();
@@ -163,7 +166,7 @@ where
     let (started, behind, mut notes) = unsafe {
         let started = Started::new(handle)?;
         let behind = Out::wanted(behind, started.piece())?;
-        let notes = Notes::new(system::<P, W, C>(), firings, started.piece())?;
+        let notes = Notes::new(P::SAYS, firings, started.piece())?;
         (started, behind, notes)
     };
     let advanced = started.with(|it| it.advance_with(Millis(now), &mut notes));
@@ -212,8 +215,7 @@ where
         let tokens = Out::new(tokens, started.piece())?;
         (started, tokens)
     };
-    let net = system::<P, W, C>().components.first().map(|it| it.net);
-    if net.is_none_or(|it| place as usize >= it.places.len()) {
+    if place >= P::PLACES {
         return Err(cotama_error::BadNumber);
     }
     let place = Of { component: 0, id: PlaceId(place) };
@@ -263,7 +265,7 @@ where
     // SAFETY: the caller promises the same.
     let (started, written, bytes) = unsafe {
         let started = Started::new(handle)?;
-        let piece = Piece::of(bytes, room);
+        let piece = Piece::of_list(bytes, room)?;
         piece.apart_from(started.piece())?;
         let written = Out::wanted(written, piece)?;
         (started, written, list_to_write(bytes, room)?)
@@ -299,11 +301,11 @@ where
         if stored.is_null() {
             return Err(cotama_error::NullPointer);
         }
-        Piece::of(stored, length).apart_from(Piece::of(memory.cast::<u8>(), bytes))?;
+        Piece::of_list(stored, length)?.apart_from(Piece::of(memory.cast::<u8>(), bytes))?;
         let stored = list(stored, length)?;
         start_handle(memory, bytes, handle, || {
             let snapshot = Snapshot::read(stored).ok_or(cotama_error::Damaged)?;
-            let restored = Player::restore(Checked(*P::PROGRAM), Millis(now), &snapshot);
+            let restored = Player::restore(Checked(P::PROGRAM), Millis(now), &snapshot);
             restored.map_err(|error| match error {
                 RestoreError::OtherSystem { .. } => cotama_error::OtherNet,
                 _ => cotama_error::Impossible,
@@ -316,16 +318,14 @@ where
 ///
 /// # Safety
 /// The pointer is null or points to memory for a text.
-pub unsafe fn transition_name<P, const W: usize, const C: usize>(
+pub unsafe fn transition_name(
+    names: NamesOf<'static>,
     transition: u32,
     name: *mut cotama_text,
-) -> Done
-where
-    P: Program<W, C> + Alone,
-{
+) -> Done {
     // SAFETY: the caller promises the same.
     let name = unsafe { Out::new(name, Piece::of(name, 0)) }?;
-    name.put(transition_names(&system::<P, W, C>(), 0, transition)?.1);
+    name.put(names.of(0, transition)?.1.into());
     Ok(())
 }
 

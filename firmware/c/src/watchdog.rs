@@ -1,9 +1,10 @@
 //! The watchdog of a periodic module in C: a net by the recipe of [`supervisor`].
 
 use crate::error::cotama_error;
-use crate::firings::{cotama_firings, cotama_text, outputs_fit};
+use crate::firings::{cotama_firings, cotama_text};
 use crate::memory::{self, Handle};
 use crate::supervisor::{self, Alone, Playing, cotama_outcome, same_names, same_places};
+use crate::tables::Says;
 use core::ffi::c_void;
 use cotama_core::player::Snapshot;
 use cotama_core::system::{Component, System};
@@ -26,8 +27,13 @@ impl Handle for cotama_watchdog {
     const MARK: u64 = 0x676f_6468_6374_6177; // "watchdog"
 }
 
+crate::tables! { System::alone(&[Component::alone(&NET)]) }
+
 impl Alone for Program {
-    const PROGRAM: &'static Self = &Self;
+    const PROGRAM: Self = Self;
+    const SAYS: Says<'static> = SAYS;
+    const EVENTS: u32 = NET.events.len() as u32;
+    const PLACES: u32 = NET.places.len() as u32;
 }
 
 /// The bytes of a `cotama_watchdog`, at an address that is a multiple of 8.
@@ -37,7 +43,6 @@ pub const COTAMA_WATCHDOG_STORED_BYTES: usize = 32;
 const _: () = {
     assert!(memory::Kept::<Player>::fits(COTAMA_WATCHDOG_BYTES, 8));
     assert!(Snapshot::<WORDS, CLOCKS>::BYTES == COTAMA_WATCHDOG_STORED_BYTES);
-    assert!(outputs_fit(&System::alone(&[Component::alone(&NET)])));
 };
 
 /// What a watchdog is told.
@@ -220,5 +225,5 @@ pub unsafe extern "C" fn cotama_watchdog_transition_name(
     name: *mut cotama_text,
 ) -> cotama_error {
     // SAFETY: the caller promises the same.
-    unsafe { supervisor::transition_name::<Program, WORDS, CLOCKS>(transition, name) }.into()
+    unsafe { supervisor::transition_name(TRANSITIONS, transition, name) }.into()
 }

@@ -1,0 +1,136 @@
+#!/usr/bin/env bash
+# The C API: the header, the library, the example in C against its twin in Rust, the refusals.
+#
+#   firmware/c/check.sh
+#
+# One line a check. What a check needs and is not here is named as skipped; COTAMA_SKIP_TOOLS=0
+# makes that a failure. Exit status 0 when nothing failed.
+set -uo pipefail
+here=$(realpath "$(dirname "$0")")
+CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/c
+export CARGO_TARGET_DIR
+cd "$here" || exit 1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0 passed=0 skipped=0
+
+# check TITLE COMMAND...: one line; what a failure says follows it.
+check() {
+    local title=$1
+    shift
+    if "$@" >"$work/said" 2>&1; then
+        printf 'ok       %s\n' "$title"
+        passed=$((passed + 1))
+    else
+        printf 'FAILED   %s\n' "$title"
+        sed 's/^/         /' "$work/said"
+        failed=$((failed + 1))
+    fi
+}
+
+# skip TITLE REASON: loudly.
+skip() {
+    printf 'SKIPPED  %s: %s\n' "$1" "$2"
+    skipped=$((skipped + 1))
+    [ "${COTAMA_SKIP_TOOLS:-1}" != 0 ] || failed=$((failed + 1))
+}
+has() { command -v "$1" >/dev/null; }
+
+# The header is what cbindgen makes of this version of the crate.
+cbindgen=${CBINDGEN:-$(command -v cbindgen || ls ~/.cargo/bin/cbindgen 2>/dev/null)}
+same_header() {
+    "$cbindgen" --quiet --config cbindgen.toml --crate cotama-c --output "$work/cotama.h" . &&
+        diff include/cotama.h "$work/cotama.h"
+}
+if [ -n "$cbindgen" ]; then
+    check "include/cotama.h is what cbindgen makes" same_header
+else
+    skip "include/cotama.h is what cbindgen makes" "no cbindgen (cargo install cbindgen)"
+fi
+
+check "format" cargo fmt --all --check
+check "lints" cargo clippy --quiet --locked --workspace --examples -- -D warnings
+check "the static library" cargo build --quiet --locked --release -p cotama-c-library
+library=$CARGO_TARGET_DIR/release/libcotama.a
+
+strict=(-Wall -Wextra -pedantic -Werror -Iinclude)
+echo '#include "cotama.h"' >"$work/only.c"
+cp "$work/only.c" "$work/only.cpp"
+for cc in gcc clang; do
+    if has $cc; then
+        check "the header alone as C11, $cc" $cc -std=c11 "${strict[@]}" -fsyntax-only "$work/only.c"
+        check "the example as C11, $cc" $cc -std=c11 "${strict[@]}" -g example.c "$library" \
+            -o "$work/example-$cc"
+    else
+        skip "the header and the example as C11, $cc" "no $cc"
+    fi
+done
+for cxx in g++ clang++; do
+    if has $cxx; then
+        check "the header alone as C++17, $cxx" $cxx -std=c++17 "${strict[@]}" -fsyntax-only \
+            "$work/only.cpp"
+    else
+        skip "the header alone as C++17, $cxx" "no $cxx"
+    fi
+done
+has gcc || exit 1
+
+check "the same steps in Rust" cargo run --quiet --locked --example same_steps
+cp "$work/said" "$work/rust.txt"
+# same BINARY [COMMAND...]: it prints what Rust prints.
+same() {
+    "${@:2}" "$1" >"$work/c.txt" && cmp "$work/c.txt" "$work/rust.txt"
+}
+for cc in gcc clang; do
+    [ ! -x "$work/example-$cc" ] ||
+        check "the example prints what Rust prints, $cc, $(wc -l <"$work/rust.txt") lines" \
+            same "$work/example-$cc"
+done
+
+check "the refusals as C11, gcc" gcc -std=c11 "${strict[@]}" -g refusals.c "$library" \
+    -o "$work/refusals"
+check "every refusal" "$work/refusals"
+said=$(cat "$work/said")
+if has valgrind; then
+    memory=(valgrind --quiet --error-exitcode=9 --leak-check=full --track-origins=yes)
+    check "the example under valgrind" same "$work/example-gcc" "${memory[@]}"
+    check "every refusal under valgrind" "${memory[@]}" "$work/refusals" without-padding
+else
+    skip "the example and the refusals under valgrind" "no valgrind"
+fi
+sane=(-fsanitize=address,undefined -fno-sanitize-recover=all)
+for program in example refusals; do
+    check "$program.c with sanitizers" gcc -std=c11 "${strict[@]}" -g "${sane[@]}" $program.c \
+        "$library" -o "$work/$program-sane"
+done
+check "the example under sanitizers" same "$work/example-sane"
+check "every refusal under sanitizers" "$work/refusals-sane"
+
+# The library as firmware links it: every function that the header names is there, and nothing that
+# it calls lacks.
+target=thumbv7em-none-eabihf
+functions() {
+    grep -oE '\bcotama_[a-z_]+\(' include/cotama.h | tr -d '(' | sort -u
+}
+on_thumb() {
+    local entries=() it
+    env -u CARGO -u RUSTC -u RUSTDOC -u RUSTFLAGS -u RUSTUP_TOOLCHAIN PATH=/usr/bin:/bin \
+        CARGO_TARGET_DIR="$CARGO_TARGET_DIR/debian" \
+        cargo build --quiet --locked --release --target "$target" -p cotama-c-library || return 1
+    for it in $(functions); do entries+=(-u "$it"); done
+    arm-none-eabi-ld --gc-sections -e cotama_version "${entries[@]}" -o "$work/image" \
+        "$CARGO_TARGET_DIR/debian/$target/release/libcotama.a" || return 1
+    arm-none-eabi-size -A "$work/image" | awk '
+        $1 ~ /^\.(text|rodata|ARM)/ { flash += $2 } $1 ~ /^\.(data|bss)/ { ram += $2 }
+        END { printf "%d bytes of code and tables, %d of RAM\n", flash, ram; exit ram != 0 }'
+}
+if [ -e "$(/usr/bin/rustc --print sysroot 2>/dev/null)/lib/rustlib/$target/stamp" ] &&
+    has arm-none-eabi-ld; then
+    check "the library on $target, all $(functions | wc -l) functions" on_thumb
+    sed 's/^/         /' "$work/said"
+else
+    skip "the library on $target" "no compiler for it (.ci/install-thumb $target)"
+fi
+
+printf '%d checks passed, %d failed, %d skipped; %s\n' $passed $failed $skipped "$said"
+[ $failed = 0 ]

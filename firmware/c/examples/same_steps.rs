@@ -1,0 +1,332 @@
+//! The steps of `example.c` in Rust, which calls no C: both print the same text.
+//!
+//! `cargo run --manifest-path firmware/c/Cargo.toml --example same_steps`
+
+use cotama_core::allocation::{Allocator, Answer};
+use cotama_core::exact::{Exact, Item, Objective, Stage};
+use cotama_core::hardware::Equipment;
+use cotama_core::monitor::{Monitor, Request, Trigger, Upward};
+use cotama_core::panorama::Panorama;
+use cotama_core::player::{Checked, Firing, Names, Observer, Outcome, Snapshot, Why};
+use cotama_core::problem::{Candidate, Problem};
+use cotama_core::system::System;
+use cotama_core::units::Millis;
+use cotama_models::cotama::{
+    Body, Cause, Configuration, DeliveryDecider, Diagnosis, FailureModes, Finding, Flag, Flags,
+    Modules, NoPlanLeft, Perceived, Plans, Why as Needed, Word, delivery, operator,
+};
+use cotama_models::nets::watchdog;
+
+fn main() {
+    watchdog_steps();
+    level_steps();
+    allocation_steps();
+    monitor_steps();
+}
+
+/// Prints what fires, with the names of what it says.
+struct Print;
+
+impl<P: Names<Output = watchdog::Output, Transition = watchdog::Transition>> Observer<P> for Print {
+    fn on_fire(&mut self, firing: &Firing<'_, P>) {
+        let name = watchdog::NET.transitions[firing.id.id.0 as usize].name;
+        print!("  {} {name}", firing.at);
+        firing.outputs().for_each(|it| print!(" {it:?}"));
+        println!();
+    }
+}
+
+const fn word(outcome: Outcome<watchdog::Transition>) -> &'static str {
+    match outcome {
+        Outcome::Fired { .. } => "fired",
+        Outcome::Refused { .. } => "refused",
+        Outcome::Ignored { why } => match why {
+            Why::OnPurpose => "ignored on purpose",
+            Why::NotEnabled | Why::NoSuchEvent => "not enabled",
+            Why::TooEarly(_) => "too early",
+            Why::TooLate(_) => "too late",
+            Why::Full(_) => "full",
+            Why::Behind => "behind",
+        },
+    }
+}
+
+fn print_watchdog(watchdog: &watchdog::Checked) {
+    let misses = watchdog.tokens(watchdog::Place::misses);
+    print!("  state {}, misses {misses}, wakes ", watchdog.state() as u32);
+    watchdog.wake_at().map_or_else(|| println!("never"), |at| println!("at {at}"));
+}
+
+fn watchdog_steps() {
+    use watchdog::Event::{CsAck, Done, Release};
+    let table = [
+        (0, Release),
+        (40, Done),
+        (100, Release),
+        (210, Done),
+        (300, Release),
+        (350, Release),
+        (500, Done),
+        (600, Release),
+        (900, CsAck),
+        (1_000, Release),
+        (1_030, Done),
+    ];
+    let program = Checked(watchdog::Program);
+    let mut watchdog = watchdog::Checked::start(program, Millis(0), &mut ());
+    for (at, event) in table {
+        // What fires is said behind the outcome.
+        let mut fired = watchdog;
+        println!(
+            "{}: event {} {}",
+            Millis(at),
+            event as u32,
+            word(fired.offer(Millis(at), &event))
+        );
+        let _ = watchdog.offer_with(Millis(at), &event, &mut Print);
+        print_watchdog(&watchdog);
+    }
+
+    // The power goes 60 ms after a release, and is back after four seconds.
+    let _ = watchdog.offer(Millis(1_100), &Release);
+    let _ = watchdog.advance(Millis(1_160));
+    let mut flash = [0; 32];
+    let written = watchdog.snapshot().write(&mut flash).expect("32 bytes are enough");
+    print!("stored {} bytes:", written.len());
+    for byte in written {
+        print!(" {byte:02x}");
+    }
+    println!();
+    let stored = Snapshot::read(&flash).expect("as it was written");
+    let mut watchdog = watchdog::Checked::restore(program, Millis(5_160), &stored).expect("sound");
+    print_watchdog(&watchdog);
+    let mut fired = watchdog;
+    println!("{}", if fired.advance(Millis(9_000)).behind { "behind" } else { "not behind" });
+    let _ = watchdog.advance_with(Millis(9_000), &mut Print);
+    print_watchdog(&watchdog);
+}
+
+/// A mission whose plan does without sonars once it is asked.
+#[derive(Default)]
+struct Plan {
+    asked: u32,
+}
+
+impl Plans for Plan {
+    fn is_over(&self) -> bool {
+        false
+    }
+
+    fn plan(&mut self, why: Needed, available: Modules) -> Result<bool, NoPlanLeft> {
+        self.asked += 1;
+        let (why, detail) = match why {
+            Needed::Lost { modules, .. } => (0, modules.bits()),
+            Needed::Returned { modules, .. } => (1, modules.bits()),
+            Needed::Margin(axis) => (2, axis as u32),
+        };
+        println!("  a plan is asked for: why {why}, {detail:#x} of {:#x}", available.bits());
+        Ok(true)
+    }
+
+    fn configuration(&self) -> Option<Configuration> {
+        Some(match self.asked {
+            0 => Configuration::FollowingOptimal,
+            _ => Configuration::FollowingDegraded,
+        })
+    }
+
+    fn short(&self) -> Option<usize> {
+        None
+    }
+}
+
+fn print_finding(finding: Option<Finding>) {
+    let Some(finding) = finding else { return };
+    let recorded = if finding.recorded { ", recorded" } else { "" };
+    print!("  finding {}{recorded}:", finding.cause.0);
+    let modes = match finding.diagnosis {
+        Diagnosis::None | Diagnosis::Unexplained => FailureModes::NONE,
+        Diagnosis::Unique(mode) => FailureModes::of(&[mode]),
+        Diagnosis::Ambiguous(modes) => modes,
+    };
+    modes.iter().for_each(|it| print!(" {}", it.name()));
+    println!();
+}
+
+/// A number as C prints it with `%#x`.
+fn hexadecimal(number: u64) -> String {
+    if number == 0 { "0".to_owned() } else { format!("{number:#x}") }
+}
+
+fn level_steps() {
+    const SYSTEM: System<'static> = delivery::SYSTEM;
+    let planned = Some(Configuration::FollowingOptimal);
+    let mut level = DeliveryDecider::start(delivery::Program, 4, planned);
+    let mut plan = Plan::default();
+    for now in (0..=4_000).step_by(100) {
+        let sound = Perceived::nothing(Modules::ALL);
+        let seen = match now {
+            1_800 => Perceived { raised: Flags::of(&[Flag::SonarFar]), ..sound },
+            2_500 => Perceived { raised: Flags::of(&[Flag::Bumper]), ..sound },
+            2_600 => Perceived { lowered: Flags::of(&[Flag::Bumper]), ..sound },
+            _ => sound,
+        };
+        let word = match now {
+            0 => Some(Word::MissionReceived),
+            200 | 1_500 => Some(Word::PathReady),
+            1_300 => Some(Word::ObjectReceived),
+            2_900 => Some(Word::Operator(operator::Event::teleoperate)),
+            3_300 => Some(Word::Operator(operator::Event::arrived)),
+            3_800 => Some(Word::ObjectDelivered),
+            _ => None,
+        };
+        let at_goal = now == 1_000 || now == 3_600;
+        let body = Body { at_goal, stands: now <= 200 || now >= 1_000 };
+        println!("{}", Millis(now));
+        print_finding(level.perceive(Millis(now), seen, &mut plan));
+        let report = if level.listens() { "" } else { ", a report" };
+        let mut fired = Vec::new();
+        let mut note = |it: &delivery::Firing<'_, Cause>| fired.push(it.id);
+        let round = level.round(Millis(now), word, body, &mut note);
+        print_finding(round.finding);
+        if let Some(told) = round.told.map(|it| it.event()) {
+            let net = &SYSTEM.components[usize::from(told.component)];
+            println!("  told {}.{}{report}", net.name, net.net.events[told.id.0 as usize].name);
+        }
+        for it in fired {
+            let net = &SYSTEM.components[usize::from(it.component)];
+            let transition = &net.net.transitions[it.id.0 as usize];
+            let says = transition.emits.iter().fold(0, |all, it| all | 1_u64 << it.0);
+            println!("  {}.{} says {}", net.name, transition.name, hexadecimal(says));
+        }
+        let it = level.requests();
+        let says = |wanted, word| if wanted { word } else { "" };
+        println!(
+            "  runs {},{}{}{}{} {} mm/s, {} and {} per mille",
+            it.configuration.map_or("nothing", Configuration::name),
+            says(it.drive, " drive"),
+            says(it.halt, " halt"),
+            says(it.ask, " ask"),
+            says(it.alarm, " alarm"),
+            it.speed.0,
+            it.adjusted.speed,
+            it.adjusted.quality,
+        );
+    }
+}
+
+/// Knuth's MMIX generator; the upper bits are the better ones.
+struct Draws(u64);
+
+impl Draws {
+    fn below(&mut self, below: u32) -> u32 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005);
+        self.0 = self.0.wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 33) as u32 % below
+    }
+}
+
+fn print_answer(by: &str, answer: Answer<2>, activities: &[&[Candidate<2>]], plan: &[u16]) {
+    print!("  {by}: ");
+    let steps = match answer {
+        Answer::Planned(it) => {
+            for (ways, choice) in activities.iter().zip(plan) {
+                print!("{} ", ways[usize::from(*choice)].id);
+            }
+            let best = if it.optimal { ", the best" } else { "" };
+            print!("costs {} ms, {} mJ, quality {}{best}", it.cost[0], it.cost[1], it.quality);
+            if let Some(bound) = it.bound {
+                print!(", bound {bound}");
+            }
+            it.steps
+        }
+        Answer::Infeasible { shortfall, steps } => {
+            print!("infeasible");
+            if let Some(it) = shortfall {
+                print!(", axis {}: {} of {}", it.axis(), it.least(), it.limit());
+            }
+            steps
+        }
+        Answer::Unknown { bound, steps } => {
+            print!("out of budget, bound {bound}");
+            steps
+        }
+    };
+    println!(", {steps} steps");
+}
+
+fn allocation_steps() {
+    let mut draws = Draws(1);
+    for number in 0..100 {
+        let activities = 1 + draws.below(17) as usize;
+        let (mut all, mut most) = (Vec::new(), [0_u64; 2]);
+        for _ in 0..activities {
+            let count = 1 + draws.below(21);
+            most = [most[0] + 30_000, most[1] + 400_000];
+            let ways = (0..count as u16).map(|id| {
+                let cost = [1_000 + draws.below(50_000), 10_000 + draws.below(700_000)];
+                let quality = draws.below(100);
+                let units = Equipment::NONE.with(draws.below(4) as usize, 1).expect("a kind");
+                (Candidate { cost, quality, id }, units)
+            });
+            all.push(ways.collect::<Vec<_>>());
+        }
+        let available = if draws.below(4) == 0 { 0x0111 } else { 0x1111 };
+        let available = Equipment::from_bits(available).expect("one unit each");
+        let limits = [
+            most[0] * u64::from(40 + draws.below(60)) / 100,
+            most[1] * u64::from(30 + draws.below(60)) / 100,
+        ];
+        let order = if number % 2 == 0 { [0, 1] } else { [1, 0] };
+        let steps = if draws.below(5) == 0 { 20 + u64::from(draws.below(200)) } else { 100_000 };
+        let candidates = all.iter().map(Vec::len).sum::<usize>();
+        println!("problem {number}: {activities} activities, {candidates} candidates");
+
+        let there = |ways: &Vec<(Candidate<2>, Equipment)>| {
+            let there = ways.iter().filter(|it| available.covers(it.1));
+            there.map(|it| it.0).collect::<Vec<_>>()
+        };
+        let left = all.iter().map(there).collect::<Vec<_>>();
+        let lists = left.iter().map(Vec::as_slice).collect::<Vec<_>>();
+        if let Some(lacks) = lists.iter().position(|it| it.is_empty()) {
+            println!("  by the rule: without hardware, activity {lacks}, 0 steps");
+            println!("  exactly: without hardware, activity {lacks}, 0 steps");
+            continue;
+        }
+        let problem = Problem::new(&lists, limits, order).expect("a problem");
+        let (mut plan, mut caps) = ([0; 17], [[0; 2]; 17]);
+        let answer = Panorama::new(&mut caps).allocate(&problem, &mut plan).expect("memory");
+        print_answer("by the rule", answer, &lists, &plan);
+        let objectives = [Objective::MostQuality, Objective::Least(1)];
+        let (mut items, mut stages) = (vec![Item::EMPTY; candidates], [Stage::EMPTY; 17]);
+        let mut exact = Exact::new(&objectives, steps, &mut items, &mut stages);
+        let answer = exact.allocate(&problem, &mut plan).expect("memory");
+        print_answer("exactly", answer, &lists, &plan);
+    }
+}
+
+fn monitor_steps() {
+    let upward = Upward { growth: [0, 50_000], reserve: [0, 10_000] };
+    let monitor = Monitor::new([600_000, 8_640_000], [0, 1]).expect("limits");
+    let mut monitor = monitor.with_upward(upward);
+    let mut rest = [527_924, 8_563_613];
+    monitor.planned(&rest).expect("amounts");
+    let units = |bits| Equipment::from_bits(bits).expect("units");
+    for step in 0..12 {
+        rest = [rest[0] - 40_000, rest[1] - 700_000];
+        monitor.spend(&[40_000, if step < 6 { 560_000 } else { 900_000 }]).expect("amounts");
+        let (margins, left) = (monitor.margins(&rest).expect("amounts"), monitor.left());
+        let available = units(if step == 3 { 0x10 } else { 0x11 });
+        let request = monitor.assess(&rest, units(0x11), available).expect("amounts");
+        print!("margins {} ms, {} mJ of {} ms, {} mJ: ", margins[0], margins[1], left[0], left[1]);
+        match request {
+            Request::Keep => println!("keep"),
+            Request::Down(Trigger::Margin { axis }) => println!("down, a margin of axis {axis}"),
+            Request::Down(Trigger::Hardware) => println!("down, hardware"),
+            Request::Up => println!("up"),
+        }
+        if request == Request::Up {
+            monitor.planned(&rest).expect("amounts");
+        }
+    }
+}

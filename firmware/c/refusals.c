@@ -1,0 +1,284 @@
+/* What the library refuses, function by function: null pointers, memory that is short, misaligned,
+ * overlapping or of another handle, and numbers that stand for nothing. Whoever is refused finds
+ * everything as it was. With an argument, bytes between numbers are not compared. Exit status 0 when all was refused as it should be. */
+
+#include "cotama.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+static int failed;
+
+/* Whether a call answers with this error. */
+#define ANSWERS(ERROR, CALL)                                                              \
+  do {                                                                                    \
+    const cotama_error answered = (CALL);                                                 \
+    if (answered != COTAMA_ERROR_##ERROR) {                                               \
+      printf("%s:%d: %s: %s\n", __FILE__, __LINE__, #CALL, cotama_error_text(answered));  \
+      failed++;                                                                           \
+    }                                                                                     \
+    asked++;                                                                              \
+  } while (0)
+#define HOLDS(CONDITION)                                          \
+  do {                                                            \
+    if (!(CONDITION)) {                                           \
+      printf("%s:%d: not %s\n", __FILE__, __LINE__, #CONDITION);  \
+      failed++;                                                   \
+    }                                                             \
+  } while (0)
+
+static int asked;
+static uint64_t zero[COTAMA_LEVEL_BYTES / 8];
+
+static void texts(void) {
+  for (int32_t error = -3; error < 20; error++) {
+    HOLDS(strlen(cotama_error_text(error)) > 0);
+  }
+  HOLDS(strcmp(cotama_error_text(-1), cotama_error_text(INT32_MAX)) == 0);
+  cotama_text text;
+  ANSWERS(OK, cotama_flag_name(COTAMA_FLAG_ROBOT_SILENT, &text));
+  HOLDS(text.length == 12 && memcmp(text.bytes, "robot silent", 12) == 0);
+  ANSWERS(BAD_NUMBER, cotama_flag_name(COTAMA_FLAG_ROBOT_SILENT + 1, &text));
+  ANSWERS(NULL_POINTER, cotama_flag_name(0, NULL));
+  ANSWERS(OK, cotama_module_name(COTAMA_MODULE_MCL, &text));
+  HOLDS(text.length == 3 && memcmp(text.bytes, "MCL", 3) == 0);
+  ANSWERS(BAD_NUMBER, cotama_module_name(COTAMA_NONE, &text));
+  ANSWERS(BAD_NUMBER, cotama_configuration_name(COTAMA_NONE, &text));
+  ANSWERS(BAD_NUMBER, cotama_failure_mode_name(64, &text));
+  ANSWERS(BAD_NUMBER, cotama_level_transition_names(99, 0, &text, &text));
+  ANSWERS(BAD_NUMBER, cotama_level_transition_names(0, 99, &text, &text));
+  ANSWERS(NULL_POINTER, cotama_level_transition_names(0, 0, NULL, &text));
+  ANSWERS(BAD_NUMBER, cotama_level_event_names(0, COTAMA_NONE, &text, &text));
+  ANSWERS(NULL_POINTER, cotama_level_event_names(0, 0, &text, NULL));
+  ANSWERS(BAD_NUMBER, cotama_watchdog_transition_name(99, &text));
+  ANSWERS(NULL_POINTER, cotama_watchdog_transition_name(0, NULL));
+}
+
+static void watchdog(void) {
+  uint64_t memory[COTAMA_WATCHDOG_BYTES / 8 + 1] = {0};
+  unsigned char *const bytes = (unsigned char *)memory;
+  cotama_watchdog *handle = NULL;
+  ANSWERS(NULL_POINTER, cotama_watchdog_start(NULL, sizeof memory, 0, &handle));
+  ANSWERS(NULL_POINTER, cotama_watchdog_start(memory, sizeof memory, 0, NULL));
+  ANSWERS(MISALIGNED, cotama_watchdog_start(bytes + 1, sizeof memory - 1, 0, &handle));
+  ANSWERS(TOO_SMALL, cotama_watchdog_start(memory, 16, 0, &handle));
+  ANSWERS(OVERLAP, cotama_watchdog_start(memory, sizeof memory, 0, (cotama_watchdog **)memory));
+  HOLDS(handle == NULL && memory[0] == 0);
+
+  cotama_outcome outcome;
+  cotama_firing list[2];
+  cotama_firings firings = {list, 2, 0};
+  ANSWERS(NULL_POINTER, cotama_watchdog_offer(NULL, 0, 0, &outcome, &firings));
+  ANSWERS(NOT_STARTED, cotama_watchdog_offer((cotama_watchdog *)zero, 0, 0, &outcome, &firings));
+  ANSWERS(OK, cotama_watchdog_start(memory, COTAMA_WATCHDOG_BYTES, 0, &handle));
+  uint64_t before[COTAMA_WATCHDOG_BYTES / 8 + 1];
+  memcpy(before, memory, sizeof memory);
+  ANSWERS(MISALIGNED, cotama_watchdog_offer((cotama_watchdog *)(bytes + 4), 0, 0, &outcome, NULL));
+  ANSWERS(BAD_NUMBER, cotama_watchdog_offer(handle, 0, 3, &outcome, &firings));
+  ANSWERS(OVERLAP, cotama_watchdog_offer(handle, 0, 0, (cotama_outcome *)(bytes + 8), NULL));
+  ANSWERS(OVERLAP, cotama_watchdog_offer(handle, 0, 0, NULL, (cotama_firings *)(bytes + 8)));
+  firings.list = (cotama_firing *)memory;
+  ANSWERS(OVERLAP, cotama_watchdog_offer(handle, 0, 0, NULL, &firings));
+  firings.list = NULL;
+  ANSWERS(NULL_POINTER, cotama_watchdog_offer(handle, 0, 0, NULL, &firings));
+  firings.list = list;
+  firings.room = SIZE_MAX / 2;
+  ANSWERS(BAD_NUMBER, cotama_watchdog_offer(handle, 0, 0, NULL, &firings));
+  firings.room = 2;
+  uint64_t at;
+  uint32_t place;
+  ANSWERS(NULL_POINTER, cotama_watchdog_wake_at(handle, NULL));
+  ANSWERS(NULL_POINTER, cotama_watchdog_wake_at(NULL, &at));
+  ANSWERS(NULL_POINTER, cotama_watchdog_state(handle, NULL));
+  ANSWERS(NULL_POINTER, cotama_watchdog_tokens(handle, 0, NULL));
+  ANSWERS(BAD_NUMBER, cotama_watchdog_tokens(handle, COTAMA_NONE, &place));
+  ANSWERS(NULL_POINTER, cotama_watchdog_advance(NULL, 0, NULL, NULL));
+  uint8_t stored[COTAMA_WATCHDOG_STORED_BYTES];
+  ANSWERS(TOO_SMALL, cotama_watchdog_store(handle, stored, sizeof stored - 1, NULL));
+  ANSWERS(NULL_POINTER, cotama_watchdog_store(handle, NULL, sizeof stored, NULL));
+  ANSWERS(OVERLAP, cotama_watchdog_store(handle, bytes + 8, sizeof stored, NULL));
+  HOLDS(memcmp(before, memory, sizeof memory) == 0);
+
+  /* More fires than there is room for: all of it is counted. */
+  ANSWERS(OK, cotama_watchdog_offer(handle, 0, COTAMA_WATCHDOG_EVENT_RELEASE, NULL, NULL));
+  firings.room = 1;
+  ANSWERS(OK, cotama_watchdog_advance(handle, 500, NULL, &firings));
+  HOLDS(firings.count == 2 && list[0].at_ms == 100);
+  firings.room = 0;
+  firings.list = NULL;
+  ANSWERS(OK, cotama_watchdog_offer(handle, 600, COTAMA_WATCHDOG_EVENT_RELEASE, NULL, &firings));
+  HOLDS(firings.count == 1);
+
+  /* Every damaged byte of a stored one is refused, and the memory stays as it was. */
+  size_t written = 0;
+  ANSWERS(OK, cotama_watchdog_store(handle, stored, sizeof stored, &written));
+  HOLDS(written == sizeof stored);
+  memcpy(before, memory, sizeof memory);
+  for (size_t byte = 0; byte < sizeof stored; byte++) {
+    for (int bit = 0; bit < 8; bit++) {
+      stored[byte] ^= (uint8_t)(1 << bit);
+      ANSWERS(DAMAGED, cotama_watchdog_restore(memory, sizeof memory, 0, stored, written, &handle));
+      stored[byte] ^= (uint8_t)(1 << bit);
+    }
+  }
+  ANSWERS(DAMAGED, cotama_watchdog_restore(memory, sizeof memory, 0, stored, written - 1, &handle));
+  ANSWERS(NULL_POINTER, cotama_watchdog_restore(memory, sizeof memory, 0, NULL, written, &handle));
+  ANSWERS(OVERLAP, cotama_watchdog_restore(memory, sizeof memory, 0, bytes, written, &handle));
+  ANSWERS(TOO_SMALL, cotama_watchdog_restore(memory, 8, 0, stored, written, &handle));
+  HOLDS(memcmp(before, memory, sizeof memory) == 0);
+  ANSWERS(OK, cotama_watchdog_restore(memory, sizeof memory, 0, stored, written, &handle));
+}
+
+/* A plan that uses the level which asks for it. */
+static uint8_t uses_the_level(void *context) {
+  cotama_requests requests;
+  ANSWERS(BUSY, cotama_level_requests(context, &requests));
+  return 1;
+}
+
+/* Valgrind knows that bytes between two numbers of a handle stand for nothing. */
+static bool compares_padding = true;
+
+static void level(void) {
+  static uint64_t memory[COTAMA_LEVEL_BYTES / 8];
+  unsigned char *const bytes = (unsigned char *)memory;
+  cotama_level *handle = NULL;
+  ANSWERS(NULL_POINTER, cotama_level_start(NULL, sizeof memory, COTAMA_NONE, &handle));
+  ANSWERS(MISALIGNED, cotama_level_start(bytes + 4, sizeof memory, COTAMA_NONE, &handle));
+  ANSWERS(TOO_SMALL, cotama_level_start(memory, 500, COTAMA_NONE, &handle));
+  ANSWERS(BAD_NUMBER, cotama_level_start(memory, sizeof memory, 10, &handle));
+  ANSWERS(OK, cotama_level_start(memory, sizeof memory, COTAMA_NONE, &handle));
+
+  uint64_t before[COTAMA_LEVEL_BYTES / 8];
+  memcpy(before, memory, sizeof memory);
+  const cotama_body body = {0, 1};
+  cotama_perceived seen = {0, 0, 0, COTAMA_MODULES_ALL};
+  cotama_finding finding;
+  ANSWERS(NULL_POINTER, cotama_level_perceive(NULL, 0, &seen, NULL, NULL));
+  ANSWERS(NULL_POINTER, cotama_level_perceive(handle, 0, NULL, NULL, NULL));
+  seen.raised = UINT64_C(1) << (COTAMA_FLAG_ROBOT_SILENT + 1);
+  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, NULL, &finding));
+  seen.raised = 0;
+  seen.works = UINT32_MAX;
+  ANSWERS(BAD_NUMBER, cotama_level_perceive(handle, 0, &seen, NULL, &finding));
+  seen.works = COTAMA_MODULES_ALL;
+  ANSWERS(OVERLAP, cotama_level_perceive(handle, 0, &seen, NULL, (cotama_finding *)memory));
+  ANSWERS(NULL_POINTER, cotama_level_round(handle, 0, 0, NULL, NULL, NULL));
+  ANSWERS(BAD_NUMBER, cotama_level_round(handle, 0, 11, &body, NULL, NULL));
+  ANSWERS(OVERLAP, cotama_level_round(handle, 0, 0, &body, (cotama_round *)memory, NULL));
+  ANSWERS(NULL_POINTER, cotama_level_requests(handle, NULL));
+  ANSWERS(NULL_POINTER, cotama_level_listens(handle, NULL));
+  ANSWERS(NOT_STARTED, cotama_level_requests((cotama_level *)zero, NULL));
+  uint64_t at;
+  ANSWERS(NOT_STARTED, cotama_watchdog_wake_at((cotama_watchdog *)memory, &at));
+  if (compares_padding) {
+    HOLDS(memcmp(before, memory, sizeof memory) == 0);
+  }
+
+  const cotama_plans plans = {handle, uses_the_level, NULL, NULL, NULL};
+  const int asked_before = asked;
+  seen.raised = UINT64_C(1) << COTAMA_FLAG_SONAR_FAR;
+  ANSWERS(OK, cotama_level_perceive(handle, 100, &seen, &plans, &finding));
+  HOLDS(asked > asked_before + 1 && finding.number == 1);
+  ANSWERS(OK, cotama_level_round(handle, 100, 0, &body, NULL, NULL));
+}
+
+static void allocation(void) {
+  const cotama_candidate candidates[] = {{0, {10, 10}, 1}, {1, {5, 5}, 0}, {0x10, {1, 1}, 9}};
+  const uint32_t counts[] = {2, 1}, too_few[] = {1, 1}, too_many[] = {2, 2}, none[] = {3, 0};
+  const uint32_t objectives[] = {0, 1, 2, 3, 4}, no_objective[] = {5};
+  cotama_problem problem = {candidates, 3, counts, 2, 0x11, {20, 20}, {0, 1}};
+  const cotama_problem sound = problem;
+  uint64_t memory[COTAMA_EXACT_BYTES(2, 3) / 8];
+  uint16_t plan[2] = {7, 7};
+  cotama_answer answer;
+#define BY_RULE cotama_plan_by_rule(&problem, memory, sizeof memory, plan, 2, &answer)
+  ANSWERS(NULL_POINTER, cotama_plan_by_rule(NULL, memory, sizeof memory, plan, 2, &answer));
+  ANSWERS(NULL_POINTER, cotama_plan_by_rule(&problem, NULL, sizeof memory, plan, 2, &answer));
+  ANSWERS(NULL_POINTER, cotama_plan_by_rule(&problem, memory, sizeof memory, NULL, 2, &answer));
+  ANSWERS(NULL_POINTER, cotama_plan_by_rule(&problem, memory, sizeof memory, plan, 2, NULL));
+  ANSWERS(TOO_SMALL, cotama_plan_by_rule(&problem, memory, sizeof memory, plan, 1, &answer));
+  ANSWERS(TOO_SMALL, cotama_plan_by_rule(&problem, memory, 40, plan, 2, &answer));
+  uint16_t *const within = (uint16_t *)memory;
+  ANSWERS(OVERLAP, cotama_plan_by_rule(&problem, memory, sizeof memory, within, 2, &answer));
+  ANSWERS(OVERLAP, cotama_plan_by_rule(&problem, memory, sizeof memory, plan, 2, (void *)memory));
+  ANSWERS(OVERLAP, cotama_plan_by_rule(&problem, (void *)candidates, 72, plan, 2, &answer));
+  problem.candidates = NULL;
+  ANSWERS(NULL_POINTER, BY_RULE);
+  problem = sound;
+  problem.counts = too_few;
+  ANSWERS(BAD_NUMBER, BY_RULE);
+  problem.counts = too_many;
+  ANSWERS(BAD_NUMBER, BY_RULE);
+  problem.counts = none;
+  ANSWERS(NO_CANDIDATES, BY_RULE);
+  problem = sound;
+  problem.order[1] = 0;
+  ANSWERS(BAD_NUMBER, BY_RULE);
+  problem = sound;
+  problem.available = 0x8;
+  ANSWERS(BAD_NUMBER, BY_RULE);
+  problem = sound;
+  problem.candidate_count = SIZE_MAX;
+  ANSWERS(BAD_NUMBER, BY_RULE);
+  HOLDS(plan[0] == 7 && plan[1] == 7);
+  problem = sound;
+  problem.available = 1;
+  ANSWERS(OK, BY_RULE);
+  HOLDS(answer.verdict == COTAMA_VERDICT_WITHOUT_HARDWARE && answer.activity == 1);
+  problem = sound;
+#define EXACTLY(LIST, COUNT, BYTES) \
+  cotama_plan_exactly(&problem, LIST, COUNT, 1000, memory, BYTES, plan, 2, &answer)
+  ANSWERS(NULL_POINTER, EXACTLY(NULL, 1, sizeof memory));
+  ANSWERS(BAD_NUMBER, EXACTLY(no_objective, 1, sizeof memory));
+  ANSWERS(BAD_NUMBER, EXACTLY(objectives, 5, sizeof memory));
+  ANSWERS(TOO_SMALL, EXACTLY(objectives, 1, 300));
+  ANSWERS(OK, EXACTLY(objectives, 4, sizeof memory));
+  ANSWERS(OK, EXACTLY(NULL, 0, sizeof memory));
+  /* The bytes that the header promises are enough, wherever they begin. */
+  ANSWERS(OK, cotama_plan_exactly(&problem, objectives, 1, 1000, (unsigned char *)memory + 3,
+                                  sizeof memory - 3, plan, 2, &answer));
+  HOLDS(answer.verdict == COTAMA_VERDICT_PLANNED && plan[0] == 0 && plan[1] == 0);
+  uint64_t less[COTAMA_RULE_BYTES(2, 3) / 8];
+  ANSWERS(OK, cotama_plan_by_rule(&problem, less, sizeof less, plan, 2, &answer));
+}
+
+static void monitor(void) {
+  uint64_t memory[COTAMA_MONITOR_BYTES / 8];
+  const uint64_t limits[] = {100, 200}, huge[] = {UINT64_MAX, 0}, rest[] = {50, 50};
+  const uint32_t order[] = {0, 1}, twice[] = {1, 1};
+  cotama_monitor *handle = NULL;
+  ANSWERS(NULL_POINTER, cotama_monitor_start(memory, sizeof memory, NULL, order, &handle));
+  ANSWERS(NULL_POINTER, cotama_monitor_start(memory, sizeof memory, limits, NULL, &handle));
+  ANSWERS(BAD_NUMBER, cotama_monitor_start(memory, sizeof memory, huge, order, &handle));
+  ANSWERS(BAD_NUMBER, cotama_monitor_start(memory, sizeof memory, limits, twice, &handle));
+  ANSWERS(TOO_SMALL, cotama_monitor_start(memory, 8, limits, order, &handle));
+  ANSWERS(OK, cotama_monitor_start(memory, sizeof memory, limits, order, &handle));
+  cotama_request request;
+  int64_t margins[COTAMA_AXES];
+  ANSWERS(BAD_NUMBER, cotama_monitor_planned(handle, huge));
+  ANSWERS(BAD_NUMBER, cotama_monitor_spend(handle, huge));
+  ANSWERS(BAD_NUMBER, cotama_monitor_margins(handle, huge, margins));
+  ANSWERS(BAD_NUMBER, cotama_monitor_ask_upward(handle, huge, rest));
+  ANSWERS(BAD_NUMBER, cotama_monitor_assess(handle, rest, 8, 0, &request, NULL));
+  ANSWERS(NULL_POINTER, cotama_monitor_assess(handle, rest, 0, 0, NULL, NULL));
+  ANSWERS(NULL_POINTER, cotama_monitor_left(handle, NULL));
+  ANSWERS(OVERLAP, cotama_monitor_left(handle, memory + 2));
+  ANSWERS(NOT_STARTED, cotama_monitor_hardware_returned((cotama_monitor *)zero));
+  ANSWERS(OK, cotama_monitor_hardware_returned(handle));
+  ANSWERS(OK, cotama_monitor_assess(handle, rest, 0, 0, &request, NULL));
+  HOLDS(request == COTAMA_REQUEST_KEEP);
+}
+
+int main(int count, char **arguments) {
+  (void)arguments;
+  compares_padding = count == 1;
+  texts();
+  watchdog();
+  level();
+  allocation();
+  monitor();
+  printf("%d calls answered as they should, %d not\n", asked - failed, failed);
+  return failed == 0 ? 0 : 1;
+}
