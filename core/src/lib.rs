@@ -44,6 +44,7 @@ pub mod front;
 #[doc = include_str!("guide.md")]
 pub mod guide {}
 pub mod hardware;
+mod logged;
 pub mod monitor;
 pub mod net;
 mod order;
@@ -60,6 +61,8 @@ pub mod units;
 #[doc(hidden)]
 pub mod __private {
     pub use crate::net::source::Written;
+    #[cfg(feature = "defmt")]
+    pub use defmt;
     pub mod lower {
         pub use crate::net::lower::*;
         pub use crate::net::size::Size;

@@ -53,6 +53,13 @@ macro_rules! quantity {
                 write!(f, concat!("{} ", $unit), self.0)
             }
         }
+
+        #[cfg(feature = "defmt")]
+        impl defmt::Format for $name {
+            fn format(&self, f: defmt::Formatter<'_>) {
+                defmt::write!(f, "{} {}", self.0, defmt::intern!($unit));
+            }
+        }
     };
 }
 

@@ -334,6 +334,16 @@ macro_rules! net {
                 $( $(#[doc = $line_doc])* $line, )*
             }
 
+            $crate::__logged_names! {
+                Place {
+                    $( $place )* $( $( $flag )* )? $( $( $counter )* )? $( $( $shared )* )?
+                }
+                State { $( $place )* }
+                Event { $( $( $event )* )? }
+                Output { $( $( $output )* )? }
+                Transition { $( $line )* }
+            }
+
             /// The net as a player plays it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
             pub struct Program;

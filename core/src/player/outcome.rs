@@ -21,6 +21,7 @@ use crate::system::data::Of;
 /// assert_eq!(lamp.offer(Millis(1), &lamp::Event::press), ignored);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "an event may have been ignored or refused"]
 pub enum Outcome<T> {
     /// A transition fired.
@@ -95,6 +96,7 @@ impl<T> Outcome<T> {
 /// assert_eq!(late, Some(Why::TooLate(Transition::open)));
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Why<T> {
     /// A marked place ignores it on purpose.
     OnPurpose,
@@ -115,6 +117,7 @@ pub enum Why<T> {
 
 /// What happened while time passed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "the player may be behind"]
 pub struct Advanced {
     /// How many transitions fired.
@@ -153,6 +156,7 @@ pub struct Advanced {
 /// # }
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "something may have been ignored or may still wait"]
 pub struct Round {
     /// How much was read and made a transition fire.
@@ -167,6 +171,7 @@ pub struct Round {
 
 /// What a synchronous step did.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 #[must_use = "an event may have been ignored"]
 pub struct Stepped {
     /// How many transitions fired.

@@ -74,6 +74,7 @@ impl<'s> Component<'s> {
 
 /// Something of a component: its position in [`System::components`], and an id of its net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Of<T> {
     /// The component.
     pub component: u16,

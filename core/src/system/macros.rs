@@ -322,6 +322,10 @@ macro_rules! system {
             #[derive(Clone, Copy, Debug, PartialEq, Eq)]
             pub enum Transition { $( $component(<parts::$component as Part>::Transition), )* }
 
+            $crate::__logged_parts! {
+                Event Place Output Transition => { $( $component )* }
+            }
+
             /// The system as a player runs it; no bytes.
             #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
             pub struct Program;
