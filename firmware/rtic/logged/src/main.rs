@@ -3,6 +3,7 @@
 #![no_std]
 #![no_main]
 
+use cortex_m as _; // critical sections
 use cortex_m_rt::entry;
 use cotama_core::player::Outcome;
 use cotama_core::units::Millis;
