@@ -106,6 +106,14 @@ done
 check "the example under sanitizers" same "$work/example-sane"
 check "every refusal under sanitizers" "$work/refusals-sane"
 
+# The program of the documentation is its first block of C.
+awk '/^```c$/ { inside = 1; next } /^```$/ && inside { exit } inside' ../../docs/embed-c.md \
+    >"$work/page.c"
+check "the program of docs/embed-c.md as C11" gcc -std=c11 "${strict[@]}" "${sane[@]}" \
+    "$work/page.c" "$library" -o "$work/page"
+page() { [ "$("$work/page")" = "the job is stopped at 1120 ms" ]; }
+check "  says what it should" page
+
 # The library as firmware links it: every function that the header names is there, and nothing that
 # it calls lacks.
 target=thumbv7em-none-eabihf
@@ -113,16 +121,30 @@ functions() {
     grep -oE '\bcotama_[a-z_]+\(' include/cotama.h | tr -d '(' | sort -u
 }
 on_thumb() {
-    local entries=() it
     env -u CARGO -u RUSTC -u RUSTDOC -u RUSTFLAGS -u RUSTUP_TOOLCHAIN PATH=/usr/bin:/bin \
         CARGO_TARGET_DIR="$CARGO_TARGET_DIR/debian" \
         cargo build --quiet --locked --release --target "$target" -p cotama-c-library || return 1
-    for it in $(functions); do entries+=(-u "$it"); done
-    arm-none-eabi-ld --gc-sections -e cotama_version "${entries[@]}" -o "$work/image" \
+    mapfile -t all < <(functions)
+    size "all of it" "${all[@]}" &&
+        size "a supervisor" cotama_watchdog_{start,offer,advance,wake_at,state,store} &&
+        size "  and its return" cotama_watchdog_{start,offer,advance,wake_at,state,store,restore} &&
+        size "the decisional level" cotama_level_{start,perceive,round,requests} &&
+        size "  and names" cotama_level_{start,perceive,round,requests,transition_names} &&
+        size "margins" cotama_monitor_{start,planned,spend,left,assess} &&
+        size "planning by the rule" cotama_plan_by_rule &&
+        size "planning exactly" cotama_plan_exactly
+}
+# size WHAT FUNCTION...: what an image that keeps them takes; whatever lacks is an error.
+size() {
+    local entries=() it
+    for it in "${@:2}"; do entries+=(-u "$it"); done
+    arm-none-eabi-ld --gc-sections -e "$2" "${entries[@]}" -o "$work/image" \
         "$CARGO_TARGET_DIR/debian/$target/release/libcotama.a" || return 1
-    arm-none-eabi-size -A "$work/image" | awk '
-        $1 ~ /^\.(text|rodata|ARM)/ { flash += $2 } $1 ~ /^\.(data|bss)/ { ram += $2 }
-        END { printf "%d bytes of code and tables, %d of RAM\n", flash, ram; exit ram != 0 }'
+    arm-none-eabi-size -A "$work/image" | awk -v what="$1" '
+        $1 ~ /^\.text/ { code += $2 } $1 ~ /^\.(rodata|ARM\.exidx)/ { tables += $2 }
+        $1 ~ /^\.(data|bss)/ { ram += $2 }
+        END { printf "%-22s %6d + %5d bytes of code and tables, %d of RAM\n", what, code, tables,
+            ram; exit ram != 0 }'
 }
 if [ -e "$(/usr/bin/rustc --print sysroot 2>/dev/null)/lib/rustlib/$target/stamp" ] &&
     has arm-none-eabi-ld; then
