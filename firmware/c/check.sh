@@ -58,7 +58,8 @@ echo '#include "cotama.h"' >"$work/only.c"
 cp "$work/only.c" "$work/only.cpp"
 for cc in gcc clang; do
     if has $cc; then
-        check "the header alone as C11, $cc" $cc -std=c11 "${strict[@]}" -fsyntax-only "$work/only.c"
+        check "the header alone as C11, $cc" $cc -std=c11 "${strict[@]}" -fsyntax-only \
+            "$work/only.c"
         check "the example as C11, $cc" $cc -std=c11 "${strict[@]}" -g example.c "$library" \
             -o "$work/example-$cc"
     else
@@ -114,12 +115,31 @@ check "the program of docs/embed-c.md as C11" gcc -std=c11 "${strict[@]}" "${san
 page() { [ "$("$work/page")" = "the job is stopped at 1120 ms" ]; }
 check "  says what it should" page
 
-# The library as firmware links it: every function that the header names is there, and nothing that
-# it calls lacks.
-target=thumbv7em-none-eabihf
+# No function can panic, in the code that the compiler makes at level 3 with overflow checks: linked
+# alone, each holds no call of the panic handler. The canary holds one.
+panic_free() {
+    local free=$CARGO_TARGET_DIR/panic_free it links
+    CARGO_TARGET_DIR=$free CARGO_PROFILE_RELEASE_OPT_LEVEL=3 cargo build --quiet --locked \
+        --release -p cotama-c-library --features panic-free,canary || return 1
+    for it in $(functions) cotama_canary; do
+        links=yes
+        gcc -nostartfiles -Wl,--gc-sections,--defsym=rust_eh_personality=0,-e,"$it",-u,"$it" \
+            -o "$work/root" "$free/release/libcotama.a" 2>"$work/why" || links=no
+        case $it:$links in
+            cotama_canary:yes) echo "the canary links: this check is blind"; return 1 ;;
+            cotama_canary:no) grep -qF a_panic_can_be_reached "$work/why" || return 1 ;;
+            *:no) echo "$it can panic, or lacks something:"; head -3 "$work/why"; return 1 ;;
+        esac
+    done
+}
 functions() {
     grep -oE '\bcotama_[a-z_]+\(' include/cotama.h | tr -d '(' | sort -u
 }
+check "no function can panic, all $(functions | wc -l)" panic_free
+
+# The library as firmware links it: every function that the header names is there, and nothing that
+# it calls lacks.
+target=thumbv7em-none-eabihf
 on_thumb() {
     env -u CARGO -u RUSTC -u RUSTDOC -u RUSTFLAGS -u RUSTUP_TOOLCHAIN PATH=/usr/bin:/bin \
         CARGO_TARGET_DIR="$CARGO_TARGET_DIR/debian" \

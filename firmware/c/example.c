@@ -19,8 +19,9 @@ static void must(cotama_error error) {
 
 enum { ROOM = 32 };
 
-static const char *const OUTCOMES[] = {"fired",     "ignored on purpose", "not enabled", "too early",
-                                       "too late", "full",               "behind",      "refused"};
+static const char *const OUTCOMES[] = {"fired",    "ignored on purpose", "not enabled",
+                                       "too early", "too late",          "full",
+                                       "behind",   "refused"};
 
 static void print_firings(const cotama_firings *firings) {
   for (size_t at = 0; at < firings->count && at < firings->room; at++) {
@@ -237,7 +238,9 @@ static void print_answer(const char *by, const cotama_answer *answer, const uint
                answer->limit);
       }
       break;
-    case COTAMA_VERDICT_OUT_OF_BUDGET: printf("out of budget, bound %" PRIu64, answer->bound); break;
+    case COTAMA_VERDICT_OUT_OF_BUDGET:
+      printf("out of budget, bound %" PRIu64, answer->bound);
+      break;
     case COTAMA_VERDICT_WITHOUT_HARDWARE:
       printf("without hardware, activity %" PRIu32, answer->activity);
       break;

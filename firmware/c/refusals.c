@@ -1,6 +1,7 @@
 /* What the library refuses, function by function: null pointers, memory that is short, misaligned,
  * overlapping or of another handle, and numbers that stand for nothing. Whoever is refused finds
- * everything as it was. With an argument, bytes between numbers are not compared. Exit status 0 when all was refused as it should be. */
+ * everything as it was. With an argument, bytes between numbers are not compared. Exit status 0
+ * when all was refused as it should be. */
 
 #include "cotama.h"
 

@@ -83,7 +83,7 @@ no_names() {
     arm-none-eabi-objcopy -O binary "$built/logged" "$work/flash" || return 1
     local it
     for it in "${names[@]}"; do
-        grep -qF "$it" "$built/logged" || { echo "$it is not in the file: this is blind"; return 1; }
+        grep -qF "$it" "$built/logged" || { echo "the file lacks $it: this is blind"; return 1; }
         ! grep -qaF "$it" "$work/flash" || { echo "$it is in flash"; return 1; }
     done
     echo "$(wc -c <"$work/flash") bytes of flash"

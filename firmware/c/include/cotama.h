@@ -771,8 +771,8 @@ cotama_error cotama_level_start(void *memory,
 
 // Observers tell what they see. At most one finding comes of it.
 //
-// `plans` is how the mission is planned, and may be null: then each drive uses the best that works.
-// `finding` may be null.
+// `plans` is how the mission is planned, and may be null: then each drive uses the best that
+// works. `finding` may be null.
 //
 // # Safety
 // The pointers are null or point to what their types say; the functions of `plans` may be called
@@ -1012,7 +1012,7 @@ cotama_error cotama_watchdog_transition_name(uint32_t transition, struct cotama_
 
 #endif  /* COTAMA_H */
 
-/* Bytes of memory for planning so many activities and candidates, by the rule and exactly. */
+/* Bytes for planning so many activities and candidates, by the rule and exactly. */
 #define COTAMA_RULE_BYTES(activities, candidates) \
   ((activities) * COTAMA_RULE_ACTIVITY_BYTES + (candidates) * COTAMA_RULE_CANDIDATE_BYTES + \
    COTAMA_PLANNING_BYTES)

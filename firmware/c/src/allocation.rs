@@ -209,7 +209,7 @@ unsafe fn load<'m>(
     let lists = memory.take::<&'m [Way]>(counts.len(), &[])?;
     let mut free = memory.take(rest.len(), none)?;
     let mut lacking = None;
-    for ((slot, &count), activity) in lists.iter_mut().zip(counts).zip(0..) {
+    for ((slot, &count), activity) in lists.iter_mut().zip(counts).zip(0..u32::MAX) {
         let (own, others) = rest.split_at_checked(count as usize).ok_or(cotama_error::BadNumber)?;
         rest = others;
         if own.is_empty() {
@@ -221,7 +221,7 @@ unsafe fn load<'m>(
             let id = u16::try_from(at).map_err(|_| cotama_error::BadNumber)?;
             if let (true, Some(place)) = (available.covers(needs), free.get_mut(kept)) {
                 *place = Way { cost: it.cost, quality: it.quality, id };
-                kept += 1;
+                kept = kept.saturating_add(1);
             }
         }
         if kept == 0 {
@@ -356,7 +356,8 @@ pub unsafe extern "C" fn cotama_plan_exactly(
     // SAFETY: the caller promises the same.
     let done = unsafe {
         self::plan(problem, (memory, bytes), (plan, plan_length), answer, |it, memory, plan| {
-            let candidates = it.activities().iter().fold(0, |sum: usize, it| sum + it.len());
+            let candidates =
+                it.activities().iter().map(|it| it.len()).fold(0, usize::saturating_add);
             let items = memory.take(candidates, Item::EMPTY)?;
             let stages = memory.take(it.activities().len(), Stage::EMPTY)?;
             let mut exact = Exact::new(objectives, steps, items, stages);

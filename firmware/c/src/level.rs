@@ -149,8 +149,8 @@ pub unsafe extern "C" fn cotama_level_start(
 
 /// Observers tell what they see. At most one finding comes of it.
 ///
-/// `plans` is how the mission is planned, and may be null: then each drive uses the best that works.
-/// `finding` may be null.
+/// `plans` is how the mission is planned, and may be null: then each drive uses the best that
+/// works. `finding` may be null.
 ///
 /// # Safety
 /// The pointers are null or point to what their types say; the functions of `plans` may be called

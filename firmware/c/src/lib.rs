@@ -10,8 +10,8 @@
 //!   misaligned, short or overlapping memory, handles that were never started, and numbers out of
 //!   range are refused. That an address points to memory of the length that the caller says cannot
 //!   be checked.
-//! - *Threads*: a handle is for one thread at a time, as its functions say; two handles know nothing
-//!   of each other.
+//! - *Threads*: a handle is for one thread at a time, as its functions say; two handles know
+//!   nothing of each other.
 //!
 //! This is the one crate of the project with unsafe code, and holds nothing else: each function
 //! checks what it is given and calls the crate that does the work.

@@ -251,7 +251,7 @@ impl Carver {
             let list = self.at.add(skipped).cast::<T>();
             (0..count).for_each(|it| list.add(it).write(fill));
             self.at = self.at.add(bytes);
-            self.left -= bytes;
+            self.left = self.left.saturating_sub(bytes);
             Ok(core::slice::from_raw_parts_mut(list, count))
         }
     }

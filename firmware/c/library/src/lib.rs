@@ -7,7 +7,7 @@
 use core::panic::PanicInfo;
 pub use cotama_c::*;
 
-#[cfg(not(target_os = "none"))]
+#[cfg(all(not(target_os = "none"), not(feature = "panic-free")))]
 unsafe extern "C" {
     /// Ends the program, as C's library has it.
     safe fn abort() -> !;
@@ -15,6 +15,7 @@ unsafe extern "C" {
 
 /// A panic is a mistake of ours. On a chip it stands still, and the hardware watchdog, which nobody
 /// feeds any more, starts it anew; elsewhere the program is aborted.
+#[cfg(not(feature = "panic-free"))]
 #[panic_handler]
 fn stop(_: &PanicInfo<'_>) -> ! {
     #[cfg(not(target_os = "none"))]
@@ -31,3 +32,23 @@ fn stop(_: &PanicInfo<'_>) -> ! {
 #[cfg(not(target_os = "none"))]
 #[unsafe(no_mangle)]
 extern "C" fn rust_eh_personality() {}
+
+#[cfg(feature = "panic-free")]
+unsafe extern "C" {
+    /// Is defined nowhere.
+    safe fn a_panic_can_be_reached() -> !;
+}
+
+#[cfg(feature = "panic-free")]
+#[panic_handler]
+fn stop(_: &PanicInfo<'_>) -> ! {
+    a_panic_can_be_reached()
+}
+
+/// Can panic.
+// SAFETY: no other function of the program has this name.
+#[cfg(feature = "canary")]
+#[unsafe(no_mangle)]
+pub extern "C" fn cotama_canary(index: usize) -> u8 {
+    b"canary"[index]
+}

@@ -1,8 +1,8 @@
 //! A supervisor in a task of RTIC 2.
 //!
-//! The task owns the player. It sleeps until an event is in its channel or `wake_at` has come, which
-//! it hands to the timer queue of the monotonic. Interrupts say what was seen and when, and nothing
-//! else. Here a task of its own plays the board: it sets the interrupts pending.
+//! The task owns the player. It sleeps until an event is in its channel or `wake_at` has come,
+//! which it hands to the timer queue of the monotonic. Interrupts say what was seen and when, and
+//! nothing else. Here a task of its own plays the board: it sets the interrupts pending.
 #![no_std]
 #![no_main]
 
