@@ -22,6 +22,9 @@
 //! | [`team`] | who does what in a team of robots |
 //! | [`guide`] | from an `enum` and a `match` to a checked net, in five minutes |
 //!
+//! Features, both off by default: `alloc`, for nets that are made at run time on a heap; `defmt`,
+//! so that quantities, outcomes, firings, and what a net names implement `defmt::Format`.
+//!
 //! Laws of a net speak of what the player does, and are checked while compiling. One
 //! [`player::Player`] plays nets and systems. A player of a [`player::Checked`] program takes no
 //! law to be proven, and only such a player goes on from a stored marking.
