@@ -56,6 +56,20 @@ static void texts(void) {
   ANSWERS(NULL_POINTER, cotama_watchdog_transition_name(0, NULL));
 }
 
+/* Puts the checksum that belongs to stored bytes at their end: CRC-32 of ISO 3309. */
+static void seal(uint8_t *stored, size_t length) {
+  uint32_t crc = UINT32_MAX;
+  for (size_t at = 0; at < length - 4; at++) {
+    crc ^= stored[at];
+    for (int bit = 0; bit < 8; bit++) {
+      crc = crc >> 1 ^ (crc & 1 ? UINT32_C(0xEDB88320) : 0);
+    }
+  }
+  for (int byte = 0; byte < 4; byte++) {
+    stored[length - 4 + byte] = (uint8_t)(~crc >> 8 * byte);
+  }
+}
+
 static void watchdog(void) {
   uint64_t memory[COTAMA_WATCHDOG_BYTES / 8 + 1] = {0};
   unsigned char *const bytes = (unsigned char *)memory;
@@ -127,7 +141,21 @@ static void watchdog(void) {
   ANSWERS(NULL_POINTER, cotama_watchdog_restore(memory, sizeof memory, 0, NULL, written, &handle));
   ANSWERS(OVERLAP, cotama_watchdog_restore(memory, sizeof memory, 0, bytes, written, &handle));
   ANSWERS(TOO_SMALL, cotama_watchdog_restore(memory, 8, 0, stored, written, &handle));
+  /* The checksum is right, and the bytes are wrong all the same: the first eight tell the net, the
+   * next eight are the marking. */
+  uint8_t forged[COTAMA_WATCHDOG_STORED_BYTES];
+  memcpy(forged, stored, sizeof forged);
+  forged[0] ^= 1;
+  seal(forged, sizeof forged);
+  ANSWERS(OTHER_NET, cotama_watchdog_restore(memory, sizeof memory, 0, forged, written, &handle));
+  memcpy(forged, stored, sizeof forged);
+  memset(forged + 8, 0, 8);
+  seal(forged, sizeof forged);
+  ANSWERS(IMPOSSIBLE, cotama_watchdog_restore(memory, sizeof memory, 0, forged, written, &handle));
   HOLDS(memcmp(before, memory, sizeof memory) == 0);
+  memcpy(forged, stored, sizeof forged);
+  seal(forged, sizeof forged);
+  HOLDS(memcmp(forged, stored, sizeof forged) == 0);
   ANSWERS(OK, cotama_watchdog_restore(memory, sizeof memory, 0, stored, written, &handle));
 }
 

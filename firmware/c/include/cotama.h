@@ -66,8 +66,8 @@
 // The bytes of a stored one.
 #define COTAMA_WATCHDOG_STORED_BYTES 32
 
-// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: no memory is
-// written, and nothing has fired.
+// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: nothing has
+// fired, and no memory is written but the working memory of planning.
 enum cotama_error
 #if defined(__cplusplus) || __STDC_VERSION__ >= 202311L
   : int32_t

@@ -2,8 +2,8 @@
 
 use core::ffi::c_char;
 
-/// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: no memory is
-/// written, and nothing has fired.
+/// What became of a call. Where it is not `COTAMA_ERROR_OK`, nothing has happened: nothing has
+/// fired, and no memory is written but the working memory of planning.
 #[repr(i32)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum cotama_error {
