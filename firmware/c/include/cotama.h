@@ -573,7 +573,7 @@ typedef struct cotama_problem {
   uint32_t order[COTAMA_AXES];
 } cotama_problem;
 
-// The answer of an allocator. What is not said of its verdict is 0.
+// The answer of an allocator. What is not said of its verdict is 0; `axis` is `COTAMA_NONE` then.
 typedef struct cotama_answer {
   // What it came to.
   cotama_verdict verdict;

@@ -84,7 +84,7 @@ pub enum cotama_verdict {
     WithoutHardware = 3,
 }
 
-/// The answer of an allocator. What is not said of its verdict is 0.
+/// The answer of an allocator. What is not said of its verdict is 0; `axis` is `COTAMA_NONE` then.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct cotama_answer {
