@@ -5,16 +5,34 @@ pub(crate) fn numbered<I: IntoIterator>(elements: I) -> impl Iterator<Item = (us
     (0..usize::MAX).zip(elements)
 }
 
-/// Sorts by a key in rising order, in place and not stably, by a heap (Williams 1964).
+/// Sorts by a key in rising order, in place and not stably.
 pub(crate) fn sort_by_key<T, K: Ord>(list: &mut [T], key: impl Fn(&T) -> K) {
-    for top in (0..list.len() / 2).rev() {
-        sift(list, top, list.len(), &key);
-    }
-    for end in (1..list.len()).rev() {
-        if let Ok([first, last]) = list.get_disjoint_mut([0, end]) {
-            core::mem::swap(first, last);
+    let before = |list: &[T], a: usize, b: usize| match (list.get(a), list.get(b)) {
+        (Some(a), Some(b)) => key(a) < key(b),
+        _ => false,
+    };
+    let swap = |list: &mut [T], a: usize, b: usize| {
+        if let Ok([a, b]) = list.get_disjoint_mut([a, b]) {
+            core::mem::swap(a, b);
         }
-        sift(list, 0, end, &key);
+    };
+    sort_list(list, before, swap);
+}
+
+/// Sorts by what says which of two elements comes before the other, and by what swaps two: in place
+/// and not stably, by a heap (Williams 1964).
+pub(crate) fn sort_list<T>(
+    list: &mut [T],
+    before: impl Fn(&[T], usize, usize) -> bool,
+    swap: impl Fn(&mut [T], usize, usize),
+) {
+    let count = list.len();
+    for top in (0..count / 2).rev() {
+        sift(list, top, count, &before, &swap);
+    }
+    for end in (1..count).rev() {
+        swap(list, 0, end);
+        sift(list, 0, end, &before, &swap);
     }
 }
 
@@ -42,23 +60,23 @@ pub(crate) fn keep_undominated<T: Copy>(
     list.get(..kept).unwrap_or(&[])
 }
 
-/// Lets the element at `top` sink below the larger ones, among those before `end`.
-fn sift<T, K: Ord>(list: &mut [T], mut top: usize, end: usize, key: &impl Fn(&T) -> K) {
-    let Some(list) = list.get_mut(..end) else { return };
+/// Lets the element at `top` sink below the later ones, among those before `end`.
+fn sift<T>(
+    list: &mut [T],
+    mut top: usize,
+    end: usize,
+    before: &impl Fn(&[T], usize, usize) -> bool,
+    swap: &impl Fn(&mut [T], usize, usize),
+) {
     loop {
         let left = top.wrapping_mul(2).wrapping_add(1);
         let right = left.wrapping_add(1);
-        let later = |a: usize, b: usize| match (list.get(a), list.get(b)) {
-            (Some(a), Some(b)) => key(a) < key(b),
-            _ => false,
-        };
+        let later = |a: usize, b: usize| b < end && before(list, a, b);
         let child = if later(left, right) { right } else { left };
         if !later(top, child) {
             return;
         }
-        if let Ok([above, below]) = list.get_disjoint_mut([top, child]) {
-            core::mem::swap(above, below);
-        }
+        swap(list, top, child);
         top = child;
     }
 }

@@ -76,15 +76,9 @@ fn left<const A: usize>(candidate: &Candidate<A>, caps: &[u32; A]) -> bool {
     candidate.cost.iter().zip(caps).all(|(cost, cap)| cost <= cap)
 }
 
-/// The candidate that is highest on an axis of those left, the first of equals.
-fn highest<'c, const A: usize>(
-    candidates: &'c [Candidate<A>],
-    caps: &[u32; A],
-    axis: usize,
-) -> Option<(usize, &'c Candidate<A>)> {
-    numbered(candidates.iter()).filter(|(_, c)| left(c, caps)).reduce(|best, next| {
-        if next.1.cost.get(axis) > best.1.cost.get(axis) { next } else { best }
-    })
+/// A candidate's cost on an axis; nothing on an axis that there is not.
+fn on<const A: usize>(candidate: &Candidate<A>, axis: usize) -> u32 {
+    candidate.cost.get(axis).copied().unwrap_or(0)
 }
 
 fn set<const A: usize>(caps: &mut [u32; A], axis: usize, most: u32) {
@@ -104,18 +98,30 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
         enough("caps of the paper's rule", activities.len(), self.caps.len())?;
 
         let caps = self.caps.get_mut(..activities.len()).unwrap_or(&mut []);
-        caps.fill([u32::MAX; A]);
         let mut steps = 0u64;
+        // The highest on every axis in one pass. It changes only where a candidate is dropped.
+        for (candidates, caps) in activities.iter().zip(caps.iter_mut()) {
+            *caps = [0; A];
+            for candidate in *candidates {
+                for (cap, &cost) in caps.iter_mut().zip(&candidate.cost) {
+                    *cap = cost.max(*cap);
+                }
+            }
+            steps = steps.saturating_add(candidates.len() as u64);
+        }
+        // Activities before this one have not been lowered.
+        let mut lowered = activities.len();
         for axis in problem.order() {
             let Some(&limit) = problem.limits().get(axis) else { continue };
-            let on_axis = |c: &Candidate<A>| c.cost.get(axis).copied().unwrap_or(0);
-            let mut sum = 0u64;
-            for (candidates, caps) in activities.iter().zip(caps.iter_mut()) {
-                let most = highest(candidates, caps, axis).map_or(0, |(_, c)| on_axis(c));
+            for (candidates, caps) in activities.iter().zip(caps.iter_mut()).skip(lowered) {
+                let left = candidates.iter().filter(|c| left(c, caps));
+                let most = left.fold(0, |most, c| on(c, axis).max(most));
                 set(caps, axis, most);
-                sum = sum.saturating_add(u64::from(most));
                 steps = steps.saturating_add(candidates.len() as u64);
             }
+            let most = caps.iter().filter_map(|caps| caps.get(axis));
+            let mut sum = most.fold(0u64, |sum, &most| sum.saturating_add(u64::from(most)));
+            let mut at = activities.len();
             for (candidates, caps) in activities.iter().zip(caps.iter_mut()).rev() {
                 if sum <= limit {
                     break;
@@ -126,7 +132,7 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
                 let others = sum.saturating_sub(u64::from(highest));
                 let room = limit.saturating_sub(others);
                 let (mut fitting, mut lowest) = (None, highest);
-                for cost in candidates.iter().filter(|c| left(c, caps)).map(on_axis) {
+                for cost in candidates.iter().filter(|c| left(c, caps)).map(|c| on(c, axis)) {
                     lowest = lowest.min(cost);
                     if u64::from(cost) <= room {
                         fitting = fitting.max(Some(cost));
@@ -136,25 +142,32 @@ impl<const A: usize> Allocator<A> for Panorama<'_, A> {
                 let chosen = fitting.unwrap_or(lowest);
                 set(caps, axis, chosen);
                 sum = others.saturating_add(u64::from(chosen));
+                at = at.wrapping_sub(1);
             }
             if let Some(shortfall) = Shortfall::new(axis, limit, sum) {
                 return Ok(Answer::Infeasible { shortfall: Some(shortfall), steps });
             }
+            lowered = lowered.min(at);
         }
 
         let mut cost = [0; A];
         let mut quality = 0u64;
         let last_axis = problem.order().last().copied();
-        for ((candidates, cap), choice) in activities.iter().zip(caps.iter()).zip(plan.iter_mut()) {
-            let chosen = last_axis
-                .map_or(candidates.first().map(|c| (0, c)), |axis| highest(candidates, cap, axis));
-            let Some((index, candidate)) = chosen else { continue };
+        for ((candidates, caps), choice) in activities.iter().zip(caps.iter()).zip(plan.iter_mut())
+        {
+            // Rule 3: one that is left has the cost that the last axis was lowered to.
+            let most = last_axis.and_then(|axis| Some((axis, *caps.get(axis)?)));
+            let highest = |c: &Candidate<A>| most.is_none_or(|(axis, most)| on(c, axis) == most);
+            let mut chosen = numbered(candidates.iter());
+            let Some((index, candidate)) = chosen.find(|(_, c)| highest(c) && left(c, caps)) else {
+                continue;
+            };
             *choice = index as u16;
             for (sum, &part) in cost.iter_mut().zip(&candidate.cost) {
                 *sum = u64::saturating_add(*sum, u64::from(part));
             }
             quality = quality.saturating_add(u64::from(candidate.quality));
-            steps = steps.saturating_add(candidates.len() as u64);
+            steps = steps.saturating_add(index as u64).saturating_add(1);
         }
         Ok(Answer::Planned(Planned { cost, quality, bound: None, optimal: false, steps }))
     }

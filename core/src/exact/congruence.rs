@@ -41,7 +41,7 @@ impl Remainders {
         let mut divisor = 0;
         for own in stages.iter().map(|stage| stage.items(items)) {
             let [best, others @ ..] = own else { continue };
-            for item in others.iter().take_while(|item| item.loss <= small) {
+            for item in others.iter().take_while(|item| item.loss() <= small) {
                 divisor = gcd(divisor, item.value.abs_diff(best.value));
             }
         }
@@ -73,7 +73,7 @@ impl Remainders {
         let mut next = *self;
         let [best, others @ ..] = own else { return next };
         let modulus = self.modulus.get() as usize;
-        for item in others.iter().take_while(|item| item.loss <= most) {
+        for item in others.iter().take_while(|item| item.loss() <= most) {
             let step = self.place(i64::from(item.value).wrapping_sub(i64::from(best.value)));
             if step == 0 {
                 continue;
@@ -82,34 +82,58 @@ impl Remainders {
                 let sum = from.wrapping_add(step);
                 let to = if sum < modulus { sum } else { sum.wrapping_sub(modulus) };
                 if let Some(least) = next.least.get_mut(to) {
-                    *least = (*least).min(loss.saturating_add(item.loss));
+                    *least = (*least).min(loss.saturating_add(item.loss()));
                 }
             }
         }
         next
     }
 
-    /// Whether a plan worth `worth` can be changed by these activities into one worth `target` or
-    /// more, when a plan worth `target` may lose `allowance` in all. Each unit of value has
-    /// `fraction` bits.
-    pub(super) fn reach(&self, worth: i64, target: i64, mut allowance: i64, fraction: u32) -> bool {
-        let modulus = self.modulus.get() as usize;
-        let mut place = self.place(target.wrapping_sub(worth));
-        for _ in 0..modulus {
-            if allowance < 0 {
-                return false;
-            }
-            if self.loss(place) <= allowance {
-                return true;
-            }
-            allowance = allowance.wrapping_sub(1i64.wrapping_shl(fraction));
-            place = place.wrapping_add(1);
-            if place == modulus {
-                place = 0;
-            }
+    /// What a level keeps of them, where `allowance` is the most that a plan may lose and each unit
+    /// of value has `fraction` bits.
+    pub(super) fn residues(&self, allowance: i64, fraction: u32) -> Residues {
+        if !self.matter() {
+            return Residues::NONE;
         }
-        false
+        let (modulus, grain) = (self.modulus.get() as usize, grain(allowance));
+        // More than what is lacking will do, and leaves less to lose: from each remainder to the
+        // one below, around twice.
+        let mut enough = self.least;
+        let mut above = NEVER;
+        for place in (0..modulus).rev().chain((0..modulus).rev()) {
+            let Some(least) = enough.get_mut(place) else { break };
+            *least = above.saturating_add(1i64.wrapping_shl(fraction)).min(*least);
+            above = *least;
+        }
+        let kept = |loss: i64| loss.wrapping_shr(grain).min(i64::from(u16::MAX)) as u16;
+        Residues { least: enough.map(kept) }
     }
+
+    /// Whether activities with these residues can add `lacking` or more to the value of a plan that
+    /// may lose `left` if it gains just that, with the `grain` of the residues.
+    #[inline]
+    pub(super) fn reach(&self, residues: &Residues, lacking: i64, left: i64, grain: u32) -> bool {
+        let least = residues.least.get(self.place(lacking));
+        least.is_none_or(|&least| i64::from(least) <= left.wrapping_shr(grain))
+    }
+}
+
+/// The least loss at which some activities gain each remainder or more, in few bytes: rounded down,
+/// so that no plan is excluded.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Residues {
+    least: [u16; REMAINDERS],
+}
+
+impl Residues {
+    /// Every value can be reached.
+    pub(super) const NONE: Self = Self { least: [0; REMAINDERS] };
+}
+
+/// How many bits of a loss its 16 bits leave out, so that no `allowance` or less comes near the
+/// loss that no plan can pay.
+pub(super) const fn grain(allowance: i64) -> u32 {
+    (i64::BITS - 15).saturating_sub(allowance.leading_zeros())
 }
 
 /// The largest value, `bound` at most, that the remainders allow.

@@ -95,13 +95,10 @@ pub(super) fn load<const A: usize>(
             for (cost, &cheapest) in cost.iter_mut().zip(&cheapest) {
                 *cost = cost.saturating_sub(cheapest);
             }
-            let item = Item {
-                cost,
-                deficit: if floored { best_quality.saturating_sub(candidate.quality) } else { 0 },
-                value: value(candidate, aim.objective).abs_diff(least) as u32,
-                loss: 0,
-                choice: choice as u16,
-            };
+            let deficit =
+                if floored { best_quality.saturating_sub(candidate.quality) } else { 0 };
+            let value = value(candidate, aim.objective).abs_diff(least) as u32;
+            let item = Item::new(cost, deficit, value, choice as u16);
             if room.minus(&item.rows()).none_negative() {
                 *own.get_mut(count)? = item;
                 count = count.wrapping_add(1);
@@ -145,7 +142,7 @@ const COMPARED: usize = 1024;
 /// Sorts the items canonically (best value, then cheapest, then first written) and moves those that
 /// no other dominates to the front; returns those.
 fn undominated<const A: usize>(items: &mut [Item<A>]) -> &[Item<A>] {
-    sort_by_key(items, |i| (core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
+    sort_by_key(items, |i| (core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice()));
     keep_undominated(items, COMPARED, |other, item| {
         // Whatever comes before has at least its value.
         other.deficit <= item.deficit && other.cost.iter().zip(&item.cost).all(|(a, b)| a <= b)

@@ -46,7 +46,9 @@
 mod congruence;
 mod dive;
 mod dual;
+mod level;
 mod load;
+mod memory;
 mod primal;
 #[cfg(kani)]
 pub mod proofs;
@@ -57,7 +59,7 @@ use crate::allocation::{Allocator, Answer, MemoryError, Planned, Shortfall, enou
 use crate::problem::{Candidate, Problem};
 use congruence::Remainders;
 use load::Aim;
-use rows::Rows;
+pub use memory::{Item, Seen, Stage};
 
 /// What a plan is chosen for.
 ///
@@ -99,125 +101,6 @@ impl Objective {
             Self::Least(axis) | Self::Most(axis) => cost.get(axis).copied().unwrap_or(0),
         }
     }
-}
-
-/// Working memory for one candidate. Give [`Exact::new`] one for each candidate of the problem.
-#[derive(Clone, Copy, Debug)]
-pub struct Item<const A: usize> {
-    /// Cost above the cheapest of the activity.
-    cost: [u32; A],
-    /// Quality below the best of the activity, where an objective before fixed the quality.
-    deficit: u32,
-    /// Value above the least of the activity.
-    value: u32,
-    /// What is lost at the current prices against the best of the activity.
-    loss: i64,
-    /// Position among the candidates as written.
-    choice: u16,
-}
-
-impl<const A: usize> Item<A> {
-    /// Unused memory.
-    pub const EMPTY: Self = Self { cost: [0; A], deficit: 0, value: 0, loss: 0, choice: 0 };
-    const NONE: &'static Self = &Self::EMPTY;
-
-    #[inline]
-    fn rows(&self) -> Rows<A> {
-        Rows { axes: self.cost.map(i64::from), quality: i64::from(self.deficit) }
-    }
-
-    /// The value at these prices, with `fraction` fraction bits.
-    #[inline]
-    fn reduced(&self, multiplier: &Rows<A>, fraction: u32) -> i64 {
-        i64::from(self.value).wrapping_shl(fraction).wrapping_sub(multiplier.dot(&self.rows()))
-    }
-}
-
-/// How many multipliers price a node anew, beside the best.
-const REPRICINGS: usize = 4;
-
-/// Working memory for one activity. Give [`Exact::new`] one for each activity of the problem.
-#[derive(Clone, Copy, Debug)]
-pub struct Stage<const A: usize> {
-    /// The first of its items, and their number.
-    first: u32,
-    count: u32,
-    /// The item (from `first`) of the best plan so far.
-    best: u32,
-    /// The item of the plan under work.
-    current: u32,
-    /// One level of the search; levels are a list of their own, in the order of the search.
-    level: Level<A>,
-}
-
-/// One level of the search: an activity with more than one item within the loss allowed.
-#[derive(Clone, Copy, Debug)]
-struct Level<const A: usize> {
-    /// The activity.
-    stage: u32,
-    /// The item visited first: that of the plan so far.
-    base: u32,
-    /// How many items have been visited.
-    cursor: u32,
-    /// What is left before this level, the activities from here on at their best items.
-    point: dive::Point<A>,
-    /// What the levels from here on can save at most, row by row.
-    saving: Rows<A>,
-    /// What the levels from here on can gain over their best items at each other multiplier.
-    gain: [i64; REPRICINGS],
-    /// By how much the levels from here on can change the value, modulo what is common, and at
-    /// which loss.
-    remainders: Remainders,
-}
-
-impl<const A: usize> Stage<A> {
-    /// Unused memory.
-    pub const EMPTY: Self = Self {
-        first: 0,
-        count: 0,
-        best: 0,
-        current: 0,
-        level: Level {
-            stage: 0,
-            base: 0,
-            cursor: 0,
-            point: dive::Point::ZERO,
-            saving: Rows::ZERO,
-            gain: [0; REPRICINGS],
-            remainders: Remainders::NONE,
-        },
-    };
-    const NONE: &'static Self = &Self::EMPTY;
-
-    #[inline]
-    const fn range(&self) -> core::ops::Range<usize> {
-        self.first as usize..self.first.wrapping_add(self.count) as usize
-    }
-
-    #[inline]
-    fn items<'i>(&self, items: &'i [Item<A>]) -> &'i [Item<A>] {
-        items.get(self.range()).unwrap_or(&[])
-    }
-
-    #[inline]
-    fn item<'i>(&self, items: &'i [Item<A>], index: u32) -> &'i Item<A> {
-        items.get(self.first.wrapping_add(index) as usize).unwrap_or(Item::NONE)
-    }
-}
-
-/// Working memory for one node of the search that need not be searched twice. Optional: see
-/// [`Exact::with_memory`].
-#[derive(Clone, Copy, Debug)]
-pub struct Seen<const A: usize> {
-    dive: u32,
-    depth: u32,
-    worth: i64,
-    slack: Rows<A>,
-}
-
-impl<const A: usize> Seen<A> {
-    /// Unused memory.
-    pub const EMPTY: Self = Self { dive: 0, depth: 0, worth: 0, slack: Rows::ZERO };
 }
 
 /// A number of steps that may still be taken. A step is one activity priced, or one node of the
@@ -337,7 +220,7 @@ impl<'m, const A: usize> Exact<'m, A> {
     /// Copies the plan of the last pursuit.
     fn write(&self, plan: &mut [u16]) {
         for (choice, stage) in plan.iter_mut().zip(self.stages.iter()) {
-            *choice = stage.item(self.items, stage.best).choice;
+            *choice = stage.item(self.items, stage.best).choice();
         }
     }
 
@@ -353,7 +236,7 @@ impl<'m, const A: usize> Exact<'m, A> {
                 return None;
             }
             let own = |(stage, candidates): (&Stage<A>, &&[Candidate<A>])| {
-                let choice = stage.item(self.items, stage.best).choice;
+                let choice = stage.item(self.items, stage.best).choice();
                 let cost = candidates.get(usize::from(choice)).and_then(|c| c.cost.get(axis));
                 u64::from(cost.copied().unwrap_or(0))
             };

@@ -22,10 +22,10 @@ pub(super) fn first_plan<const A: usize>(
         let best =
             own.iter().map(|i| i.reduced(&price.multiplier, frame.fraction)).max().unwrap_or(0);
         for item in own.iter_mut() {
-            item.loss = best.wrapping_sub(item.reduced(&price.multiplier, frame.fraction));
+            item.lose(best.wrapping_sub(item.reduced(&price.multiplier, frame.fraction)));
         }
         // The canonical order, as a key: items of equal loss come out as dominance sorted them.
-        sort_by_key(own, |i| (i.loss, core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice));
+        sort_by_key(own, |i| (i.loss(), core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice()));
         stage.current = 0;
         slack = slack.minus(&stage.item(items, 0).rows());
     }
@@ -88,7 +88,7 @@ fn repair<const A: usize>(
             if removed <= 0 {
                 continue;
             }
-            let loss = item.loss.wrapping_sub(current.loss).max(0);
+            let loss = item.loss().wrapping_sub(current.loss()).max(0);
             let better = best.is_none_or(|(least, most, ..)| {
                 product(loss, most) < product(least, removed)
                     || (loss == 0 && least == 0 && removed > most)

@@ -9,8 +9,8 @@ use super::congruence::Remainders;
 use super::dive::Dive;
 use super::dual::Price;
 use super::load::Frame;
-use super::rows::Rows;
-use super::{Budget, Item, REPRICINGS, Seen, Stage};
+use super::memory::{Item, Seen, Stage};
+use super::Budget;
 
 /// Steps that the first dive may take before its turn ends; the next ones may take more.
 const FIRST_TURN: u64 = 500;
@@ -36,8 +36,7 @@ pub(super) fn search<const A: usize>(
     bound: &mut i64,
     budget: &mut Budget,
 ) -> (Option<i64>, bool) {
-    let multipliers = repricings(frame, price);
-    let mut dive = Dive::new(frame, price, &multipliers, remainders, items, stages, seen);
+    let mut dive = Dive::new(frame, price, remainders, items, stages, seen);
     let (mut width, mut turn, mut round) = (0i64, FIRST_TURN, 0);
     loop {
         // A plan worth the bound, or every plan excluded.
@@ -46,14 +45,14 @@ pub(super) fn search<const A: usize>(
             return (best, true);
         }
         let target = bound.saturating_sub(width).max(floor);
-        dive.target = target;
+        dive.aim(target);
         dive.free_all();
         let complete = dive.run(budget, turn);
-        if dive.target > target {
-            best = Some(dive.target.wrapping_sub(1));
+        if dive.target() > target {
+            best = Some(dive.target().wrapping_sub(1));
         }
         if complete {
-            *bound = dive.target.wrapping_sub(1);
+            *bound = dive.target().wrapping_sub(1);
             width = width.saturating_add(width / 2).saturating_add(1);
             continue;
         }
@@ -61,9 +60,9 @@ pub(super) fn search<const A: usize>(
             return (best, false);
         }
         if let Some(value) = best.filter(|value| value < bound) {
-            dive.target = value.saturating_add(1);
+            dive.aim(value.saturating_add(1));
             neighbours(&mut dive, *bound, &mut round, budget, turn);
-            best = Some(dive.target.wrapping_sub(1));
+            best = Some(dive.target().wrapping_sub(1));
         }
         turn = turn.saturating_mul(LONGER);
         dive.remember(turn);
@@ -85,35 +84,19 @@ fn neighbours<const A: usize>(
     }
     let (mut home, mut worst) = dive.settle();
     let mut fruitless = 0u64;
-    while dive.target <= bound && budget.left > end && fruitless < turn / FRUITLESS {
+    while dive.target() <= bound && budget.left > end && fruitless < turn / FRUITLESS {
         *round = round.wrapping_add(1);
         if budget.take(FREE as u64).is_none() {
             return;
         }
-        let before = dive.target;
+        let before = dive.target();
         dive.free_some(home, worst, FREE, *round);
         dive.run(budget, NEIGHBOURHOOD);
-        dive.restore();
-        if dive.target > before {
+        if dive.target() > before {
             fruitless = 0;
             (home, worst) = dive.settle();
         } else {
             fruitless = fruitless.saturating_add(1);
         }
     }
-}
-
-/// The multipliers that price nodes anew: the best ones with one row dearer or cheaper. A node that
-/// has run short of a row is excluded by the dearer one, a node that has left too much of it by the
-/// cheaper one.
-fn repricings<const A: usize>(frame: &Frame<A>, price: &Price<A>) -> [Rows<A>; REPRICINGS] {
-    let mut multipliers = [price.multiplier; REPRICINGS];
-    let binding = (0..Rows::<A>::COUNT).filter(|&row| frame.most_multiplier.get(row) > 0);
-    for (row, pair) in binding.zip(multipliers.chunks_exact_mut(2)) {
-        let best = price.multiplier.get(row);
-        let [dearer, cheaper] = pair else { continue };
-        dearer.set(row, best.saturating_mul(2).min(frame.most_multiplier.get(row)));
-        cheaper.set(row, best / 2);
-    }
-    multipliers
 }
