@@ -44,6 +44,8 @@ struct Notes<'d, const A: usize> {
     seen: &'d mut [Seen<A>],
     /// How much of `seen` is in use.
     noted: usize,
+    /// The last level before which nodes are noted.
+    deepest: usize,
     /// Number of this dive, so that what an earlier one has seen is not taken for its own.
     number: u32,
 }
@@ -87,7 +89,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             root: Point::ZERO,
             rest: Rest::NONE,
             grain: 0,
-            notes: Notes { seen, noted: 0, number: 0 },
+            notes: Notes { seen, noted: 0, deepest: 0, number: 0 },
         }
     }
 
@@ -204,6 +206,8 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// Fills the bounds of the levels.
     fn prepare(&mut self) {
         self.notes.number = self.notes.number.wrapping_add(1);
+        let noted = self.notes.noted > 0;
+        self.notes.deepest = if noted { self.levels.saturating_sub(NOT_KEPT) } else { 0 };
         self.grain = grain(self.allowance);
         let bounds = (self.levels, self.allowance, self.frame.fraction);
         let (saving, rest) =
@@ -244,11 +248,9 @@ impl<'d, const A: usize> Dive<'d, A> {
             let below = depth.wrapping_add(1);
             let last = below == self.levels;
             let Some(Stage { level, .. }) = self.stages.get(depth) else { return true };
-            let own = level.items(items);
             let mut found = None;
             let mut cursor = level.cursor;
-            // The item of the best plan first, then the others by rising loss.
-            while let Some((index, item)) = level.item(own, cursor) {
+            while let Some((index, item)) = level.item(items, cursor) {
                 cursor = cursor.wrapping_add(1);
                 let point = level.point.with(item);
                 if point.loss > self.allowance {
@@ -266,8 +268,7 @@ impl<'d, const A: usize> Dive<'d, A> {
                     point.value >= self.target
                 } else {
                     self.promising(&level.rest, &point)
-                        && !(below.saturating_add(NOT_KEPT) <= self.levels
-                            && self.notes.seen_before(below, &point))
+                        && !(below <= self.notes.deepest && self.notes.seen_before(below, &point))
                 };
                 if promising {
                     found = Some((index, point));
@@ -325,11 +326,7 @@ impl<const A: usize> Notes<'_, A> {
     /// The dynamic programme over the limits, as far as memory allows: of two partial plans over
     /// the same activities that are worth the same, the one with less room in every row is not
     /// needed.
-    #[inline]
     fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
-        if self.noted == 0 {
-            return false;
-        }
         let value = point.value;
         let mixed = value.cast_unsigned().wrapping_mul(0x9E37_79B9_7F4A_7C15)
             ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);

@@ -110,21 +110,19 @@ impl<const A: usize> Level<A> {
         rest: Rest::NONE,
     };
 
+    /// The item that is visited at a turn, and its place: that of the best plan first, then the
+    /// others by rising loss.
     #[inline]
-    pub(super) fn items<'i>(&self, items: &'i [Item<A>]) -> &'i [Item<A>] {
-        let first = self.first as usize;
-        items.get(first..first.wrapping_add(self.count as usize)).unwrap_or(&[])
-    }
-
-    /// The item that is visited at a turn, and its place.
-    #[inline]
-    pub(super) fn item<'i>(&self, own: &'i [Item<A>], turn: u32) -> Option<(u32, &'i Item<A>)> {
+    pub(super) fn item<'i>(&self, items: &'i [Item<A>], turn: u32) -> Option<(u32, &'i Item<A>)> {
         let place = match turn {
             0 => self.base,
             turn if turn <= self.base => turn.wrapping_sub(1),
             turn => turn,
         };
-        own.get(place as usize).map(|item| (place, item))
+        if place >= self.count {
+            return None;
+        }
+        items.get(self.first.wrapping_add(place) as usize).map(|item| (place, item))
     }
 
     /// Begins to visit the items, from this point on.

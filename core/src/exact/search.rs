@@ -53,7 +53,7 @@ pub(super) fn search<const A: usize>(
         }
         if complete {
             *bound = dive.target().wrapping_sub(1);
-            width = width.saturating_add(width / 2).saturating_add(1);
+            width = width.saturating_mul(2).saturating_add(1);
             continue;
         }
         if budget.left == 0 {
