@@ -16,8 +16,8 @@ use core::num::NonZero;
 pub(super) const REMAINDERS: usize = 16;
 /// A loss below this part of one unit of value, as a shift, counts as next to none.
 const NEXT_TO_NONE: u32 = 5;
-/// A loss that no plan can pay.
-const NEVER: i64 = i64::MAX;
+/// A loss that no plan can pay; others can be added to it.
+const NEVER: i64 = 1 << 62;
 
 /// The least loss at which some activities change the value by each remainder.
 #[derive(Clone, Copy, Debug)]
@@ -72,17 +72,24 @@ impl Remainders {
     pub(super) fn with<const A: usize>(&self, own: &[Item<A>], most: i64) -> Self {
         let mut next = *self;
         let [best, others @ ..] = own else { return next };
-        let modulus = self.modulus.get() as usize;
+        let modulus = self.modulus.get();
+        let base = best.value % self.modulus;
+        // Of the items with one remainder the first loses least; the best one itself changes none.
+        let mut taken = 1u32;
         for item in others.iter().take_while(|item| item.loss() <= most) {
-            let step = self.place(i64::from(item.value).wrapping_sub(i64::from(best.value)));
-            if step == 0 {
+            let above = (item.value % self.modulus).wrapping_sub(base);
+            let step = if above < modulus { above } else { above.wrapping_add(modulus) };
+            let bit = 1u32.wrapping_shl(step);
+            if taken & bit > 0 {
                 continue;
             }
+            taken |= bit;
+            let (step, modulus) = (step as usize, modulus as usize);
             for (from, &loss) in self.least.iter().enumerate().take(modulus) {
                 let sum = from.wrapping_add(step);
                 let to = if sum < modulus { sum } else { sum.wrapping_sub(modulus) };
                 if let Some(least) = next.least.get_mut(to) {
-                    *least = (*least).min(loss.saturating_add(item.loss()));
+                    *least = loss.wrapping_add(item.loss()).min(*least);
                 }
             }
         }
@@ -96,17 +103,15 @@ impl Remainders {
             return Residues::NONE;
         }
         let (modulus, grain) = (self.modulus.get() as usize, grain(allowance));
-        // More than what is lacking will do, and leaves less to lose: from each remainder to the
-        // one below, around twice.
-        let mut enough = self.least;
-        let mut above = NEVER;
-        for place in (0..modulus).rev().chain((0..modulus).rev()) {
-            let Some(least) = enough.get_mut(place) else { break };
-            *least = above.saturating_add(1i64.wrapping_shl(fraction)).min(*least);
-            above = *least;
+        let mut residues = Residues::NONE;
+        // More than what is lacking will do, and leaves less to lose. No change loses nothing.
+        let mut above = 0i64;
+        for (least, &loss) in residues.least.iter_mut().zip(&self.least).take(modulus).skip(1).rev()
+        {
+            above = above.wrapping_add(1i64.wrapping_shl(fraction)).min(loss);
+            *least = above.wrapping_shr(grain).min(i64::from(u16::MAX)) as u16;
         }
-        let kept = |loss: i64| loss.wrapping_shr(grain).min(i64::from(u16::MAX)) as u16;
-        Residues { least: enough.map(kept) }
+        residues
     }
 
     /// Whether activities with these residues can add `lacking` or more to the value of a plan that

@@ -210,8 +210,7 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.notes.deepest = if noted { self.levels.saturating_sub(NOT_KEPT) } else { 0 };
         self.grain = grain(self.allowance);
         let bounds = (self.levels, self.allowance, self.frame.fraction);
-        let (saving, rest) =
-            prepare(self.items, self.stages, &self.steps, self.remainders, bounds);
+        let (saving, rest) = prepare(self.items, self.stages, &self.steps, self.remainders, bounds);
         self.root.room = self.root.room.plus(&saving);
         self.rest = rest;
     }
@@ -299,7 +298,7 @@ impl<'d, const A: usize> Dive<'d, A> {
     fn promising(&self, rest: &Rest<A>, point: &Point<A>) -> bool {
         let left = self.allowance.wrapping_sub(point.loss);
         let lacking = self.target.wrapping_sub(point.value);
-        rest.priced(point, &self.steps, left)
+        rest.priced(point, &self.steps, lacking, left)
             && (!self.remainders.matter()
                 || self.remainders.reach(&rest.residues, lacking, left, self.grain))
     }

@@ -40,6 +40,8 @@ pub(super) struct Rest<const A: usize> {
     /// What they can gain with a row dearer, and with it cheaper, over what [`Point::room`] says.
     dearer: Rows<A>,
     cheaper: Rows<A>,
+    /// What they can add to the value.
+    value: i64,
     /// By how much they can change the value, modulo what is common, and at which loss.
     pub(super) residues: Residues,
 }
@@ -82,12 +84,21 @@ impl<const A: usize> Point<A> {
 impl<const A: usize> Rest<A> {
     /// No level can do anything.
     pub(super) const NONE: Self =
-        Self { dearer: Rows::ZERO, cheaper: Rows::ZERO, residues: Residues::NONE };
+        Self { dearer: Rows::ZERO, cheaper: Rows::ZERO, value: 0, residues: Residues::NONE };
 
-    /// Whether a plan at this point, which may lose `left`, may be completed at the dearer and
-    /// cheaper prices.
+    /// Whether a plan at this point, which lacks so much value and may lose `left`, may be completed
+    /// at the dearer and cheaper prices, and at none.
     #[inline]
-    pub(super) fn priced(&self, point: &Point<A>, steps: &Rows<A>, left: i64) -> bool {
+    pub(super) fn priced(
+        &self,
+        point: &Point<A>,
+        steps: &Rows<A>,
+        lacking: i64,
+        left: i64,
+    ) -> bool {
+        if lacking > self.value {
+            return false;
+        }
         let price = steps.zip(&point.room, i64::wrapping_mul);
         let dearer = self.dearer.plus(&price).plus(&price);
         let cheaper = self.cheaper.minus(&price);
@@ -167,15 +178,15 @@ pub(super) fn prepare<const A: usize>(
         let mut least = best;
         let mut more = price(&best).zip(&best, |price, _| price.wrapping_mul(-2));
         let mut less = price(&best);
-        let mut count = 0u32;
+        let (mut count, mut most_value) = (0u32, best_value);
         for item in own.iter().take_while(|item| item.loss() <= allowance) {
             let (rows, loss) = (item.rows(), item.loss());
             let price = price(&rows);
             least = least.zip(&rows, i64::min);
-            more = more.zip(&price, |most, price| {
-                most.max(price.wrapping_mul(-2).wrapping_sub(loss))
-            });
+            more =
+                more.zip(&price, |most, price| most.max(price.wrapping_mul(-2).wrapping_sub(loss)));
             less = less.zip(&price, |most, price| most.max(price.wrapping_sub(loss)));
+            most_value = most_value.max(item.value);
             count = count.wrapping_add(1);
         }
         let floor = price(&least);
@@ -188,6 +199,7 @@ pub(super) fn prepare<const A: usize>(
         level.least_deficit = least.quality as u32;
         level.best_value = best_value;
         level.rest = rest;
+        rest.value = rest.value.wrapping_add(most_value.wrapping_sub(best_value).into());
         rest.dearer = rest.dearer.plus(&more).plus(&floor).plus(&floor);
         rest.cheaper = rest.cheaper.plus(&less).minus(&floor);
         saving = saving.plus(&best).minus(&least);

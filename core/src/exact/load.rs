@@ -95,8 +95,7 @@ pub(super) fn load<const A: usize>(
             for (cost, &cheapest) in cost.iter_mut().zip(&cheapest) {
                 *cost = cost.saturating_sub(cheapest);
             }
-            let deficit =
-                if floored { best_quality.saturating_sub(candidate.quality) } else { 0 };
+            let deficit = if floored { best_quality.saturating_sub(candidate.quality) } else { 0 };
             let value = value(candidate, aim.objective).abs_diff(least) as u32;
             let item = Item::new(cost, deficit, value, choice as u16);
             if room.minus(&item.rows()).none_negative() {

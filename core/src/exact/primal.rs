@@ -25,7 +25,9 @@ pub(super) fn first_plan<const A: usize>(
             item.lose(best.wrapping_sub(item.reduced(&price.multiplier, frame.fraction)));
         }
         // The canonical order, as a key: items of equal loss come out as dominance sorted them.
-        sort_by_key(own, |i| (i.loss(), core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice()));
+        sort_by_key(own, |i| {
+            (i.loss(), core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice())
+        });
         stage.current = 0;
         slack = slack.minus(&stage.item(items, 0).rows());
     }

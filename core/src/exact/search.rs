@@ -5,12 +5,12 @@
 //! the bound and a dive need not end. Then the best plan is improved by freeing a few activities at
 //! a time, in turns with the dive.
 
+use super::Budget;
 use super::congruence::Remainders;
 use super::dive::Dive;
 use super::dual::Price;
 use super::load::Frame;
 use super::memory::{Item, Seen, Stage};
-use super::Budget;
 
 /// Steps that the first dive may take before its turn ends; the next ones may take more.
 const FIRST_TURN: u64 = 500;
@@ -37,6 +37,7 @@ pub(super) fn search<const A: usize>(
     budget: &mut Budget,
 ) -> (Option<i64>, bool) {
     let mut dive = Dive::new(frame, price, remainders, items, stages, seen);
+    dive.remember(FIRST_TURN / 4);
     let (mut width, mut turn, mut round) = (0i64, FIRST_TURN, 0);
     loop {
         // A plan worth the bound, or every plan excluded.
