@@ -109,7 +109,7 @@ impl Remainders {
         for (least, &loss) in residues.least.iter_mut().zip(&self.least).take(modulus).skip(1).rev()
         {
             above = above.wrapping_add(1i64.wrapping_shl(fraction)).min(loss);
-            *least = above.wrapping_shr(grain).min(i64::from(u16::MAX)) as u16;
+            *least = u16::try_from(above.wrapping_shr(grain)).unwrap_or(u16::MAX);
         }
         residues
     }

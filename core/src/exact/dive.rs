@@ -15,7 +15,7 @@ use super::rows::Rows;
 use crate::order::{numbered, sort_list};
 use core::cmp::Reverse;
 
-/// A dive: some activities have a level each, the others keep the item that is their `current`.
+/// A dive: some activities have a level each, the others keep one item.
 pub(super) struct Dive<'d, const A: usize> {
     frame: &'d Frame<A>,
     price: &'d Price<A>,
@@ -30,6 +30,8 @@ pub(super) struct Dive<'d, const A: usize> {
     /// What losses and priced slack may use up together.
     allowance: i64,
     levels: usize,
+    /// Whether activities without a level keep the item of the best plan, and not their best one.
+    home: bool,
     /// What is left with every level at its best item.
     root: Point<A>,
     /// What all levels can do.
@@ -64,15 +66,15 @@ impl<'d, const A: usize> Dive<'d, A> {
         seen: &'d mut [Seen<A>],
     ) -> Self {
         for (at, stage) in numbered(stages.iter_mut()) {
-            stage.ranked = at as u32;
+            stage.level.ranked = at as u16;
         }
         let before = |stages: &[Stage<A>], a: usize, b: usize| {
-            let rank = |at: usize| stages.get(at).map_or(0, |it| it.ranked);
+            let rank = |at: usize| stages.get(at).map_or(0, |it| it.level.ranked);
             ranked(stages, items, rank(a)) < ranked(stages, items, rank(b))
         };
         let swap = |stages: &mut [Stage<A>], a: usize, b: usize| {
             if let Ok([a, b]) = stages.get_disjoint_mut([a, b]) {
-                core::mem::swap(&mut a.ranked, &mut b.ranked);
+                core::mem::swap(&mut a.level.ranked, &mut b.level.ranked);
             }
         };
         sort_list(stages, before, swap);
@@ -86,6 +88,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             target: 0,
             allowance: 0,
             levels: 0,
+            home: false,
             root: Point::ZERO,
             rest: Rest::NONE,
             grain: 0,
@@ -122,13 +125,13 @@ impl<'d, const A: usize> Dive<'d, A> {
     pub(super) fn free_all(&mut self) {
         self.levels = 0;
         self.root = Point { room: self.frame.room, ..Point::ZERO };
-        for stage in self.stages.iter_mut() {
-            stage.current = 0;
+        self.home = false;
+        for stage in self.stages.iter() {
             self.root = self.root.with(stage.item(self.items, 0));
         }
         // The costliest change comes first: those that can be made are the last ones.
         for rank in (0..self.stages.len()).rev() {
-            let at = self.stages.get(rank).map_or(0, |stage| stage.ranked);
+            let at = self.stages.get(rank).map_or(0, |stage| stage.level.ranked);
             if change(self.stages, self.items, at) > self.allowance {
                 break;
             }
@@ -136,7 +139,8 @@ impl<'d, const A: usize> Dive<'d, A> {
         }
         let first = self.stages.len().saturating_sub(self.levels);
         for depth in 0..self.levels {
-            let at = self.stages.get(first.wrapping_add(depth)).map_or(0, |stage| stage.ranked);
+            let at =
+                self.stages.get(first.wrapping_add(depth)).map_or(0, |stage| stage.level.ranked);
             if let Some(stage) = self.stages.get_mut(depth) {
                 stage.level.stage = at;
             }
@@ -144,13 +148,11 @@ impl<'d, const A: usize> Dive<'d, A> {
         self.prepare();
     }
 
-    /// Puts every activity at the item of the best plan; returns what that plan leaves, and the
-    /// activity that loses most in it.
-    pub(super) fn settle(&mut self) -> (Point<A>, usize) {
+    /// What the best plan leaves, and the activity that loses most in it.
+    pub(super) fn home(&self) -> (Point<A>, usize) {
         let mut home = Point { room: self.frame.room, ..Point::ZERO };
         let (mut worst, mut most) = (0, 0);
-        for (at, stage) in numbered(self.stages.iter_mut()) {
-            stage.current = stage.best;
+        for (at, stage) in numbered(self.stages.iter()) {
             let item = stage.item(self.items, stage.best);
             home = home.with(item);
             if item.loss() > most {
@@ -164,6 +166,7 @@ impl<'d, const A: usize> Dive<'d, A> {
     /// leaves `home`.
     pub(super) fn free_some(&mut self, home: Point<A>, first: usize, count: usize, round: u64) {
         self.levels = 0;
+        self.home = true;
         self.root = home;
         for draw in 0..count as u64 {
             // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4).
@@ -174,7 +177,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             };
             let Some(stage) = self.stages.get(at) else { continue };
             let (own, best) = (stage.items(self.items), stage.item(self.items, stage.best));
-            let at = at as u32;
+            let at = at as u16;
             let taken = self.stages.iter().take(self.levels).any(|s| s.level.stage == at);
             if !taken && own.get(1).is_some_and(|item| item.loss() <= self.allowance) {
                 self.root = self.root.without(best).with(own.first().unwrap_or(Item::NONE));
@@ -185,7 +188,7 @@ impl<'d, const A: usize> Dive<'d, A> {
     }
 
     /// Gives an activity a level, behind those of costlier changes.
-    fn free(&mut self, at: u32) {
+    fn free(&mut self, at: u16) {
         let mut place = self.levels;
         while let Some(before) = place.checked_sub(1) {
             let other = self.stages.get(before).map_or(0, |stage| stage.level.stage);
@@ -249,7 +252,7 @@ impl<'d, const A: usize> Dive<'d, A> {
             let Some(Stage { level, .. }) = self.stages.get(depth) else { return true };
             let mut found = None;
             let mut cursor = level.cursor;
-            while let Some((index, item)) = level.item(items, cursor) {
+            while let Some(item) = level.item(items, cursor) {
                 cursor = cursor.wrapping_add(1);
                 let point = level.point.with(item);
                 if point.loss > self.allowance {
@@ -270,21 +273,20 @@ impl<'d, const A: usize> Dive<'d, A> {
                         && !(below <= self.notes.deepest && self.notes.seen_before(below, &point))
                 };
                 if promising {
-                    found = Some((index, point));
+                    found = Some(point);
                     break;
                 }
             }
             if let Some(Stage { level, .. }) = self.stages.get_mut(depth) {
                 level.cursor = cursor;
-                level.chosen = found.map_or(0, |(index, _)| index);
             }
             match found {
                 None => {
                     let Some(above) = depth.checked_sub(1) else { return true };
                     depth = above;
                 }
-                Some((_, point)) if last => self.keep(point.value),
-                Some((_, point)) => {
+                Some(point) if last => self.keep(point.value),
+                Some(point) => {
                     let Some(Stage { level, .. }) = self.stages.get_mut(below) else { return true };
                     level.enter(&point);
                     depth = below;
@@ -307,13 +309,15 @@ impl<'d, const A: usize> Dive<'d, A> {
     fn keep(&mut self, value: i64) {
         debug_assert!(value >= self.target, "a better plan");
         self.aim(value.wrapping_add(1));
-        for stage in self.stages.iter_mut() {
-            stage.best = stage.current;
+        if !self.home {
+            for stage in self.stages.iter_mut() {
+                stage.best = 0;
+            }
         }
         for depth in 0..self.levels {
             let Some(&Stage { level, .. }) = self.stages.get(depth) else { break };
-            if let Some(stage) = self.stages.get_mut(level.stage as usize) {
-                stage.best = level.chosen;
+            if let Some(stage) = self.stages.get_mut(usize::from(level.stage)) {
+                stage.best = level.chosen();
             }
         }
     }
@@ -326,29 +330,25 @@ impl<const A: usize> Notes<'_, A> {
     /// the same activities that are worth the same, the one with less room in every row is not
     /// needed.
     fn seen_before(&mut self, depth: usize, point: &Point<A>) -> bool {
-        let value = point.value;
-        let mixed = value.cast_unsigned().wrapping_mul(0x9E37_79B9_7F4A_7C15)
-            ^ (depth as u64).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        let place = drawn(mixed.wrapping_mul(0x94D0_49BB_1331_11EB), self.noted);
-        let Some(seen) = self.seen.get_mut(place) else { return false };
-        let same = seen.dive == self.number && seen.depth == depth as u32 && seen.value == value;
-        if same && seen.room.minus(&point.room).none_negative() {
+        let node = Seen::new(self.number, depth, point.value, &point.room);
+        let Some(seen) = self.seen.get_mut(drawn(node.mixed(), self.noted)) else { return false };
+        if seen.covers(&node) {
             return true;
         }
-        *seen = Seen { dive: self.number, depth: depth as u32, value, room: point.room };
+        *seen = node;
         false
     }
 }
 
 /// What a change of an activity costs at least: the loss of its second item.
-fn change<const A: usize>(stages: &[Stage<A>], items: &[Item<A>], at: u32) -> i64 {
-    let own = stages.get(at as usize).map_or(&[][..], |stage| stage.items(items));
+fn change<const A: usize>(stages: &[Stage<A>], items: &[Item<A>], at: u16) -> i64 {
+    let own = stages.get(usize::from(at)).map_or(&[][..], |stage| stage.items(items));
     own.get(1).map_or(i64::MAX, Item::loss)
 }
 
 /// Where an activity stands in the order of the search: the costliest to change first, since a
 /// change there leaves little for the others.
-fn ranked<const A: usize>(stages: &[Stage<A>], items: &[Item<A>], at: u32) -> (Reverse<i64>, u32) {
+fn ranked<const A: usize>(stages: &[Stage<A>], items: &[Item<A>], at: u16) -> (Reverse<i64>, u16) {
     (Reverse(change(stages, items, at)), at)
 }
 

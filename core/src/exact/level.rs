@@ -15,15 +15,16 @@ use super::rows::Rows;
 /// An activity with more than one item within the loss allowed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Level<const A: usize> {
+    /// The activities in the order of the search: a list of its own, made once.
+    pub(super) ranked: u16,
     /// The activity, the first of its items, and how many lose no more than is allowed.
-    pub(super) stage: u32,
-    pub(super) first: u32,
-    pub(super) count: u32,
+    pub(super) stage: u16,
+    first: u32,
+    count: u16,
     /// The item visited first: that of the plan so far.
-    pub(super) base: u32,
-    /// How many items have been visited, and the last of them.
-    pub(super) cursor: u32,
-    pub(super) chosen: u32,
+    base: u16,
+    /// How many items have been visited.
+    pub(super) cursor: u16,
     /// The least of its items in each row, and the value of the best one.
     least: [u32; A],
     least_deficit: u32,
@@ -108,12 +109,12 @@ impl<const A: usize> Rest<A> {
 
 impl<const A: usize> Level<A> {
     pub(super) const EMPTY: Self = Self {
+        ranked: 0,
         stage: 0,
         first: 0,
         count: 0,
         base: 0,
         cursor: 0,
-        chosen: 0,
         least: [0; A],
         least_deficit: 0,
         best_value: 0,
@@ -121,19 +122,30 @@ impl<const A: usize> Level<A> {
         rest: Rest::NONE,
     };
 
-    /// The item that is visited at a turn, and its place: that of the best plan first, then the
+    /// The place of the item that is visited at a turn: that of the best plan first, then the
     /// others by rising loss.
     #[inline]
-    pub(super) fn item<'i>(&self, items: &'i [Item<A>], turn: u32) -> Option<(u32, &'i Item<A>)> {
-        let place = match turn {
+    const fn place(&self, turn: u16) -> u16 {
+        match turn {
             0 => self.base,
             turn if turn <= self.base => turn.wrapping_sub(1),
             turn => turn,
-        };
+        }
+    }
+
+    /// The place of the item that was visited last.
+    pub(super) const fn chosen(&self) -> u16 {
+        self.place(self.cursor.wrapping_sub(1))
+    }
+
+    /// The item that is visited at a turn.
+    #[inline]
+    pub(super) fn item<'i>(&self, items: &'i [Item<A>], turn: u16) -> Option<&'i Item<A>> {
+        let place = self.place(turn);
         if place >= self.count {
             return None;
         }
-        items.get(self.first.wrapping_add(place) as usize).map(|item| (place, item))
+        items.get(self.first.wrapping_add(place.into()) as usize)
     }
 
     /// Begins to visit the items, from this point on.
@@ -170,7 +182,7 @@ pub(super) fn prepare<const A: usize>(
     let price = |rows: &Rows<A>| steps.zip(rows, i64::wrapping_mul);
     for depth in (0..levels).rev() {
         let at = stages.get(depth).map_or(0, |it| it.level.stage);
-        let Some(stage) = stages.get(at as usize) else { break };
+        let Some(stage) = stages.get(usize::from(at)) else { break };
         let (first, base) = (stage.first, stage.best);
         let own = stage.items(items);
         let Some(best) = own.first() else { break };
@@ -178,7 +190,7 @@ pub(super) fn prepare<const A: usize>(
         let mut least = best;
         let mut more = price(&best).zip(&best, |price, _| price.wrapping_mul(-2));
         let mut less = price(&best);
-        let (mut count, mut most_value) = (0u32, best_value);
+        let (mut count, mut most_value) = (0u16, best_value);
         for item in own.iter().take_while(|item| item.loss() <= allowance) {
             let (rows, loss) = (item.rows(), item.loss());
             let price = price(&rows);
@@ -195,8 +207,8 @@ pub(super) fn prepare<const A: usize>(
         (level.first, level.count) = (first, count);
         // One that loses too much is not visited.
         level.base = if base < count { base } else { 0 };
-        level.least = least.axes.map(|least| least as u32);
-        level.least_deficit = least.quality as u32;
+        level.least = least.axes.map(|least| least.unsigned_abs() as u32);
+        level.least_deficit = least.quality.unsigned_abs() as u32;
         level.best_value = best_value;
         level.rest = rest;
         rest.value = rest.value.wrapping_add(most_value.wrapping_sub(best_value).into());

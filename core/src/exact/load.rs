@@ -107,7 +107,7 @@ pub(super) fn load<const A: usize>(
         if kept.is_empty() {
             return None;
         }
-        *stage = Stage { first: first as u32, count: kept.len() as u32, ..Stage::EMPTY };
+        *stage = Stage { first: first as u32, count: kept.len() as u16, ..Stage::EMPTY };
         let most_of = |row: usize| kept.iter().map(|i| i.rows().get(row)).max().unwrap_or(0);
         for row in 0..Rows::<A>::COUNT {
             largest.set(row, largest.get(row).saturating_add(most_of(row)));

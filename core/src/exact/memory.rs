@@ -68,25 +68,20 @@ impl<const A: usize> Item<A> {
 pub struct Stage<const A: usize> {
     /// The first of its items, and their number.
     pub(super) first: u32,
-    pub(super) count: u32,
+    pub(super) count: u16,
     /// The item (from `first`) of the best plan so far.
-    pub(super) best: u32,
-    /// The item of the plan under work.
-    pub(super) current: u32,
-    /// The activities in the order of the search: a list of its own.
-    pub(super) ranked: u32,
-    /// One level of the search; levels are a list of their own, in the order of the search.
+    pub(super) best: u16,
+    /// One level of the search: a list of its own.
     pub(super) level: Level<A>,
 }
 
 impl<const A: usize> Stage<A> {
     /// Unused memory.
-    pub const EMPTY: Self =
-        Self { first: 0, count: 0, best: 0, current: 0, ranked: 0, level: Level::EMPTY };
+    pub const EMPTY: Self = Self { first: 0, count: 0, best: 0, level: Level::EMPTY };
 
     #[inline]
     pub(super) const fn range(&self) -> core::ops::Range<usize> {
-        self.first as usize..self.first.wrapping_add(self.count) as usize
+        self.first as usize..self.first.wrapping_add(self.count as u32) as usize
     }
 
     #[inline]
@@ -95,8 +90,8 @@ impl<const A: usize> Stage<A> {
     }
 
     #[inline]
-    pub(super) fn item<'i>(&self, items: &'i [Item<A>], index: u32) -> &'i Item<A> {
-        items.get(self.first.wrapping_add(index) as usize).unwrap_or(Item::NONE)
+    pub(super) fn item<'i>(&self, items: &'i [Item<A>], index: u16) -> &'i Item<A> {
+        items.get(self.first.wrapping_add(index.into()) as usize).unwrap_or(Item::NONE)
     }
 }
 
@@ -104,13 +99,47 @@ impl<const A: usize> Stage<A> {
 /// [`Exact::with_memory`](super::Exact::with_memory).
 #[derive(Clone, Copy, Debug)]
 pub struct Seen<const A: usize> {
-    pub(super) dive: u32,
-    pub(super) depth: u32,
-    pub(super) value: i64,
-    pub(super) room: Rows<A>,
+    /// The room in each row, or the most that 32 bits hold.
+    room: [u32; A],
+    quality: u32,
+    /// The dive that saw it.
+    dive: u32,
+    /// Its value in 48 bits, and its depth in 16.
+    place: u64,
 }
+
+/// Bits of a node's depth: there are no more activities.
+const DEPTH: u32 = u16::BITS;
 
 impl<const A: usize> Seen<A> {
     /// Unused memory.
-    pub const EMPTY: Self = Self { dive: 0, depth: 0, value: 0, room: Rows::ZERO };
+    pub const EMPTY: Self = Self { room: [0; A], quality: 0, dive: 0, place: 0 };
+
+    /// The node of a dive at this depth, with this value and room, neither of them negative.
+    pub(super) fn new(dive: u32, depth: usize, value: i64, room: &Rows<A>) -> Self {
+        let kept = |room: i64| room.cast_unsigned().min(u32::MAX.into()) as u32;
+        Self {
+            room: room.axes.map(kept),
+            quality: kept(room.quality),
+            dive,
+            place: value.cast_unsigned() << DEPTH | depth as u64,
+        }
+    }
+
+    /// Where a node may be noted: a number that looks random, the same for nodes that differ in
+    /// room only.
+    pub(super) const fn mixed(&self) -> u64 {
+        // A multiplicative hash (Knuth, The Art of Computer Programming 3, section 6.4), twice.
+        let mixed = self.place.wrapping_mul(0x9E37_79B9_7F4A_7C15);
+        (mixed ^ mixed >> 32).wrapping_mul(0x94D0_49BB_1331_11EB)
+    }
+
+    /// Whether this node is at least as good as the other: in the same place, with as much room.
+    pub(super) fn covers(&self, other: &Self) -> bool {
+        let rooms = self.room.iter().zip(&other.room);
+        self.dive == other.dive
+            && self.place == other.place
+            && self.quality >= other.quality
+            && rooms.fold(true, |all, (mine, theirs)| all && mine >= theirs)
+    }
 }

@@ -28,7 +28,7 @@ pub(super) fn first_plan<const A: usize>(
         sort_by_key(own, |i| {
             (i.loss(), core::cmp::Reverse(i.value), i.cost, i.deficit, i.choice())
         });
-        stage.current = 0;
+        stage.best = 0;
         slack = slack.minus(&stage.item(items, 0).rows());
     }
     // Each switch scans all activities; a plan that needs more switches than this is left to the
@@ -50,8 +50,7 @@ pub(super) fn first_plan<const A: usize>(
         }
     }
     let mut value = 0i64;
-    for stage in stages.iter_mut() {
-        stage.best = stage.current;
+    for stage in stages.iter() {
         value = value.wrapping_add(i64::from(stage.item(items, stage.best).value));
     }
     Some(value)
@@ -81,9 +80,9 @@ fn repair<const A: usize>(
     slack: &Rows<A>,
 ) -> Option<Rows<A>> {
     let before = violation(slack, slack);
-    let mut best: Option<(i64, i64, usize, u32, Rows<A>)> = None;
+    let mut best: Option<(i64, i64, usize, u16, Rows<A>)> = None;
     for (at, stage) in numbered(stages.iter()) {
-        let current = stage.item(items, stage.current);
+        let current = stage.item(items, stage.best);
         for (index, item) in numbered(stage.items(items)) {
             let after = slack.plus(&current.rows()).minus(&item.rows());
             let removed = before.saturating_sub(violation(&after, slack));
@@ -96,12 +95,12 @@ fn repair<const A: usize>(
                     || (loss == 0 && least == 0 && removed > most)
             });
             if better {
-                best = Some((loss, removed, at, index as u32, after));
+                best = Some((loss, removed, at, index as u16, after));
             }
         }
     }
     let (_, _, at, index, after) = best?;
-    stages.get_mut(at)?.current = index;
+    stages.get_mut(at)?.best = index;
     Some(after)
 }
 
@@ -111,9 +110,9 @@ fn improve<const A: usize>(
     stages: &mut [Stage<A>],
     slack: &Rows<A>,
 ) -> Option<Rows<A>> {
-    let mut best: Option<(u32, usize, u32, Rows<A>)> = None;
+    let mut best: Option<(u32, usize, u16, Rows<A>)> = None;
     for (at, stage) in numbered(stages.iter()) {
-        let current = stage.item(items, stage.current);
+        let current = stage.item(items, stage.best);
         for (index, item) in numbered(stage.items(items)) {
             let Some(gain) = item.value.checked_sub(current.value) else { continue };
             if gain == 0 || best.is_some_and(|(most, ..)| gain <= most) {
@@ -121,11 +120,11 @@ fn improve<const A: usize>(
             }
             let after = slack.plus(&current.rows()).minus(&item.rows());
             if after.none_negative() {
-                best = Some((gain, at, index as u32, after));
+                best = Some((gain, at, index as u16, after));
             }
         }
     }
     let (_, at, index, after) = best?;
-    stages.get_mut(at)?.current = index;
+    stages.get_mut(at)?.best = index;
     Some(after)
 }

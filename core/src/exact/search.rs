@@ -83,7 +83,7 @@ fn neighbours<const A: usize>(
     if budget.take(dive.stages().len() as u64).is_none() {
         return;
     }
-    let (mut home, mut worst) = dive.settle();
+    let (mut home, mut worst) = dive.home();
     let mut fruitless = 0u64;
     while dive.target() <= bound && budget.left > end && fruitless < turn / FRUITLESS {
         *round = round.wrapping_add(1);
@@ -95,7 +95,7 @@ fn neighbours<const A: usize>(
         dive.run(budget, NEIGHBOURHOOD);
         if dive.target() > before {
             fruitless = 0;
-            (home, worst) = dive.settle();
+            (home, worst) = dive.home();
         } else {
             fruitless = fruitless.saturating_add(1);
         }
