@@ -126,17 +126,41 @@ fn the_rule_takes_at_most_five_looks_at_each_candidate() {
     }
 }
 
-/// A step is a candidate looked at: to find the highest, to lower an activity, to choose.
+/// A step is a candidate looked at: for the highest on every axis at once, to lower an activity, and
+/// to choose, up to the one that is chosen.
 #[test]
 fn the_steps_of_the_rule_are_the_candidates_it_looks_at() {
     let ways = [9, 5, 2].map(|it| Candidate { cost: [it], quality: 0, id: 0 });
     let activities = [&ways[..]; 2];
     // Within 18 nothing is lowered; the last activity alone within 11, whether that is met just so
     // or not; both below.
-    for (limit, steps) in [(18, 6 + 6), (12, 6 + 3 + 6), (11, 6 + 3 + 6), (10, 6 + 6 + 6)] {
+    let all = 6;
+    for (limit, steps) in [
+        (18, all + 1 + 1),
+        (12, all + 3 + 1 + 3),
+        (11, all + 3 + 1 + 3),
+        (10, all + 3 + 3 + 2 + 3),
+    ] {
         let problem = Problem::new(&activities, [limit], [0]).unwrap();
         let answer = Panorama::new(&mut [[0]; 2]).allocate(&problem, &mut [0; 2]).unwrap();
         let Answer::Planned(planned) = answer else { panic!("{answer:?}") };
         assert_eq!(planned.steps, steps, "within {limit}");
+    }
+}
+
+/// On a later axis only what an earlier one has lowered is looked at again.
+#[test]
+fn an_axis_looks_again_only_at_activities_that_were_lowered() {
+    let ways = [[9, 1], [5, 7], [2, 4]].map(|cost| Candidate { cost, quality: 0, id: 0 });
+    let activities = [&ways[..]; 2];
+    // Duration lowers the last activity to 5, where the highest energy is still 7; at 2 it is 4.
+    for (duration, steps, plan) in
+        [(18, 6 + 2 + 2, [1, 1]), (14, 6 + 3 + 3 + 2 + 2, [1, 1]), (12, 6 + 3 + 3 + 2 + 3, [1, 2])]
+    {
+        let problem = Problem::new(&activities, [duration, 99], [0, 1]).unwrap();
+        let mut chosen = [0; 2];
+        let answer = Panorama::new(&mut [[0; 2]; 2]).allocate(&problem, &mut chosen).unwrap();
+        let Answer::Planned(planned) = answer else { panic!("{answer:?}") };
+        assert_eq!((planned.steps, chosen), (steps, plan), "within {duration}");
     }
 }
