@@ -135,12 +135,9 @@ fn the_steps_of_the_rule_are_the_candidates_it_looks_at() {
     // Within 18 nothing is lowered; the last activity alone within 11, whether that is met just so
     // or not; both below.
     let all = 6;
-    for (limit, steps) in [
-        (18, all + 1 + 1),
-        (12, all + 3 + 1 + 3),
-        (11, all + 3 + 1 + 3),
-        (10, all + 3 + 3 + 2 + 3),
-    ] {
+    for (limit, steps) in
+        [(18, all + 1 + 1), (12, all + 3 + 1 + 3), (11, all + 3 + 1 + 3), (10, all + 3 + 3 + 2 + 3)]
+    {
         let problem = Problem::new(&activities, [limit], [0]).unwrap();
         let answer = Panorama::new(&mut [[0]; 2]).allocate(&problem, &mut [0; 2]).unwrap();
         let Answer::Planned(planned) = answer else { panic!("{answer:?}") };
