@@ -1,18 +1,28 @@
 //! One plan of the patrol with each allocator, and a hard mission of its size, each in a function
-//! of its own for an instruction count.
+//! of its own for an instruction count; and the bytes of the patrol's memory.
 
 use cotama_core::allocation::{Allocator, Answer};
 use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::panorama::Panorama;
 use cotama_core::problem::Problem;
+use cotama_models::missions::tables::buffer_sizes;
+use cotama_models::missions::tables::patrol::ACTIVITIES;
 use cotama_tests::instances::{Instance, random_mission};
 use std::hint::black_box;
 
+const STAGES: usize = ACTIVITIES.len();
+const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;
+const SEEN: usize = 64;
+/// All memory that the exact plan of the patrol works in.
+const EXACT_BYTES: usize = CANDIDATES * size_of::<Item<2>>()
+    + STAGES * size_of::<Stage<2>>()
+    + SEEN * size_of::<Seen<2>>();
+const _: () = assert!(EXACT_BYTES < 12 * 1024);
+
 #[inline(never)]
-#[allow(clippy::large_stack_arrays)] // as firmware would hold it
 fn exact_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
     let (mut items, mut stages, mut seen) =
-        ([Item::EMPTY; 17 * 21], [Stage::EMPTY; 17], [Seen::EMPTY; 512]);
+        ([Item::EMPTY; CANDIDATES], [Stage::EMPTY; STAGES], [Seen::EMPTY; SEEN]);
     let exact = Exact::new(&[Objective::MostQuality], u64::MAX, &mut items, &mut stages);
     match exact.with_memory(&mut seen).allocate(problem, plan) {
         Ok(Answer::Planned(planned)) => Some(planned.steps),
@@ -46,7 +56,8 @@ fn panorama_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
 fn main() {
     cotama_tests::with_patrol(|problem| {
         let mut plan = [0; 17];
-        println!("exact: {:?} steps, {plan:?}", exact_patrol(black_box(problem), &mut plan));
+        let steps = exact_patrol(black_box(problem), &mut plan);
+        println!("exact: {steps:?} steps in {EXACT_BYTES} bytes, {plan:?}");
         let hard = random_mission(4_743);
         println!("hard: {:?} steps, {plan:?}", exact_hard(black_box(&hard), &mut plan));
         println!("panorama: {:?} steps, {plan:?}", panorama_patrol(black_box(problem), &mut plan));

@@ -104,5 +104,6 @@ awk '{ printf "  %-68s %8d %7d %7d\n", $1, $2, $3, $4 }' "$work/classes"
 worst=$(awk '/^tell_/ { if ($4 > most) most = $4 } END { print most }' "$work/classes")
 promise "the worst event, instructions" "$worst" 5500
 promise "the worst round, instructions" "$(class round)" 15500
+promise "the patrol by the rule, instructions" "$(class patrol_rule)" 10000
 echo "the worst event: $worst instructions; the worst round: $(class round)"
 exit $failed

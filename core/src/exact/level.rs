@@ -125,7 +125,7 @@ impl<const A: usize> Level<A> {
     /// The place of the item that is visited at a turn: that of the best plan first, then the
     /// others by rising loss.
     #[inline]
-    const fn place(&self, turn: u16) -> u16 {
+    fn place(&self, turn: u16) -> u16 {
         match turn {
             0 => self.base,
             turn if turn <= self.base => turn.wrapping_sub(1),
@@ -134,7 +134,7 @@ impl<const A: usize> Level<A> {
     }
 
     /// The place of the item that was visited last.
-    pub(super) const fn chosen(&self) -> u16 {
+    pub(super) fn chosen(&self) -> u16 {
         self.place(self.cursor.wrapping_sub(1))
     }
 

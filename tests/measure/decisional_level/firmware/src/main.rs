@@ -6,15 +6,19 @@
 
 use core::hint::black_box;
 use cortex_m_rt::entry;
+use cotama_core::allocation::{Allocator, Answer};
+use cotama_core::exact::{Exact, Item, Objective, Seen, Stage};
 use cotama_core::executive::Executive;
 use cotama_core::hardware::Equipment;
+use cotama_core::panorama::Panorama;
+use cotama_core::problem::Problem;
 use cotama_core::units::{Micros, Millimetres, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{
     Body, DecisionalLevel, FailureMode, Losses, Modules, Perceived, Situation,
 };
-use cotama_models::missions::tables::Rest;
 use cotama_models::missions::tables::delivery::ACTIVITIES;
+use cotama_models::missions::tables::{EMPTY, Rest, buffer_sizes, patrol, remaining};
 use decisional_level::reach::{Reached, TOLD};
 use decisional_level::{PLANNING_BYTES, Robot, TASKS};
 use entries::{
@@ -95,6 +99,7 @@ fn main() -> ! {
     println!("situations {count}");
     schedule(&robot);
     plan(&robot);
+    plan_patrol();
     println!("bytes robot {}", size_of::<Robot>());
     println!("bytes supervisors {}", size_of::<DecisionalLevel>());
     println!("bytes executive {}", size_of::<Executive<TASKS>>());
@@ -158,4 +163,40 @@ fn plan(robot: &Robot) {
     };
     each("rule", robot_plan_by_rule);
     each("exact", robot_plan_exactly);
+}
+
+/// The patrol, whose 17 activities have 185 candidates, by the rule and exactly: the allocators
+/// alone, without the candidates' costs.
+fn plan_patrol() {
+    use patrol::{ACTIVITIES, AVAILABLE, LIMITS, ORDER};
+    const CANDIDATES: usize = buffer_sizes(&ACTIVITIES).0;
+    const STAGES: usize = ACTIVITIES.len();
+    const SEEN: usize = 64;
+
+    let mut candidates = [EMPTY; CANDIDATES];
+    let mut lists = [&[][..]; STAGES];
+    let first = ACTIVITIES[0].whole(&ACTIVITIES[0].alternatives[0]);
+    let Ok(lists) = remaining(&ACTIVITIES, first, AVAILABLE, &mut candidates, &mut lists) else {
+        panic!("an activity of the patrol has no candidate")
+    };
+    let Ok(problem) = Problem::new(lists, LIMITS, ORDER) else { panic!("no problem") };
+    let mut plan = [0; STAGES];
+
+    let mut caps = [[0; 2]; STAGES];
+    let mut rule = Panorama::new(&mut caps);
+    let planned = counted!(rule.allocate(black_box(&problem), &mut plan));
+    assert!(matches!(planned, Ok(Answer::Planned(_))), "the rule finds a plan");
+    println!("batch patrol_rule 1");
+
+    let (mut items, mut stages) = ([Item::EMPTY; CANDIDATES], [Stage::EMPTY; STAGES]);
+    let mut seen = [Seen::EMPTY; SEEN];
+    let mut exact = Exact::new(&[Objective::MostQuality], u64::MAX, &mut items, &mut stages)
+        .with_memory(&mut seen);
+    let planned = counted!(exact.allocate(black_box(&problem), &mut plan));
+    assert!(matches!(planned, Ok(Answer::Planned(it)) if it.optimal), "the best plan is found");
+    println!("batch patrol_exact 1");
+    println!(
+        "bytes patrol_exact {}",
+        size_of_val(&items) + size_of_val(&stages) + size_of_val(&seen)
+    );
 }
