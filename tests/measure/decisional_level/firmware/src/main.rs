@@ -54,6 +54,7 @@ macro_rules! counted {
 fn main() -> ! {
     counted!(());
     println!("batch empty 1");
+    plan_patrol();
 
     let mut states = [DecisionalLevel::default(); STATES];
     let mut index = [0_u32; 2 * STATES];
@@ -99,7 +100,6 @@ fn main() -> ! {
     println!("situations {count}");
     schedule(&robot);
     plan(&robot);
-    plan_patrol();
     println!("bytes robot {}", size_of::<Robot>());
     println!("bytes supervisors {}", size_of::<DecisionalLevel>());
     println!("bytes executive {}", size_of::<Executive<TASKS>>());
