@@ -30,7 +30,7 @@ fn exact_patrol(problem: &Problem<'_, 2>, plan: &mut [u16]) -> Option<u64> {
     }
 }
 
-/// One of the random missions of 17 activities that use all of the promised 100,000 steps.
+/// One of the random missions of 17 activities that use nearly all of the promised 100,000 steps.
 #[inline(never)]
 fn exact_hard(instance: &Instance<2>, plan: &mut [u16]) -> Option<u64> {
     let slices = instance.slices();

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Counts the instructions of one plan of the patrol, and of a mission that uses all promised steps,
-# with callgrind on the build that is shipped.
+# Counts the instructions of one plan of the patrol, and of a mission that uses nearly all promised
+# steps, with callgrind on the build that is shipped.
 #
 #   tests/measure/instructions.sh
 #

@@ -87,8 +87,8 @@ impl<const A: usize> Rest<A> {
     pub(super) const NONE: Self =
         Self { dearer: Rows::ZERO, cheaper: Rows::ZERO, value: 0, residues: Residues::NONE };
 
-    /// Whether a plan at this point, which lacks so much value and may lose `left`, may be completed
-    /// at the dearer and cheaper prices, and at none.
+    /// Whether a plan at this point, which lacks so much value and may lose `left`, may be
+    /// completed at the dearer and cheaper prices, and at none.
     #[inline]
     pub(super) fn priced(
         &self,

@@ -126,8 +126,8 @@ fn the_rule_takes_at_most_five_looks_at_each_candidate() {
     }
 }
 
-/// A step is a candidate looked at: for the highest on every axis at once, to lower an activity, and
-/// to choose, up to the one that is chosen.
+/// A step is a candidate looked at: for the highest on every axis at once, to lower an activity,
+/// and to choose, up to the one that is chosen.
 #[test]
 fn the_steps_of_the_rule_are_the_candidates_it_looks_at() {
     let ways = [9, 5, 2].map(|it| Candidate { cost: [it], quality: 0, id: 0 });
