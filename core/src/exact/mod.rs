@@ -193,6 +193,10 @@ impl<'m, const A: usize> Exact<'m, A> {
         }
         let mut bound = frame.whole(price.bound).min(frame.most);
         let best = primal::first_plan(&frame, &price, self.items, stages, budget);
+        if best.is_none() {
+            // What does not fit is no plan to begin at.
+            stages.iter_mut().for_each(|stage| stage.best = 0);
+        }
         let mut remainders = Remainders::of(&frame, self.items, stages);
         if !remainders.matter() || budget.take(stages.len() as u64).is_none() {
             remainders = Remainders::NONE;
