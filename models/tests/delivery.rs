@@ -59,7 +59,10 @@ fn the_shipped_supervisors_reach_110346_states_by_1346810_steps() {
             }
         }
     }
-    assert_eq!((states.len(), edges), (110_346, 1_346_810));
+    assert_eq!(
+        (states.len(), edges),
+        (cotama_golden::figure("delivery.states"), cotama_golden::figure("delivery.steps"))
+    );
     let all = delivery::SYSTEM.components.iter().zip(0..).flat_map(|(it, component)| {
         it.net
             .transitions

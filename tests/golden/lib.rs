@@ -1,5 +1,9 @@
 //! Golden files: texts that tests keep, and compare with what they find; public files, which the
-//! project does not keep.
+//! project does not keep; figures that pages print.
+
+mod figures;
+
+pub use figures::{figure, figures};
 
 use std::fs;
 use std::io::Write as _;

@@ -371,5 +371,5 @@ fn two_hundred_missions_with_returns_are_runs_of_the_checked_system() {
         assert_eq!(game.refusal(&run), None, "{script:?}");
         returns += run.told.iter().filter(|it| matches!(it.1, Told::Return(_))).count();
     }
-    assert_eq!(returns, 1_001);
+    assert_eq!(returns, cotama_golden::figure::<usize>("recovering.returns"));
 }

@@ -1,5 +1,6 @@
 //! Stories across the crates.
 
+mod claims;
 mod conformance;
 mod doc_examples;
 mod first_program;
@@ -7,6 +8,7 @@ mod greedy;
 mod once_wrong;
 mod patrol;
 mod players;
+mod readers;
 mod skips;
 mod systems;
 #[allow(dead_code, unreachable_pub)] // the core tests and benchmarks read it too

@@ -96,7 +96,30 @@ fn what_returns_with_the_sonars_keeps_its_own_returns() {
 fn a_failure_that_is_still_shown_is_not_over() {
     let left = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
     let gone = Modules::ALL.without(left);
-    let shown = (1_000, 40_000, Flag::SonarSilent, Modules::NONE, Modules::NONE);
+    let shown = (1_000, 50_000, Flag::SonarSilent, Modules::NONE, Modules::NONE);
     let lost = (1_000, 2_000, Flag::OneLate, Modules::NONE, gone);
     assert_eq!(returns(&[shown, lost]).0, []);
+}
+
+/// The sonars are read again for 28 s, and then the flag is lowered: they are sound from there on,
+/// and are used after ten seconds, as any others.
+#[test]
+fn a_flag_that_is_lowered_late_gives_its_modules_back() {
+    let left = available(Modules::NONE, Resources::of(&[Resource::SonarArrays]));
+    let gone = Modules::ALL.without(left);
+    let shown = (1_000, 30_000, Flag::SonarSilent, Modules::NONE, Modules::NONE);
+    let lost = (1_000, 2_000, Flag::OneLate, Modules::NONE, gone);
+    let (returned, told) = returns(&[shown, lost]);
+    assert_eq!(returned, [(40_000, Modules::NONE)]);
+    assert_eq!(told, [Mcl, Avoidance, Sonar]);
+}
+
+/// A false alarm: a flag is up for a second though all modules say that they work. Two of them are
+/// two returns, and the third one is for good.
+#[test]
+fn a_flag_that_goes_up_and_down_is_held_back_as_a_loose_contact_is() {
+    let alarm = |from| (from, from + 1_000, Flag::SonarSilent, Modules::NONE, Modules::NONE);
+    let whole = |now| (now, Modules::NONE);
+    let (returned, _) = returns(&[alarm(1_000), alarm(5_000), alarm(20_000), alarm(33_000)]);
+    assert_eq!(returned, [16_000, 31_000].map(whole));
 }

@@ -5,4 +5,6 @@
 mod answers;
 #[cfg(feature = "std")]
 mod broken;
+#[cfg(feature = "std")]
+mod choices;
 mod laws;

@@ -12,11 +12,12 @@ use cotama_core::monitor::{AmountOverflow, Monitor};
 use cotama_core::net::Ignored;
 use cotama_core::player::{Advanced, Outcome};
 use cotama_core::problem::Problem;
-use cotama_core::team::{Cost, Costs, Team};
+use cotama_core::team::{Cost, Costs, Fixed, Team};
 use cotama_core::units::{
     Micros, Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts, mul_div_half_up,
 };
-use cotama_models::nets::door;
+use crate::on_time::watched;
+use cotama_models::nets::{charger, door};
 
 const A: usize = 2;
 const N: usize = 8;
@@ -133,4 +134,25 @@ fn root_player_without_observer(
     let advanced = player.advance(now);
     let _ = player.program();
     (outcome, advanced, player.round_is_due(), player.now(), player.marking()[0])
+}
+
+#[unsafe(no_mangle)]
+fn root_read_firing(
+    of: &door::Firing<'_>,
+    output: door::Output,
+    of_system: &watched::Firing<'_>,
+    other: watched::Output,
+) -> [bool; 2] {
+    [of.says(output), of_system.says(other)]
+}
+
+#[unsafe(no_mangle)]
+fn root_read_state(of: &watched::Player, component: u16) -> charger::State {
+    of.state_of::<charger::Program>(component)
+}
+
+#[unsafe(no_mangle)]
+fn root_read_fixed(of: &mut Fixed<i32, N, N>, row: usize) -> (Option<usize>, bool) {
+    let memory = of.memory();
+    (memory.column(row), memory.in_conflict(row))
 }

@@ -174,7 +174,13 @@ fn the_decisional_level_has_4166_states_between_rounds() {
     let pt = Pt::from(&net.view().net());
     let graph = Graph::new(&pt, &Limits::default(), &|_| ()).unwrap();
     assert_eq!((graph.states(), graph.arcs()), (11_252, 15_062));
-    assert_eq!(rounds.size(&graph), Size { states: 4_166, edges: 22_810 });
+    assert_eq!(
+        rounds.size(&graph),
+        Size {
+            states: cotama_golden::figure("reconstruction.states"),
+            edges: cotama_golden::figure("reconstruction.steps")
+        }
+    );
 }
 
 /// What watches ask is answered by the graph of the rounds as by a graph of its own: with the same

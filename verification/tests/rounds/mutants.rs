@@ -69,7 +69,14 @@ const GOALS: [&str; 4] = ["ls.l3", "ls.l11", "gom.goal", "gom.operator_goal"];
 #[test]
 #[ignore = "seconds: CI runs it"]
 fn as_written_nothing_is_violated() {
-    found(&reconstruction::SYSTEM, (4_166, 22_810), &[]);
+    found(
+        &reconstruction::SYSTEM,
+        (
+            cotama_golden::figure("reconstruction.states"),
+            cotama_golden::figure("reconstruction.steps"),
+        ),
+        &[],
+    );
 }
 
 #[test]

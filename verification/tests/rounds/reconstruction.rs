@@ -179,7 +179,13 @@ fn the_rounds_reach_4166_states() {
             });
         }
     }
-    assert_eq!((states.len(), edges), (4_166, 22_810));
+    assert_eq!(
+        (states.len(), edges),
+        (
+            cotama_golden::figure("reconstruction.states"),
+            cotama_golden::figure("reconstruction.steps")
+        )
+    );
 }
 
 #[test]

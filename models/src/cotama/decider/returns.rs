@@ -33,8 +33,15 @@ impl Returns {
 }
 
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decider<P, W, C, S> {
-    /// What is known to be lost is watched; what has been sound for long enough is used again.
-    pub(super) fn use_what_returns(&mut self, sound: Modules, plans: &mut impl Plans) {
+    /// What is known to be lost is watched; what has been sound for long enough is used again. It
+    /// is sound when it says so and no flag shows any more what it was lost by: else a flag that is
+    /// lowered after its module had settled would never be heard, and one that goes up and down
+    /// would not be held back.
+    pub(super) fn use_what_returns(&mut self, works: Modules, plans: &mut impl Plans) {
+        if self.returns.is_none() {
+            return;
+        }
+        let sound = works.common(self.observing());
         let (known, now) = (self.known.relied_on, self.now);
         let Some(Returns(players)) = &mut self.returns else { return };
         let mut restored = false;

@@ -1,0 +1,107 @@
+//! The figures of the pages are those that tests assert: each stands in one file, or is counted.
+//!
+//! A page shows a figure in front of a comment that names it, `110,346<!--=delivery.states-->`;
+//! with `UPDATE_GOLDEN=1` the numbers are written anew.
+
+use cotama_golden::figures;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+const MARK: &str = "<!--=";
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().expect("the workspace")
+}
+
+/// The README and the book.
+fn pages() -> Vec<PathBuf> {
+    let docs = fs::read_dir(root().join("docs")).expect("the book");
+    let docs = docs.map(|it| it.expect("a page").path());
+    let mut pages: Vec<_> = docs.filter(|it| it.extension().is_some_and(|it| it == "md")).collect();
+    pages.push(root().join("README.md"));
+    pages.sort();
+    pages
+}
+
+/// What is kept, and what is counted in the lists of seeded defects: all that a test could notice,
+/// and those that one does.
+fn all() -> BTreeMap<String, u64> {
+    let mut all: BTreeMap<_, _> = figures().map(|it| (it.0.to_owned(), it.1)).collect();
+    for list in ["core", "sim", "models", "cli"] {
+        let text = fs::read_to_string(root().join(format!("tests/mutants/{list}.txt")));
+        let text = text.expect("a list of seeded defects");
+        let defects: Vec<_> = text.split("mutant: ").skip(1).collect();
+        let says = |it: &&str, key: &str| it.lines().any(|it| it.starts_with(key));
+        let seeded = defects.iter().filter(|it| !says(it, "equivalent: "));
+        let killed = seeded.clone().filter(|it| says(it, "by: ") && !says(it, "open: "));
+        all.insert(format!("defects.{list}"), seeded.count() as u64);
+        all.insert(format!("defects.{list}.killed"), killed.count() as u64);
+    }
+    all
+}
+
+/// With commas between thousands.
+fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+    groups.collect::<Vec<_>>().join(",")
+}
+
+/// The page with its figures, and their names.
+fn filled(text: &str, figures: &BTreeMap<String, u64>) -> (String, BTreeSet<String>) {
+    let (mut page, mut names) = (String::new(), BTreeSet::new());
+    let mut parts = text.split(MARK);
+    let mut before = parts.next().unwrap_or_default();
+    for part in parts {
+        let (name, _) = part.split_once("-->").expect("the end of a figure's name");
+        let figure = figures.get(name).unwrap_or_else(|| panic!("no figure `{name}`"));
+        page += before.trim_end_matches(|it: char| it.is_ascii_digit() || it == ',');
+        page += &grouped(*figure);
+        page += MARK;
+        names.insert(name.to_owned());
+        before = part;
+    }
+    (page + before, names)
+}
+
+#[test]
+fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
+    let (figures, mut shown) = (all(), BTreeSet::new());
+    for path in pages() {
+        let text = fs::read_to_string(&path).expect("a page");
+        let (page, names) = filled(&text, &figures);
+        cotama_golden::compare(&path, &page);
+        shown.extend(names);
+    }
+    // Not kept for nothing: a page shows it, and a test reads it.
+    let mut asserted = String::new();
+    for folder in ["models/tests", "sim/tests", "verification/tests", "cli/tests", "tests/stories"]
+    {
+        sources(&root().join(folder), &mut asserted);
+    }
+    for name in figures.keys() {
+        assert!(shown.contains(name), "no page shows `{name}`");
+        let is_asserted = asserted.contains(&format!("\"{name}\""));
+        assert!(is_asserted || name.starts_with("defects."), "no test asserts `{name}`");
+    }
+}
+
+/// The text of all sources below a folder.
+fn sources(folder: &Path, text: &mut String) {
+    for path in fs::read_dir(folder).expect("a folder").map(|it| it.expect("an entry").path()) {
+        if path.is_dir() {
+            sources(&path, text);
+        } else if path.extension().is_some_and(|it| it == "rs") {
+            *text += &fs::read_to_string(path).expect("a source");
+        }
+    }
+}
+
+#[test]
+fn figures_are_written_in_front_of_their_names() {
+    let figures = BTreeMap::from([("a".to_owned(), 1_234_567), ("b".to_owned(), 12)]);
+    let (page, names) = filled("of 1,2<!--=a--> or <!--=b-->, 3", &figures);
+    assert_eq!(page, "of 1,234,567<!--=a--> or 12<!--=b-->, 3");
+    assert_eq!(names, BTreeSet::from(["a".to_owned(), "b".to_owned()]));
+}

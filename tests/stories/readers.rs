@@ -1,0 +1,37 @@
+//! No input makes a reader panic, hang or take much memory; what is refused is refused with its
+//! place, and what is read is what is written again.
+//!
+//! A thousand mutants each here; a million each in a release build, which says what it found:
+//! `cargo test --release -p cotama-tests --test stories readers -- --ignored`. Texts of the
+//! allocation problem and words for `simulate` have their readers in the program.
+
+mod checks;
+mod models;
+mod verification;
+
+/// Two tests of each reader.
+macro_rules! readers {
+    ($($name:ident: $read:ident, [$($word:literal),* $(,)?];)*) => {
+        mod of { $(
+            mod $name {
+                const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
+                    name: stringify!($name),
+                    words: &[$($word),*],
+                    read: super::super::$read,
+                };
+
+                #[test]
+                fn reads_or_refuses_a_thousand_mutants() {
+                    READER.run(1_000);
+                }
+
+                #[test]
+                #[ignore = "a minute in a release build, by hand"]
+                fn reads_or_refuses_a_million_mutants() {
+                    READER.run_a_million();
+                }
+            }
+        )* }
+    };
+}
+use readers;
