@@ -195,3 +195,42 @@ fn a_mission_that_does_not_ask_for_the_rule_is_planned_by_a_complete_search() {
     let line = ["replay", "quiet.toml", "--mission", "walk.toml", "--json"];
     assert_eq!(folder.cotama(&line).json(0)["plans"][0]["allocator"], "exact");
 }
+
+/// Ways of 1 s and 3 J or 2 s and 5 J, and then of 1 s and 5 J, 4 s and 0.25 J or 3 s and 2 J; the
+/// only plan within 4 s and 5 J takes the first way and the last.
+const MISSED: &str = r#"
+format = "panorama-mission/1"
+name = "missed"
+path_length_mm = 10
+limits = { order = ["duration", "energy"], duration_ms = 4100, energy_mj = 5001 }
+robot = { mass_g = 9000, speed_max_mm_s = 700, impact_energy_max_mj = 4000 }
+motion_power = { c0 = 0, c1 = 0, c2 = 0 }
+hardware.arm = { units = 1, power_mw = 0 }
+tio = [
+  { id = "m", task = "MOV", needs.arm = 1, speed_max_mm_s = 100 },
+  { id = "a", task = "RCV", needs.arm = 1, duration_ms = 1000, power_mw = 3000 },
+  { id = "b", task = "RCV", needs.arm = 1, duration_ms = 2000, power_mw = 2500 },
+  { id = "c", task = "DLV", needs.arm = 1, duration_ms = 1000, power_mw = 5000 },
+  { id = "d", task = "DLV", needs.arm = 1, duration_ms = 4000, power_mw = 250 },
+  { id = "e", task = "DLV", needs.arm = 1, duration_ms = 3000, power_mw = 667 },
+]
+objective = [
+  { id = "go", x_start_mm = 0, x_end_mm = 10, tasks = ["MOV"] },
+  { id = "one", x_start_mm = 10, x_end_mm = 10, tasks = ["RCV"] },
+  { id = "two", x_start_mm = 10, x_end_mm = 10, tasks = ["DLV"] },
+]
+"#;
+
+#[test]
+fn the_rule_with_the_exact_allocator_finds_what_the_rule_misses() {
+    let folder = Folder::new("plan_missed");
+    folder.write("missed.toml", MISSED);
+    let plan = |allocator: &str, code| {
+        let words = ["plan", "missed.toml", "--objective", "paper", "--allocator", allocator];
+        folder.cotama(&[&words[..], &["--json"]].concat()).json(code)
+    };
+    assert_eq!(plan("panorama", 1)["status"], "infeasible");
+    let found = plan("exact", 0);
+    assert_eq!((&found["status"], &found["allocator"]), (&json!("optimal"), &json!("exact")));
+    assert_eq!(column(&found["plan"], "choice"), ["m", "a", "e"]);
+}

@@ -133,3 +133,34 @@ fn a_certificate_shows_its_own_property_only() {
         assert_eq!(folder.cotama(&line).code, Some(code), "{property}");
     }
 }
+
+/// The door is never open and closed, so no run is fair, and what is true of fair runs says nothing.
+#[test]
+fn what_holds_because_no_run_is_as_assumed_says_so() {
+    let folder = Folder::new("questions_unfair");
+    let vacuous = |assumed: &str| {
+        let asked = format!("AF Closed assuming often({assumed})");
+        let words = ["check", "door", "--untimed", "--property", &asked, "--json"];
+        folder.cotama(&words).json(0)["results"][0]["vacuous"].clone()
+    };
+    assert_eq!(vacuous("Open & Closed"), "no run is as it is assumed to be");
+    assert_eq!(vacuous("Closed"), serde_json::Value::Null);
+}
+
+/// The robot waits for ever before it is asked for anything, or on its first drive: a loop of a
+/// round in which nothing happens. Firings of the machinery of rounds are counted and not shown.
+#[test]
+fn a_loop_of_rounds_begins_behind_the_rounds_that_lead_to_it() {
+    let folder = Folder::new("questions_rounds");
+    let told = folder.cotama(&["check", "delivery", "--property", "AF gs.Deliver"]).stdout;
+    let rounds: Vec<_> = told.lines().filter(|it| it.contains("round ")).map(str::trim).collect();
+    assert_eq!(rounds, ["round 1  nothing from outside", "what follows round 0 repeats for ever"]);
+
+    let asked = "AG (gs.DriveA -> AF gs.Deliver)";
+    let answer = folder.cotama(&["check", "delivery", "--property", asked, "--json"]).json(1);
+    let result = &answer["results"][0];
+    let fired: Vec<_> =
+        result["trace"].as_array().unwrap().iter().map(|it| it["transition"].clone()).collect();
+    assert_eq!(fired, ["gs.g1", "ls.l1 + gom.settle ignored", "idle"]);
+    assert_eq!(result["rest"], serde_json::json!({ "loop_from": 2 }));
+}

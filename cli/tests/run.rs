@@ -302,3 +302,26 @@ fn a_mission_file_names_its_report() {
     let answer = folder.cotama(&["run", "night watch.toml", "--json"]).json(0);
     assert_eq!(answer["report"], "report/night-watch/index.html");
 }
+
+/// What a run was asked for is in the header of its trace: a better plan is looked for when a margin
+/// has grown by a hundredth of its limit and leaves half of that; what is lost at the start is lost
+/// before anything in the file happens.
+#[test]
+fn a_trace_says_what_the_run_was_asked_for() {
+    let folder = Folder::new("run_asked");
+    let faults = "format = \"panorama-faults/1\"\n\
+        event = [{ x_mm = 0, kind = \"obstacle\", delay_ms = 3 }]";
+    folder.write("faults.toml", faults);
+    let words = ["run", "patrol", "--upward", "--lost", "laser", "--faults", "faults.toml"];
+    let ended = folder.cotama(&[&words[..], &["--trace", "t.jsonl"]].concat());
+    assert_eq!(ended.code, Some(0), "{ended:?}");
+    let trace = folder.read("t.jsonl");
+    let header: Value = serde_json::from_str(trace.lines().next().unwrap()).unwrap();
+    let options = &header["options"];
+    let amounts = |ms: u64, mj: u64| json!({ "duration_ms": ms, "energy_mj": mj });
+    let upward = json!({ "growth": amounts(6_000, 86_400), "reserve": amounts(3_000, 43_200) });
+    assert_eq!(options["upward"], upward);
+    let text = options["faults"]["text"].as_str().unwrap();
+    let kinds: Vec<_> = text.lines().filter(|it| it.starts_with("kind")).collect();
+    assert_eq!(kinds, ["kind = \"fault\"", "kind = \"obstacle\""]);
+}

@@ -147,3 +147,51 @@ impl Instance {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cotama_fuzz::Reader;
+
+    const READER: Reader = Reader {
+        name: "instances",
+        words: &[
+            "[",
+            "]",
+            ",",
+            "null",
+            "{}",
+            "[0,0,0]",
+            "\"limits\":",
+            "\"activities\":",
+            "4294967295",
+        ],
+        read,
+    };
+
+    fn read(bytes: &[u8]) -> bool {
+        let text = String::from_utf8_lossy(bytes);
+        match Instance::parse("file", &text) {
+            Ok(instance) => {
+                assert!(instance.activities.iter().all(|it| !it.is_empty()));
+                true
+            }
+            Err(Failure::Text(errors)) => {
+                assert_eq!(errors.errors.len(), 1);
+                false
+            }
+            Err(other @ Failure::Message { .. }) => panic!("without its place: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn reads_or_refuses_a_thousand_mutants() {
+        READER.run(1_000);
+    }
+
+    #[test]
+    #[ignore = "a minute in a release build, by hand"]
+    fn reads_or_refuses_a_million_mutants() {
+        READER.run_a_million();
+    }
+}

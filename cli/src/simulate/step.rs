@@ -221,4 +221,51 @@ mod tests {
     fn comments_and_empty_lines_are_left_out() {
         assert_eq!(lines("# a\n\n b \r\nc # d\n"), ["b", "c # d"]);
     }
+
+    /// A script, and each of its lines as if typed by hand.
+    fn read(bytes: &[u8]) -> bool {
+        let net = net(&["Call", "Blocked", "Blown", "a@2", "+1", "a,b"]);
+        let view = net.view();
+        let net = view.net();
+        let lines = lines(&String::from_utf8_lossy(bytes));
+        let script = Words::new(&net, false, true).script(&lines);
+        if let Ok(steps) = &script {
+            assert!(steps.is_sorted_by_key(|it| it.at));
+        }
+        let by_hand = Words::new(&net, true, false).loose();
+        for line in &lines {
+            if let Ok(step) = by_hand.step(line, Millis(7)) {
+                assert!(step.at >= Millis(7) && step.events.len() <= 1);
+            }
+        }
+        script.is_ok()
+    }
+
+    const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
+        name: "steps",
+        words: &[
+            "Call\n",
+            "Blo\n",
+            "+",
+            "@",
+            ",",
+            "+1\n",
+            "a@2\n",
+            "a,b\n",
+            "#",
+            "18446744073709551615",
+        ],
+        read,
+    };
+
+    #[test]
+    fn reads_or_refuses_a_thousand_mutants() {
+        READER.run(1_000);
+    }
+
+    #[test]
+    #[ignore = "a minute in a release build, by hand"]
+    fn reads_or_refuses_a_million_mutants() {
+        READER.run_a_million();
+    }
 }
