@@ -51,7 +51,7 @@ fn any_of_several_action_plans_fills_a_role() {
     let ways = actions.each_ref().map(|it| ActionPlan { name: "way", actions: it });
     for ways in [ways, [ways[1], ways[0]]] {
         let roles = [Role { name: "role", plans: &ways }];
-        let able = capable(&TaskPlan { name: "plan", roles: &roles }, &[robot]).unwrap();
+        let able = capable(&TaskPlan { name: "plan", extra: 0, roles: &roles }, &[robot]).unwrap();
         assert!(able.union && able.roles && able.matching);
     }
 }
