@@ -57,9 +57,16 @@ def original(defect):
     return (ROOT / defect.file).read_text()
 
 
-def seeded(text, defect):
+def place(text, defect):
+    """Where the text of a defect stands in its file."""
+    return text.index(defect.texts()[0]) if defect.at is None else defect.at
+
+
+def seeded(text, defect, begin=0):
+    """The file, or its part from `begin` on, with the defect."""
     old, new = defect.texts()
-    return text.replace(old, new, 1)
+    at = text.index(old) if defect.at is None else defect.at - begin
+    return text[:at] + new + text[at + len(old) :]
 
 
 def with_choice(text, defects):
@@ -69,7 +76,7 @@ def with_choice(text, defects):
     bodies = functions(text)
     for defect in defects:
         old, _ = defect.texts()
-        at = text.index(old)
+        at = place(text, defect)
         for body in bodies:
             if body[2] < at and at + len(old) < body[3]:
                 of_function.setdefault(body, []).append(defect)
@@ -80,7 +87,7 @@ def with_choice(text, defects):
         body = text[start:end]
         choice = "{\n"
         for defect in those:
-            choice += f"if crate::defect::on({defect.number})\n{seeded(body, defect)}\nelse "
+            choice += f"if crate::defect::on({defect.number})\n{seeded(body, defect, start)}\nelse "
         text = text[:start] + choice + body + "\n}" + text[end:]
         if const is not None:
             text = text[:const] + "     " + text[const + 5 :]
@@ -117,8 +124,8 @@ def blamed(errors, defects, copy):
 
 
 def name_of(defect):
-    text, (old, _) = original(defect), defect.texts()
-    at = text.index(old)
+    text = original(defect)
+    at = place(text, defect)
     return next((it[1] for it in functions(text) if it[2] < at < it[3]), "")
 
 

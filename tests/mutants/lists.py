@@ -30,11 +30,10 @@ class Defect:
         self.old, self.new = [], []
         self.alone = False
         self.result = None
-
-    @property
-    def suite(self):
-        """Packages and programs; the engines have a list each."""
-        return SUITES.get(self.list, SUITES["verification"])
+        # Where the text stands; None where it occurs once.
+        self.at = None
+        # Packages and programs; the engines have a list each.
+        self.suite = SUITES.get(listed, SUITES["verification"])
 
     def texts(self):
         return "\n".join(self.old), "\n".join(self.new)
