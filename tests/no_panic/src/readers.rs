@@ -1,6 +1,7 @@
 //! The roots of what only reads or converts: each alone is small, together they are half of the
 //! operations of core.
 
+use crate::on_time::watched;
 use cotama_core::allocation::{Allocator, Answer, MemoryError, Shortfall};
 use cotama_core::exact::{Exact, Item, Seen, Stage};
 use cotama_core::executive::{
@@ -16,7 +17,6 @@ use cotama_core::team::{Cost, Costs, Fixed, Team};
 use cotama_core::units::{
     Micros, Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts, mul_div_half_up,
 };
-use crate::on_time::watched;
 use cotama_models::nets::{charger, door};
 
 const A: usize = 2;
