@@ -36,6 +36,12 @@ fn another_net_another_question_or_another_number_is_refused() {
             ("/verdict", json!(false), opposite),
             ("/evidence/graph", json!(3), "evidence.graph: there are more markings"),
             ("/evidence/graph", json!(5), "evidence.graph: there are fewer markings"),
+            // Before any is passed through: nobody waits until memory is full.
+            (
+                "/evidence/graph",
+                json!(1_u64 << 31),
+                "evidence.graph: takes too much memory to check",
+            ),
             ("/net/places/0/1", json!(3), "evidence.graph: there are more markings"),
             ("/net/places/0/1", json!(1), "evidence.graph: there are fewer markings"),
             ("/net/transitions/0/give/0/1", json!(2), "evidence.graph: there are more markings"),

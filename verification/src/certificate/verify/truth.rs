@@ -1,6 +1,7 @@
 //! The firing rule, what questions mean, and where formulas hold.
 
-use super::{Checked, Claim, Marking, Numbered, Question, at, each, ensure, error, marking_bytes};
+use super::{Checked, Claim, MAX_MEMORY, Marking, Numbered, Question};
+use super::{at, each, ensure, error, marking_bytes};
 use crate::certificate::Formula::{self, All, AllNext, And, AtMost, Exists, ExistsNext, Fireable};
 use crate::certificate::Formula::{Finally, Globally, Next, Not, Or, Until};
 use std::{collections::BTreeMap, rc::Rc, slice::from_ref};
@@ -89,6 +90,9 @@ impl Numbered<'_> {
 
     /// All markings that are reachable from here, which is the first one.
     pub(super) fn graph(&self, from: &Marking, count: usize) -> Checked<Space> {
+        // So many take so much at least, which is known before any is passed through.
+        let least = count.saturating_mul(marking_bytes(from.len()));
+        ensure(least as u64 <= MAX_MEMORY, "takes too much memory to check")?;
         let (mut markings, mut next) = (vec![Rc::new(from.clone())], Vec::new());
         let mut numbers = BTreeMap::from([(Rc::clone(&markings[0]), 0)]);
         while next.len() < markings.len() {
