@@ -111,7 +111,7 @@ fn insert(random: &mut Random, text: &mut Vec<u8>, at: usize, pieces: &[Vec<u8>]
 
 /// Another number for a number, so that the checks behind the syntax are reached.
 fn number(random: &mut Random, text: &mut Vec<u8>) {
-    let numbers = runs(text, |it| it.is_ascii_digit());
+    let numbers = runs(text, u8::is_ascii_digit);
     let Some(at) = random.choose(&numbers).cloned() else { return };
     let digits = String::from_utf8_lossy(&text[at.clone()]).into_owned();
     let near =

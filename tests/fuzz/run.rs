@@ -44,11 +44,8 @@ impl fmt::Display for Figures {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { inputs, accepted, time, slowest } = self;
         let seconds = time.as_secs_f64();
-        let each_second = *inputs as f64 / seconds;
-        write!(
-            f,
-            "{inputs} inputs, {accepted} accepted, {seconds:.1} s, {each_second:.0} a second"
-        )?;
+        let each_second = u128::from(*inputs) * 1_000 / time.as_millis().max(1);
+        write!(f, "{inputs} inputs, {accepted} accepted, {seconds:.1} s, {each_second} a second")?;
         let milliseconds = slowest.0.as_secs_f64() * 1e3;
         write!(f, ", the slowest took {milliseconds:.1} ms (number {})", slowest.1)
     }

@@ -5,6 +5,9 @@ use std::fmt;
 const TABLE: &str = include_str!("figures.txt");
 
 /// All figures, by name, in the order of their file.
+///
+/// # Panics
+/// When a line of the file is no name and number.
 pub fn figures() -> impl Iterator<Item = (&'static str, u64)> {
     let lines = TABLE.lines().filter(|it| !it.starts_with('#'));
     lines.map(|it| {
