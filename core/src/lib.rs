@@ -40,6 +40,7 @@ extern crate alloc;
 extern crate std;
 
 pub mod allocation;
+pub mod checksum;
 pub mod exact;
 pub mod executive;
 mod extension;

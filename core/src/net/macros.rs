@@ -258,6 +258,8 @@ macro_rules! net {
                 { CODE_SIZE.clears },
                 { CODE_SIZE.ignored },
                 { CODE_SIZE.ignored_where },
+                { CODE_SIZE.kept },
+                { CODE_SIZE.summands },
             > = &net_code::Arrays::of(&SYSTEM);
 
             /// How the net was checked.

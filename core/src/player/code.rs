@@ -12,6 +12,7 @@
 //! Transitions, events and places are numbered over all nets, in the order of the components.
 
 use super::field::Field;
+pub use super::kept::Kept;
 use super::lists::lists;
 pub use super::pack::{pack, size, size_of};
 use crate::net::data::{EventId, PlaceId, TransitionId};
@@ -127,6 +128,10 @@ lists! {
     ignored: (u16, u16) [G] = (0, 0),
     /// The same for pairs with a guard: an event and the tokens that must be there.
     ignored_where: (u16, [u64; W]) [I] = (0, [0; W]),
+    /// What every reachable marking keeps: complements, then laws by component.
+    kept: Kept [L] = Kept::NOTHING,
+    /// The numbers of the places of `kept`, with their weights.
+    summands: (u16, u32) [M] = (0, 0),
 }
 
 /// What is not a list in a [`Code`].
@@ -181,6 +186,8 @@ pub struct Size {
     pub clears: usize,
     pub ignored: usize,
     pub ignored_where: usize,
+    pub kept: usize,
+    pub summands: usize,
     /// What can wait in all mailboxes together.
     pub slots: usize,
 }

@@ -55,6 +55,8 @@ macro_rules! lists {
             const E: usize,
             const G: usize,
             const I: usize,
+            const L: usize,
+            const M: usize,
         > {
             $( $list: [$item; $length], )*
             words: Words<W>,
@@ -75,7 +77,9 @@ macro_rules! lists {
             const E: usize,
             const G: usize,
             const I: usize,
-        > Arrays<W, T, K, R, O, D, B, N, P, X, C, E, G, I>
+            const L: usize,
+            const M: usize,
+        > Arrays<W, T, K, R, O, D, B, N, P, X, C, E, G, I, L, M>
         {
             /// Packs a system; the lengths are those of [`size_of`].
             pub const fn of(system: &crate::system::data::System<'_>) -> Self {
@@ -185,6 +189,8 @@ macro_rules! lists {
                     clears: self.clears,
                     ignored: self.ignored,
                     ignored_where: self.ignored_where,
+                    kept: self.kept,
+                    summands: self.summands,
                 }
             }
         }

@@ -54,6 +54,7 @@ mod field;
 mod fingerprint;
 #[cfg(feature = "alloc")]
 mod heap;
+mod kept;
 mod layout;
 mod lists;
 mod machine;

@@ -3,6 +3,7 @@
 use super::arcs::{Moved, asked, moved};
 use super::code::{Clock, Entry, Lists, NONE, Route, Size, Words};
 use super::fingerprint::fingerprint;
+use super::kept;
 use super::layout::{Used, asks_for_room, lacks_complement, layout, mailbox_of, owns};
 use super::machine::{machine, needs_state};
 use crate::net::data::{EventId, OutputId};
@@ -28,6 +29,8 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
         clears: system.clears.len(),
         ignored: 0,
         ignored_where: 0,
+        kept: 0,
+        summands: 0,
         slots: 0,
     };
     let mut used = Used::NOTHING;
@@ -37,6 +40,9 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
         it.fields += net.places.len();
         it.entries += net.transitions.len();
         it.ignored += net.ignored.len();
+        let (kept, summands) = kept::count(net);
+        it.kept += kept;
+        it.summands += summands;
         events += net.events.len();
         if it.fields > MOST || it.entries > MOST || it.ignored > MOST || events > MOST {
             return None;
@@ -87,7 +93,7 @@ pub const fn size(system: &System<'_>) -> Option<Size> {
     it.takes = if it.clocks == 0 { 0 } else { it.entries };
     it.says = if it.routes == 0 { 0 } else { it.entries + 1 };
     it.rows = 2 * (events + system.components.len() + 1) * machine(system).0;
-    let long = it.rows > MOST || it.routes > MOST || it.slots > MOST;
+    let long = it.rows > MOST || it.routes > MOST || it.slots > MOST || it.summands > MOST;
     if long { None } else { Some(it) }
 }
 
@@ -138,6 +144,7 @@ pub const fn pack<const W: usize>(system: &System<'_>, lists: &mut Lists<'_, W>)
     clocks(system, lists);
     say(system, lists);
     ignore(system, lists);
+    kept::keep(system, lists);
     words
 }
 

@@ -1,11 +1,12 @@
 //! A marking that is stored and comes back, if it belongs to this system and breaks none of its
 //! laws.
 
-use super::code::Code;
+use super::code::{Code, NONE};
 use super::field::Field;
 use super::player::Player;
 use super::program::{Checked, Program};
-use crate::net::data::{Law, Net, PlaceId, Role, TransitionId};
+use crate::checksum::crc32;
+use crate::net::data::TransitionId;
 use crate::system::data::Of;
 use crate::units::Millis;
 
@@ -189,19 +190,6 @@ impl<const W: usize, const C: usize, const S: usize, M: Stored> Snapshot<W, C, S
     }
 }
 
-/// CRC-32 as Ethernet and ZIP have it (ISO 3309): polynomial 0xEDB88320, reflected.
-fn crc32(bytes: &[u8]) -> u32 {
-    let mut crc = u32::MAX;
-    for byte in bytes {
-        crc ^= u32::from(*byte);
-        for _ in 0..8 {
-            let carry = 0_u32.wrapping_sub(crc & 1);
-            crc = (crc >> 1) ^ (0xEDB8_8320 & carry);
-        }
-    }
-    !crc
-}
-
 impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Copy + Default>
     Player<P, W, C, S, M>
 {
@@ -261,10 +249,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         if stray_clock || !is_sound(code, &marking) || !player.complements(code) {
             return Err(RestoreError::Marking);
         }
-        for (component, it) in (0..u16::MAX).zip(player.program.system().components) {
-            if let Some(law) = player.broken(code, component, it.net) {
-                return Err(RestoreError::Law(component, law));
-            }
+        if let Some(broken) = code.kept.iter().find(|it| !it.holds(code, &marking)) {
+            return Err(match broken.law {
+                NONE => RestoreError::Marking,
+                law => RestoreError::Law(broken.component, usize::from(law)),
+            });
         }
         for (clock, &elapsed) in code.clocks.iter().zip(&from.clocks) {
             let most = if code.holds(&from.marking, &clock.need) { clock.cap() } else { 0 };
@@ -278,7 +267,7 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         if S > 0 || player.settled(code) { Ok(player) } else { Err(RestoreError::NotSettled) }
     }
 
-    /// Whether every complement holds what its place lacks.
+    /// Whether mailboxes and the complements that the system needs hold together what they can.
     fn complements(&self, code: &Code<'_, W>) -> bool {
         let held = |field: Field| field.of(&self.marking);
         let sums_to = |a: u32, b: u32, bound: u32| a.checked_add(b) == Some(bound);
@@ -286,37 +275,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
             let place = code.fields.get(usize::from(place));
             place.is_none_or(|it| sums_to(held(*it), held(field), it.of(&code.bounds)))
         };
-        let of_net = |(component, net): (u16, &Net<'_>)| {
-            (0..u32::MAX).zip(net.places).all(|(at, place)| match place.role {
-                Role::Complement(of) => {
-                    let tokens = |id| code.tokens(&self.marking, Of { component, id });
-                    sums_to(tokens(PlaceId(at)), tokens(of), place.bound)
-                }
-                _ => true,
-            })
-        };
-        let components = self.program.system().components;
         code.mailboxes
             .iter()
             .filter_map(|it| Some((it, it.room?)))
             .all(|(it, room)| sums_to(held(it.waiting), held(room), u32::from(it.capacity)))
             && code.complements.iter().all(made)
-            && (0..u16::MAX).zip(components).map(|(at, it)| (at, it.net)).all(of_net)
-    }
-
-    /// The first law of a component that the marking breaks.
-    fn broken(&self, code: &Code<'_, W>, component: u16, net: &Net<'_>) -> Option<usize> {
-        let tokens = |id| u64::from(code.tokens(&self.marking, Of { component, id }));
-        net.laws.iter().position(|law| match *law {
-            Law::Invariant { sum, equals } => {
-                sum.iter()
-                    .map(|arc| u64::from(arc.weight).saturating_mul(tokens(arc.place)))
-                    .fold(0, u64::saturating_add)
-                    != u64::from(equals)
-            }
-            Law::NeverBoth(a, b) => tokens(a) > 0 && tokens(b) > 0,
-            _ => false,
-        })
     }
 }
 

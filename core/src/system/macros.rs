@@ -265,6 +265,8 @@ macro_rules! system {
                 { SIZE.clears },
                 { SIZE.ignored },
                 { SIZE.ignored_where },
+                { SIZE.kept },
+                { SIZE.summands },
             > = system_code::Arrays::of(&SYSTEM);
             static CODE: system_code::Code<'static, { SIZE.words }> =
                 ARRAYS.code($crate::player::SETTLE, false);
