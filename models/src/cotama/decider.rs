@@ -58,6 +58,7 @@ use settings::{Acting, Settings};
 mod findings;
 mod pending;
 mod plans;
+mod restart;
 mod returns;
 mod settings;
 
@@ -349,6 +350,11 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             _ => said.map(Word::told),
         };
         (word.map(|it| (it, Cause(0))), None)
+    }
+
+    /// The supervisors, to be looked at or stored.
+    pub const fn level(&self) -> &Level<P, W, C, S> {
+        &self.level
     }
 
     /// The right to move, if an activity runs that moves the robot.

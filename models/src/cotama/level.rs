@@ -10,7 +10,9 @@ use super::supervisors::{
 };
 use core::marker::PhantomData;
 use cotama_core::net::{EventId, PlaceId, TransitionId};
-use cotama_core::player::{Kind, Observer, Outcome, Player, Program, Round, Stored};
+use cotama_core::player::{
+    Checked, Kind, Observer, Outcome, Player, Program, RestoreError, Round, Snapshot, Stored,
+};
 use cotama_core::system::Of;
 use cotama_core::units::Millis;
 
@@ -278,5 +280,40 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Level<
     /// The player under the names.
     pub fn player(&self) -> &Player<P, W, C, S, Cause> {
         &self.0
+    }
+
+    /// Where the supervisors are, to be stored before the power goes.
+    pub fn snapshot(&self) -> Snapshot<W, C, S, Cause> {
+        self.0.snapshot()
+    }
+}
+
+impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>
+    Level<Checked<P>, W, C, S>
+{
+    /// Supervisors that go on at `now` where stored ones were.
+    ///
+    /// ```
+    /// use cotama_core::{player::Checked, units::Millis};
+    /// use cotama_models::cotama::{Cause, Level, Told, delivery, global};
+    /// let start = || Level::start(Checked(delivery::Program));
+    /// let mut level = start();
+    /// let mission = Told::Mission(global::Event::mission_received);
+    /// assert!(level.tell(Millis(0), mission, Cause(0), &mut ()).fired());
+    /// let stored = level.snapshot();
+    /// // The power was away.
+    /// let restored = Level::restore(Checked(delivery::Program), Millis(0), &stored).unwrap();
+    /// assert_eq!(restored, level);
+    /// assert_ne!(restored, start());
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Player::restore`]: what is stored is of other supervisors, or cannot be.
+    pub fn restore(
+        program: Checked<P>,
+        now: Millis,
+        from: &Snapshot<W, C, S, Cause>,
+    ) -> Result<Self, RestoreError> {
+        Player::restore(program, now, from).map(Self)
     }
 }
