@@ -46,6 +46,18 @@ static NET: Template = template!("my-net" in "net", taken: &["net"]);
 static SYSTEM: Template =
     template!("my-system" in "system", taken: &["net", "system", "link", "drive", "state"]);
 
+static BOARD: Template = Template {
+    name: "my-net",
+    files: &[
+        ("Cargo.toml", include_str!("../templates/board/manifest.toml")),
+        ("build.rs", include_str!("../templates/board/build.rs")),
+        ("memory.x", include_str!("../templates/board/memory.x")),
+        (".cargo/config.toml", include_str!("../templates/board/config.toml")),
+        ("src/main.rs", include_str!("../templates/board/main.rs")),
+    ],
+    taken: &["net"],
+};
+
 /// Where the sources are in the templates, seen from the new crate.
 const SOURCES: &str = "../cotama";
 
@@ -105,6 +117,24 @@ pub(crate) fn new(args: &NewArgs, screen: &Screen) -> Result<Exit, Failure> {
             (
                 template.write(path, name, &sources)?,
                 format!("{NAME}cd {next} && cargo test{NAME:#}"),
+            )
+        }
+        NewKind::Board => {
+            let net = path.join("Cargo.toml");
+            if !net.is_file() {
+                let message = format!("{}: there is no such crate", path.display());
+                return Err(Failure::new(message).help(format!(
+                    "a board plays a crate beside it: {NAME}cotama new net {}{NAME:#} makes one",
+                    quoted(&path.display().to_string())
+                )));
+            }
+            let board = path.with_file_name(format!("{name}-board"));
+            refuse_to_replace(&board)?;
+            let sources = sources(folder, args.sources.as_deref(), screen)?;
+            let next = quoted(&board.display().to_string());
+            (
+                BOARD.write(&board, name, &sources)?,
+                format!("{NAME}cd {next} && cargo run --release{NAME:#}"),
             )
         }
     };
@@ -195,7 +225,7 @@ fn sources(folder: &Path, wanted: Option<&Path>, screen: &Screen) -> Result<Stri
 }
 
 fn is_crate(kind: NewKind) -> bool {
-    matches!(kind, NewKind::Net | NewKind::System)
+    matches!(kind, NewKind::Net | NewKind::System | NewKind::Board)
 }
 
 /// What a kind that is one file is called.
@@ -228,6 +258,7 @@ fn check_name(kind: NewKind, name: &str) -> Result<(), Failure> {
         NewKind::Mission | NewKind::Fmeca => return Ok(()),
         NewKind::Net => NET.taken,
         NewKind::System => SYSTEM.taken,
+        NewKind::Board => BOARD.taken,
     };
     if RESERVED.split(' ').chain(taken.iter().copied()).any(|it| it == module) {
         return Err(Failure::new(format!(

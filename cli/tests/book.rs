@@ -13,13 +13,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// What is not run here, as it needs a clone or takes long; `.ci/run` does.
-const ELSEWHERE: [&str; 9] = [
+const ELSEWHERE: [&str; 10] = [
     "cargo run --release -- run patrol",
     "cargo test --workspace",
     "cargo install --path cli --profile dist",
     "cargo run",
     "cargo test",
     "cargo run --example model > watch.json",
+    "firmware/check.sh",
     "tests/no_panic/check.sh",
     "tests/no_std/check.sh",
     "tests/proofs/check.sh",

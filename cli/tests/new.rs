@@ -56,6 +56,23 @@ fn cargo(folder: &Folder, package: &str, arguments: &[&str]) -> Ended {
 }
 
 #[test]
+fn a_board_plays_the_net_beside_it_and_needs_one() {
+    let folder = Folder::new("new_board");
+    let none = folder.cotama(&["new", "board", "gate", "--sources", SOURCES]);
+    assert_eq!(none.code, Some(2));
+    assert!(none.stderr.contains("gate: there is no such crate"), "{}", none.stderr);
+    folder.cotama(&["new", "net", "gate", "--sources", SOURCES, "--json"]).json(0);
+    let answer = folder.cotama(&["new", "board", "gate", "--sources", SOURCES, "--json"]).json(0);
+    let files = ["Cargo.toml", "build.rs", "memory.x", ".cargo/config.toml", "src/main.rs"];
+    let files: Vec<_> = files.iter().map(|it| format!("gate-board/{it}")).collect();
+    assert_eq!(answer["files"], serde_json::json!(files));
+    assert!(folder.read("gate-board/Cargo.toml").contains("gate = { path = \"../gate\" }"));
+    assert!(folder.read("gate-board/src/main.rs").contains("use gate::gate::{"));
+    let again = folder.cotama(&["new", "board", "gate", "--sources", SOURCES]);
+    assert_eq!(again.code, Some(2));
+}
+
+#[test]
 #[ignore = "a minute: CI runs it"]
 fn crates_run_are_checked_and_fail_with_a_counterexample_when_they_are_broken() {
     let folder = Folder::new("new_crates");

@@ -11,11 +11,14 @@ What is written:
   net      the folder NAME: a crate with a supervisor, its laws, a program that plays it, tests of \
 what it promises, and an example that writes it as JSON for `check` and `simulate`
   system   the same with two supervisors that work together
+  board    the folder NAME-board: a crate that plays the supervisor of the crate NAME beside it on a \
+microcontroller, in an emulator first
 
 Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
   $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
+  $ cotama new net gripper && cotama new board gripper
   $ cotama new system robot --json";
 
 /// What is begun.
@@ -29,6 +32,8 @@ pub(crate) enum NewKind {
     Net,
     /// A crate with supervisors that work together
     System,
+    /// A crate NAME-board that plays the crate NAME, made by `new net`, on a microcontroller
+    Board,
 }
 
 #[derive(Args, Debug)]
