@@ -195,7 +195,7 @@ mod tests {
             );
             assert_eq!(
                 (rule, found.steps, found.status()),
-                (22, 22 + steps(&most), Status::Optimal)
+                (20, 20 + steps(&most), Status::Optimal)
             );
         });
     }
@@ -215,7 +215,7 @@ mod tests {
         missed(|problem| {
             let (any, _) = exact(problem, &[], 1_000).unwrap();
             let found = solve(problem, Method::Rule, 1_000).unwrap();
-            assert_eq!((found.verdict, found.steps), (Verdict::Missed, 22 + steps(&any)));
+            assert_eq!((found.verdict, found.steps), (Verdict::Missed, 20 + steps(&any)));
             assert!(found.plan.is_empty());
         });
     }
@@ -226,7 +226,7 @@ mod tests {
             let unknown = solve(problem, Method::RuleThenExact, 1).unwrap();
             let search = steps(&exact(problem, &[Objective::Most(1)], 1).unwrap().0);
             assert_eq!(unknown.verdict, Verdict::Unknown { bound: None });
-            assert_eq!(unknown.steps, 22 + search);
+            assert_eq!(unknown.steps, 20 + search);
             let none = problem.with_limits([6, 2]);
             let rule = steps(&panorama(&none).unwrap().0);
             let search = steps(&exact(&none, &[], 1_000).unwrap().0);

@@ -18,7 +18,7 @@ Examples:
   $ cotama new mission hall && cotama plan hall.toml && cotama run hall.toml
   $ cotama new fmeca arm && cotama fmeca arm.toml --diagnosability
   $ cotama new net gripper         # then: cd gripper && cargo test
-  $ cotama new net gripper && cotama new board gripper
+  $ cotama new net hand && cotama new board hand
   $ cotama new system robot --json";
 
 /// What is begun.
