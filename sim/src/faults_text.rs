@@ -1,7 +1,7 @@
 //! Faults as the text of a `panorama-faults/1` file, which reads back to the same faults.
 
 use cotama_models::missions::Definition;
-use cotama_models::missions::faults::{EventKind, FORMAT, Faults, IncidentKind};
+use cotama_models::missions::faults::{EventKind, FORMAT, Faults, IncidentKind, Moment};
 use std::fmt::Write;
 
 /// The text of a `panorama-faults/1` file with these faults.
@@ -41,10 +41,16 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
         kind(&mut text, event.kind, mission);
     }
     for incident in &faults.incidents {
-        let _ = writeln!(text, "\n[[event]]\nx_mm = {}", incident.x.0);
+        text.push_str("\n[[event]]\n");
+        moment(&mut text, "", incident.when);
         let _ = match &incident.kind {
-            IncidentKind::Failure(mode) => {
-                writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.name())
+            IncidentKind::Failure { mode, part, until } => {
+                let _ = writeln!(text, "kind = \"failure\"\nmode = \"{}\"", mode.name());
+                if let Some(part) = part {
+                    let _ = writeln!(text, "module = \"{}\"", part.name());
+                }
+                until.iter().for_each(|it| moment(&mut text, "until_", *it));
+                Ok(())
             }
             IncidentKind::Repair(mode) => {
                 writeln!(text, "kind = \"repair\"\nmode = \"{}\"", mode.name())
@@ -63,6 +69,19 @@ pub fn faults_text(faults: &Faults, mission: &Definition) -> String {
         kind(&mut text, random.kind, mission);
     }
     text
+}
+
+/// When something begins, or ends: keys with this in front.
+fn moment(text: &mut String, before: &str, when: Moment) {
+    let _ = match when {
+        Moment::Place(x) => writeln!(text, "{before}x_mm = {}", x.0),
+        Moment::At(time) => writeln!(text, "{before}t_ms = {}", time.0),
+        Moment::During(state, after) => {
+            // Those at rest have no name; no reader takes an empty one.
+            let name = Moment::state_name(state).unwrap_or("");
+            writeln!(text, "{before}during = \"{name}\"\n{before}after_ms = {}", after.0)
+        }
+    };
 }
 
 fn kind(text: &mut String, kind: EventKind, mission: &Definition) {

@@ -7,6 +7,7 @@
 //! drawn and [replayed](trace::replay). The same seed gives the same bytes on every machine.
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 
+pub mod campaign;
 pub mod faults_text;
 pub mod fleet;
 pub mod kernel;

@@ -7,7 +7,7 @@ use cotama_core::monitor::{Monitor, MonitorError};
 use cotama_core::problem::Candidate;
 use cotama_core::units::Millis;
 use cotama_models::missions::Mission;
-use cotama_models::missions::faults::{EventKind, Faults};
+use cotama_models::missions::faults::{Event, EventKind, Faults};
 use cotama_models::missions::tables::Activity;
 use std::borrow::Cow;
 
@@ -42,6 +42,16 @@ pub struct Simulation<'m> {
     pub(crate) segments: Vec<(u64, u64)>,
     pub(crate) faults: Faults,
     events: Vec<Pending>,
+    /// Whether plans are made again.
+    pub(crate) adapts: bool,
+}
+
+/// What a run meets on its way.
+#[derive(Clone, Debug)]
+pub(crate) struct Course<'s> {
+    pub(crate) events: Cow<'s, [Pending]>,
+    /// As [`Simulation::segments`].
+    pub(crate) segments: Cow<'s, [(u64, u64)]>,
 }
 
 /// An event that waits for the robot.
@@ -138,6 +148,7 @@ impl<'m> Simulation<'m> {
             period_us: period_ms.saturating_mul(1000),
             segments: segments(&faults, mission),
             events: Vec::new(),
+            adapts: true,
             faults,
         };
         let scripted = simulation.faults.events.iter();
@@ -146,6 +157,13 @@ impl<'m> Simulation<'m> {
         simulation.events = scripted.map(|event| pending(event.x.0, event.kind)).collect();
         simulation.events.sort_by_key(|event| event.x_nm);
         Ok(simulation)
+    }
+
+    /// Keeps the plan of the start whatever becomes of the margins; hardware that fails and that the
+    /// plan needs ends the mission. What adaptation is compared with.
+    #[must_use]
+    pub fn without_adaptation(self) -> Self {
+        Self { adapts: false, ..self }
     }
 
     /// The mission.
@@ -161,6 +179,25 @@ impl<'m> Simulation<'m> {
     /// All hardware of the robot.
     pub(crate) fn all_hardware(&self) -> Equipment {
         self.mission.scenario().available
+    }
+
+    /// What a run with other scripted faults meets: its events, and the real power along its path.
+    ///
+    /// # Errors
+    /// [`SetupError::ForeignFaults`] for faults of another mission.
+    pub(crate) fn course(&self, faults: &Faults) -> Result<Course<'_>, SetupError> {
+        if !belongs(faults, self.mission) {
+            return Err(SetupError::ForeignFaults);
+        }
+        let pending = |it: &Event| Pending {
+            x_nm: it.x.0.saturating_mul(NM_PER_MM),
+            kind: it.kind,
+            random: None,
+        };
+        let mut events: Vec<_> = faults.events.iter().map(pending).collect();
+        events.sort_by_key(|it| it.x_nm);
+        let segments = segments(faults, self.mission);
+        Ok(Course { events: Cow::Owned(events), segments: Cow::Owned(segments) })
     }
 
     /// The events of a run, sorted by place; of equal places the scripted first, then the random

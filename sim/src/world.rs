@@ -14,10 +14,11 @@
 use crate::kernel::Queue;
 use crate::record::{Recorder, Silent};
 use crate::run::{EventCounts, NoPlan, Outcome, PlanCause, PlanMade, Reason, Run};
-use crate::setup::{NM_PER_MM, Pending, Simulation};
+use crate::setup::{Course, NM_PER_MM, Pending, SetupError, Simulation};
 use crate::solver::Solver;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Monitor;
+use cotama_models::missions::faults::Faults;
 use cotama_models::missions::tables::Alternative;
 use std::borrow::Cow;
 
@@ -64,6 +65,7 @@ pub struct World<'s> {
     queue: Queue<Next>,
     events: Cow<'s, [Pending]>,
     next_event: usize,
+    segments: Cow<'s, [(u64, u64)]>,
     time_us: u64,
     energy_pj: u128,
     x_nm: u64,
@@ -104,6 +106,23 @@ impl Simulation<'_> {
         self.run_recorded(seed, &mut Silent)
     }
 
+    /// Runs the mission with these scripted faults in place of its own, without a trace; random
+    /// events of either are left out, as whoever draws faults has drawn them.
+    ///
+    /// # Errors
+    /// A [`SetupError`] for faults of another mission; inside, [`NoPlan`] when there is no plan at
+    /// the start.
+    pub fn run_with(&self, faults: &Faults) -> Result<Result<Run, NoPlan>, SetupError> {
+        let course = self.course(faults)?;
+        Ok(World::start_on(self, course, &mut Silent).map(|mut world| {
+            loop {
+                if let Some(run) = world.step(&mut Silent) {
+                    return run;
+                }
+            }
+        }))
+    }
+
     /// Runs the mission and records what happens.
     ///
     /// # Errors
@@ -128,13 +147,25 @@ impl<'s> World<'s> {
         seed: u64,
         recorder: &mut R,
     ) -> Result<Self, NoPlan> {
+        let segments = Cow::Borrowed(simulation.segments.as_slice());
+        let course = Course { events: simulation.events(seed), segments };
+        Self::start_on(simulation, course, recorder)
+    }
+
+    /// A robot at the start of its mission, which meets this on its way.
+    fn start_on<R: Recorder>(
+        simulation: &'s Simulation<'s>,
+        course: Course<'s>,
+        recorder: &mut R,
+    ) -> Result<Self, NoPlan> {
         let count = simulation.activities.len();
         let x_start = simulation.activities.first().map_or(0, |activity| activity.x_start.0);
         let nothing = Alternative::standing(0, 0, Equipment::NONE, 0);
         let mut world = Self {
             simulation,
             queue: Queue::new(),
-            events: simulation.events(seed),
+            events: course.events,
+            segments: course.segments,
             next_event: 0,
             time_us: 0,
             energy_pj: 0,
@@ -286,7 +317,7 @@ impl<'s> World<'s> {
     }
 
     fn real_uw(&self, alternative: &Alternative) -> u64 {
-        alternative.power.0.saturating_mul(self.simulation.segments[self.segment].1)
+        alternative.power.0.saturating_mul(self.segments[self.segment].1)
     }
 
     /// The current activity goes on from here as it is planned now.
@@ -300,7 +331,7 @@ impl<'s> World<'s> {
 
     /// The stretch of constant power error that holds this place.
     fn find_segment(&mut self) {
-        let segments = &self.simulation.segments;
+        let segments = &self.segments;
         while segments.get(self.segment + 1).is_some_and(|&(start, _)| start <= self.x_nm) {
             self.segment += 1;
         }
@@ -314,7 +345,7 @@ impl<'s> World<'s> {
             if let Some(event) = self.events.get(self.next_event) {
                 end = end.min(event.x_nm);
             }
-            if let Some(&(border, _)) = self.simulation.segments.get(self.segment + 1) {
+            if let Some(&(border, _)) = self.segments.get(self.segment + 1) {
                 end = end.min(border);
             }
             self.leg_end_nm = end;

@@ -40,6 +40,7 @@
 
 use super::definition::Definition;
 use super::diagnostic::{Diagnostic, MissionErrors};
+use super::faults::Moment;
 use super::reader::{self, Sink};
 use super::scenario::{Constraint, Scenario};
 use super::supervised;
@@ -166,7 +167,9 @@ impl Mission {
             definition.path_length = dropped.x_start;
             definition.objectives.truncate(objective);
             definition.run.faults.events.retain(|event| event.x <= definition.path_length);
-            definition.run.faults.incidents.retain(|incident| incident.x <= definition.path_length);
+            let end = definition.path_length;
+            let on_path = |when| !matches!(when, Moment::Place(x) if x > end);
+            definition.run.faults.incidents.retain(|incident| on_path(incident.when));
         } else {
             definition.objectives.remove(objective);
         }

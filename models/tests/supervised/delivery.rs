@@ -3,7 +3,7 @@
 use cotama_core::net::owned::OwnedIgnored;
 use cotama_core::net::{Net, Transition};
 use cotama_models::cotama::global;
-use cotama_models::missions::faults::{Answer, IncidentKind};
+use cotama_models::missions::faults::{Answer, IncidentKind, Moment};
 use cotama_models::missions::mission_net;
 use cotama_models::missions::{Does, Mission, Supervision, embedded};
 
@@ -62,12 +62,15 @@ fn its_script_is_the_timeline_of_the_seven_points() {
     let told: Vec<_> = faults
         .incidents
         .iter()
-        .map(|it| match &it.kind {
-            IncidentKind::Failure(mode) => format!("{} {}", it.x.0, mode.name()),
-            IncidentKind::Repair(mode) => format!("{} {} ends", it.x.0, mode.name()),
-            IncidentKind::Operator { answers, .. } => {
-                let answers: Vec<_> = answers.iter().map(|answer| answer.name()).collect();
-                format!("{} {}", it.x.0, answers.join(" "))
+        .map(|it| {
+            let Moment::Place(x) = it.when else { panic!("{it:?}") };
+            match &it.kind {
+                IncidentKind::Failure { mode, .. } => format!("{} {}", x.0, mode.name()),
+                IncidentKind::Repair(mode) => format!("{} {} ends", x.0, mode.name()),
+                IncidentKind::Operator { answers, .. } => {
+                    let answers: Vec<_> = answers.iter().map(|answer| answer.name()).collect();
+                    format!("{} {}", x.0, answers.join(" "))
+                }
             }
         })
         .collect();

@@ -1,6 +1,6 @@
 //! What a unit more or less changes: ends of missions, limits, the order of files.
 
-use cotama_models::missions::faults::{EventKind, Faults, IncidentKind};
+use cotama_models::missions::faults::{EventKind, Faults, Incident, IncidentKind, Moment};
 use cotama_models::missions::infeasible::Relaxation::{self, RaiseLimit, RaiseLimits};
 use cotama_models::missions::{Mission, MissionErrors, embedded};
 
@@ -31,6 +31,11 @@ event = [
 ]
 "#;
 
+fn place(incident: &Incident) -> u64 {
+    let Moment::Place(x) = incident.when else { unreachable!() };
+    x.0
+}
+
 #[test]
 fn what_happens_at_the_end_of_a_shorter_mission_still_happens() {
     let delivery = embedded::mission("delivery").unwrap().text;
@@ -40,7 +45,7 @@ fn what_happens_at_the_end_of_a_shorter_mission_still_happens() {
     let places = |mission: &Mission| {
         let faults = &mission.run.faults;
         let events: Vec<_> = faults.events.iter().map(|it| it.x.0).collect();
-        let incidents: Vec<_> = faults.incidents.iter().map(|it| it.x.0).collect();
+        let incidents: Vec<_> = faults.incidents.iter().map(place).collect();
         (events, incidents)
     };
     // The file has them in the other order.
@@ -70,8 +75,8 @@ fn what_happens_at_one_place_keeps_the_order_of_the_file() {
     });
     assert_eq!(delays.collect::<Vec<_>>(), [(8_000, 2), (8_000, 3), (9_000, 1)]);
     let fails = faults.incidents.iter().map(|it| match it.kind {
-        IncidentKind::Failure(mode) => (it.x.0, mode.name(), true),
-        IncidentKind::Repair(mode) => (it.x.0, mode.name(), false),
+        IncidentKind::Failure { mode, .. } => (place(it), mode.name(), true),
+        IncidentKind::Repair(mode) => (place(it), mode.name(), false),
         IncidentKind::Operator { .. } => unreachable!(),
     });
     let expected = [(6_000, "RT1", false), (6_000, "RT1", true), (7_000, "SON1", true)];

@@ -1,9 +1,11 @@
 //! What goes wrong in a supervised run, and what the operator answers.
 
 use super::operator::Answers;
-use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{FailureMode, Module, local};
-use cotama_models::missions::faults::{Faults, IncidentKind};
+use cotama_models::cotama::{FailureMode, Module};
+use cotama_models::missions::faults::{Faults, IncidentKind, Moment};
+
+/// When something is to fail.
+pub use cotama_models::missions::faults::Moment as When;
 
 /// What goes wrong, and what the operator answers.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -20,18 +22,21 @@ impl From<&Faults> for Script {
         let mut script = Self::default();
         for incident in &faults.incidents {
             match &incident.kind {
-                IncidentKind::Failure(mode) => {
-                    script.injections.push(Injection::new(When::Place(incident.x), *mode));
+                IncidentKind::Failure { mode, part, until } => {
+                    let it = Injection::new(incident.when, *mode);
+                    let part = part.unwrap_or(it.part);
+                    script.injections.push(Injection { part, until: *until, ..it });
                 }
                 IncidentKind::Repair(mode) => {
                     let under_way = |it: &&mut Injection| it.mode == *mode && it.until.is_none();
                     if let Some(it) = script.injections.iter_mut().rfind(under_way) {
-                        it.until = Some(When::Place(incident.x));
+                        it.until = Some(incident.when);
                     }
                 }
                 IncidentKind::Operator { answers, delay } => {
                     let (answers, delay) = (answers.clone(), *delay);
-                    script.answers.push(Answers { x: incident.x, answers, delay });
+                    let Moment::Place(x) = incident.when else { continue };
+                    script.answers.push(Answers { x, answers, delay });
                 }
             }
         }
@@ -71,15 +76,4 @@ impl Injection {
     pub const fn new(when: When, mode: FailureMode) -> Self {
         Self { when, mode, part: Module::Smz, until: None }
     }
-}
-
-/// When something is to fail.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum When {
-    /// So long after the start.
-    At(Millis),
-    /// Where the robot has come so far along the path.
-    Place(Millimetres),
-    /// So long after the local supervisor has come to a place for the first time.
-    During(local::State, Millis),
 }

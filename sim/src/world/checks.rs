@@ -2,7 +2,7 @@
 
 use super::World;
 use crate::record::Recorder;
-use crate::run::{MAX_CHECKS, MAX_REPLANS, Outcome, PlanCause, Reason};
+use crate::run::{MAX_CHECKS, MAX_REPLANS, NoPlan, Outcome, PlanCause, Reason};
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::{self, MAX_AMOUNT, Request};
 use cotama_core::units::{Millijoules, Millis, mul_div_half_up};
@@ -36,7 +36,13 @@ impl World<'_> {
                         PlanCause::Hardware { hardware: self.lost.0, units: self.lost.1 }
                     }
                 };
-                if self.plans.len() as u64 > MAX_REPLANS {
+                if !self.simulation.adapts {
+                    // A margin below zero is borne; lost hardware that is needed ends the mission.
+                    if trigger == monitor::Trigger::Hardware {
+                        let activity = self.first_remaining();
+                        self.stop(cause, Reason::NoPlan(NoPlan::Emptied { activity }), recorder);
+                    }
+                } else if self.plans.len() as u64 > MAX_REPLANS {
                     self.stop(cause, Reason::TooManyReplans, recorder);
                 } else if let Err(none) = self.plan(cause, Some(margins), recorder) {
                     self.stop(cause, Reason::NoPlan(none), recorder);

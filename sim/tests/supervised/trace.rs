@@ -4,7 +4,7 @@ use super::{delivery, golden};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{Diagnosis, FailureMode};
 use cotama_models::missions::embedded;
-use cotama_models::missions::faults::{Answer, Faults, Incident, IncidentKind};
+use cotama_models::missions::faults::{Answer, Faults, Incident, IncidentKind, Moment};
 use cotama_sim::options::{FaultChoice, Options};
 use cotama_sim::run::Outcome;
 use cotama_sim::supervised::{PLANNER, Script, Supervised, story};
@@ -91,8 +91,8 @@ fn a_changed_trace_is_not_identical() {
 }
 
 fn incident() -> impl Strategy<Value = Incident> {
-    let failure = prop::sample::select(FailureMode::ALL).prop_map(IncidentKind::Failure);
-    (0u64..80_000, failure).prop_map(|(x, kind)| Incident { x: Millimetres(x), kind })
+    let failure = prop::sample::select(FailureMode::ALL).prop_map(|mode| IncidentKind::Failure { mode, part: None, until: None });
+    (0u64..80_000, failure).prop_map(|(x, kind)| Incident { when: Moment::Place(Millimetres(x)), kind })
 }
 
 fn answers() -> impl Strategy<Value = Incident> {
@@ -104,7 +104,7 @@ fn answers() -> impl Strategy<Value = Incident> {
         vec![GiveUp],
     ]);
     (0u64..80_000, answers, 100u64..30_000).prop_map(|(x, answers, delay)| Incident {
-        x: Millimetres(x),
+        when: Moment::Place(Millimetres(x)),
         kind: IncidentKind::Operator { answers, delay: Millis(delay) },
     })
 }
@@ -120,7 +120,10 @@ proptest! {
         answers in prop::option::of(answers()),
     ) {
         let mut incidents: Vec<_> = failures.into_iter().chain(answers).collect();
-        incidents.sort_by_key(|it| it.x);
+        incidents.sort_by_key(|it| match it.when {
+            Moment::Place(x) => x,
+            _ => unreachable!(),
+        });
         let faults = Faults { incidents, ..Faults::default() };
         let mission = delivery();
         let run = Supervised::new(&mission).unwrap().run(&Script::from(&faults)).unwrap();

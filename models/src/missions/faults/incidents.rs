@@ -1,23 +1,91 @@
 //! What happens during a run that only supervisors can deal with: failures that observers have to
 //! find, and what the operator answers when the robot asks.
 
-use crate::cotama::{Configuration, FailureMode};
+use crate::cotama::{Configuration, FailureMode, Module, local};
 use cotama_core::units::{Millimetres, Millis};
 
-/// Something that happens once, at a place, to a supervised mission.
+/// Something that happens once to a supervised mission.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Incident {
-    /// Where, by the path.
-    pub x: Millimetres,
+    /// When; of what is no failure, by place.
+    pub when: Moment,
     /// What.
     pub kind: IncidentKind,
+}
+
+/// When something happens to a supervised mission. Moments are sorted by their kind, in this order,
+/// and then by their number.
+///
+/// ```
+/// use cotama_core::units::{Millimetres, Millis};
+/// use cotama_models::cotama::local::State;
+/// use cotama_models::missions::faults::Moment;
+/// let asked = Moment::During(State::HandOver, Millis(500));
+/// assert_eq!(asked.to_string(), "0.500 s after HandOver is first reached");
+/// assert_eq!(Moment::Place(Millimetres(5_000)).to_string(), "at 5.0 m");
+/// assert_eq!(Moment::At(Millis(20_000)).to_string(), "at 20.000 s");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Moment {
+    /// Where the robot has come so far along the path.
+    Place(Millimetres),
+    /// So long after the start.
+    At(Millis),
+    /// So long after the local supervisor has come to a place for the first time.
+    During(local::State, Millis),
+}
+
+impl Moment {
+    /// The places of the local supervisor that a moment can name, with their names.
+    pub const STATES: [(&'static str, local::State); 5] = [
+        ("Planning", local::State::Planning),
+        ("Following", local::State::Following),
+        ("HandOver", local::State::HandOver),
+        ("Teleprogrammed", local::State::Teleprogrammed),
+        ("Teleoperated", local::State::Teleoperated),
+    ];
+
+    /// The name of a place of the local supervisor; none for those at rest.
+    pub fn state_name(state: local::State) -> Option<&'static str> {
+        Self::STATES.iter().find(|it| it.1 == state).map(|it| it.0)
+    }
+
+    /// What moments are sorted by.
+    pub(crate) fn key(self) -> (u8, u64) {
+        match self {
+            Self::Place(x) => (0, x.0),
+            Self::At(time) => (1, time.0),
+            Self::During(state, after) => (2 + state as u8, after.0),
+        }
+    }
+}
+
+impl std::fmt::Display for Moment {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let seconds = |it: Millis| format!("{}.{:03} s", it.0 / 1_000, it.0 % 1_000);
+        match *self {
+            Self::Place(x) => write!(f, "at {}.{} m", x.0 / 1_000, x.0 / 100 % 10),
+            Self::At(time) => write!(f, "at {}", seconds(time)),
+            Self::During(state, after) => {
+                let name = Self::state_name(state).unwrap_or("rest");
+                write!(f, "{} after {name} is first reached", seconds(after))
+            }
+        }
+    }
 }
 
 /// What happens.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum IncidentKind {
     /// Something fails; what that does to the signals is the business of who simulates it.
-    Failure(FailureMode),
+    Failure {
+        /// What.
+        mode: FailureMode,
+        /// Which module, if it is a failure of one module, whichever it is; of avoidance if none.
+        part: Option<Module>,
+        /// When it ends, if not by itself or by a [`Repair`](Self::Repair).
+        until: Option<Moment>,
+    },
     /// It ends, if it is under way. Whether the module is used again is for the supervisors to say.
     Repair(FailureMode),
     /// The operator answers the next request of the robot from there on.

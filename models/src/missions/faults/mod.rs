@@ -5,7 +5,7 @@ use cotama_core::units::{Millimetres, Millis};
 
 mod incidents;
 
-pub use incidents::{Answer, Incident, IncidentKind};
+pub use incidents::{Answer, Incident, IncidentKind, Moment};
 
 /// The format that a file of faults must name.
 pub const FORMAT: &str = "panorama-faults/1";
@@ -47,7 +47,7 @@ pub struct Faults {
     pub events: Vec<Event>,
     /// What happens anywhere.
     pub random: Vec<RandomEvent>,
-    /// What the supervisors of a supervised mission have to deal with, sorted by place; in files
+    /// What the supervisors of a supervised mission have to deal with, sorted by moment; in files
     /// these are events of the kinds `failure`, `repair` and `operator`. A plan, and a run without
     /// supervisors, knows nothing of them.
     pub incidents: Vec<Incident>,

@@ -3,10 +3,11 @@
 use super::entry::{Entry, Names, ids};
 use super::fields::{self, Fields, Sink};
 use super::incidents;
+use super::moments::{self, on_the_path};
 use crate::missions::definition::{Definition, Hardware, Zone};
 use crate::missions::diagnostic::{Diagnostic, MissionErrors};
 use crate::missions::faults::{
-    Event, EventKind, FORMAT, Faults, Incident, PowerError, RandomEvent, Run,
+    Event, EventKind, FORMAT, Faults, Incident, Moment, PowerError, RandomEvent, Run,
 };
 use crate::missions::known::{
     AT_LEAST_ZERO, EVENTS, INCIDENTS, PER_KM, PERIODS, POSITIVE, POWER_ERRORS, RANDOM_EVENTS, UNITS,
@@ -84,7 +85,7 @@ fn read(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Faults> {
         }
     }
     events.sort_by_key(|event| event.x);
-    incidents.sort_by_key(|incident| incident.x);
+    incidents.sort_by_key(|incident| incident.when.key());
     Some(Faults { power_errors: power_errors?, events, random: random??, incidents })
 }
 
@@ -135,7 +136,8 @@ enum Scripted {
 }
 
 fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
-    let x = fields.integer("x_mm", AT_LEAST_ZERO).map(Millimetres);
+    let timed = incidents::is_timed(&fields);
+    let x = if timed { None } else { place(&mut fields) };
     let kinds = [&EVENTS[..], &INCIDENTS].concat();
     let Some(kind) = fields.choice("kind", "event", &kinds) else {
         fields.abandon();
@@ -143,10 +145,13 @@ fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
     };
     if incidents::is_incident(&fields, kind) {
         let found = incidents::incident(&mut fields, kind, names);
-        on_the_path(&fields, x, names);
+        let timed = timed && kind == "failure";
+        let when = if timed { moments::start(&mut fields) } else { x.map(Moment::Place) };
+        on_the_path(&fields, "x_mm", x, names);
         fields.finish();
-        return Some(Scripted::Incident(Incident { x: x?, kind: found? }));
+        return Some(Scripted::Incident(Incident { when: when?, kind: found? }));
     }
+    let x = if timed { place(&mut fields) } else { x };
     let kind = match kind {
         "obstacle" => delay(&mut fields),
         "odometry" => extra(&mut fields),
@@ -159,20 +164,13 @@ fn event(mut fields: Fields<'_>, names: &Names<'_>) -> Option<Scripted> {
             back.map(|(hardware, units)| EventKind::Repair { hardware, units })
         }
     };
-    on_the_path(&fields, x, names);
+    on_the_path(&fields, "x_mm", x, names);
     fields.finish();
     Some(Scripted::Event(Event { x: x?, kind: kind? }))
 }
 
-fn on_the_path(fields: &Fields<'_>, x: Option<Millimetres>, names: &Names<'_>) {
-    if let (Some(x), Some(end)) = (x, names.path_length)
-        && x > end
-    {
-        let message = format!("the event at {x} lies behind the end of the path, {end}");
-        let help = format!("place it between 0 and {}", end.0);
-        fields
-            .report(Diagnostic::new(fields.span_of("x_mm"), message, "not on the path").help(help));
-    }
+fn place(fields: &mut Fields<'_>) -> Option<Millimetres> {
+    fields.integer("x_mm", AT_LEAST_ZERO).map(Millimetres)
 }
 
 fn random_event(mut fields: Fields<'_>, seen: &mut Vec<String>) -> Option<RandomEvent> {

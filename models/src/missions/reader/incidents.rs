@@ -2,6 +2,7 @@
 
 use super::entry::Names;
 use super::fields::Fields;
+use super::moments;
 use crate::cotama::{FailureMode, Module};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
 use crate::missions::faults::{Answer, IncidentKind};
@@ -12,6 +13,24 @@ use cotama_core::units::Millis;
 /// else about hardware.
 pub(super) fn is_incident(fields: &Fields<'_>, kind: &str) -> bool {
     INCIDENTS.contains(&kind) || (kind == "repair" && fields.has("mode"))
+}
+
+/// Whether an event says a time or a place of the local supervisor, not a place of the path.
+pub(super) fn is_timed(fields: &Fields<'_>) -> bool {
+    fields.has("t_ms") || fields.has("during")
+}
+
+/// The module of a failure of one module, if it is named.
+fn part(fields: &mut Fields<'_>, mode: FailureMode) -> Option<Option<Module>> {
+    let Some(name) = fields.optional_text("module").ok()? else { return Some(None) };
+    fields.index_of(&name, "module", Module::ALL.iter().map(|it| it.name()))?;
+    if !mode.rule().one_module {
+        let message = format!("{} is no failure of one module, whichever it is", mode.name());
+        let help = "leave `module` out: the row of the FMECA says what fails";
+        fields.report(Diagnostic::new(name.span, message, "not one module").help(help));
+        return None;
+    }
+    Some(Module::named(&name.value))
 }
 
 /// Reads what is left of an incident of this kind.
@@ -29,8 +48,13 @@ pub(super) fn incident(
     if kind != "operator" {
         let mode = fields.text("mode")?;
         fields.index_of(&mode, "failure mode", FailureMode::ALL.iter().map(|it| it.name()))?;
-        let incident = if kind == "failure" { IncidentKind::Failure } else { IncidentKind::Repair };
-        return FailureMode::named(&mode.value).map(incident);
+        let mode = FailureMode::named(&mode.value)?;
+        if kind == "repair" {
+            return Some(IncidentKind::Repair(mode));
+        }
+        let part = part(fields, mode);
+        let until = moments::end(fields, names);
+        return Some(IncidentKind::Failure { mode, part: part?, until: until? });
     }
     let delay = fields.integer("delay_ms", AT_LEAST_ZERO).map(Millis);
     let found = fields.texts("answers");

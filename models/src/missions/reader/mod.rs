@@ -5,6 +5,7 @@ mod faults;
 pub(crate) mod fields;
 mod incidents;
 mod mission;
+mod moments;
 mod path;
 mod supervision;
 

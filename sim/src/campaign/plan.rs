@@ -1,0 +1,210 @@
+//! What goes wrong in one run of a campaign: a list of faults, as data.
+
+use crate::faults_text::faults_text;
+use crate::supervised::{Answers, Injection, Script, When};
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::cotama::{FailureMode, Module};
+use cotama_models::missions::Definition;
+use cotama_models::missions::faults::{
+    Event, EventKind, Faults, Incident, IncidentKind, PowerError,
+};
+
+/// What goes wrong in one run.
+///
+/// A plan is data: it is drawn, mutated, shrunk and printed, and a run is a function of it. As a
+/// `panorama-faults/1` file it is read back by `cotama run` and `cotama replay`.
+///
+/// ```
+/// use cotama_core::units::Millimetres;
+/// use cotama_models::cotama::FailureMode;
+/// use cotama_models::missions::{Mission, embedded, faults::Faults};
+/// use cotama_sim::campaign::plan::{Fault, Plan};
+/// use cotama_sim::supervised::When;
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let lost = Fault::failure(When::Place(Millimetres(5_000)), FailureMode::Son2);
+/// let plan = Plan { faults: vec![lost] };
+/// let text = plan.to_toml(&mission);
+/// assert!(text.contains("x_mm = 5000\nkind = \"failure\"\nmode = \"SON2\""));
+/// let read = Faults::parse("plan.toml", &text, &mission).unwrap();
+/// assert_eq!(Plan::from(&read), plan);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Plan {
+    /// The faults; their order changes nothing where they differ in their moments.
+    pub faults: Vec<Fault>,
+}
+
+/// One thing that goes wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// A row of the FMECA, in a supervised mission.
+    Failure {
+        /// When it begins.
+        when: When,
+        /// The row.
+        mode: FailureMode,
+        /// The module, where the row is about one, whichever it is.
+        part: Option<Module>,
+        /// When it ends, if not by itself.
+        until: Option<When>,
+    },
+    /// What the operator answers to the first request from a place on.
+    Operator(Answers),
+    /// Something that happens at a place of a mission that is run by its plans alone.
+    Event(Event),
+    /// Real power differs from the modelled one in a zone of such a mission.
+    Power(PowerError),
+}
+
+impl Fault {
+    /// A failure that stays, of avoidance if the row is about one module, whichever it is.
+    pub const fn failure(when: When, mode: FailureMode) -> Self {
+        Self::Failure { when, mode, part: None, until: None }
+    }
+
+    /// What it is, without its moment: what two plans with the same cause share.
+    ///
+    /// ```
+    /// use cotama_core::units::Millis;
+    /// use cotama_models::cotama::{FailureMode, Module};
+    /// use cotama_sim::campaign::plan::Fault;
+    /// use cotama_sim::supervised::When;
+    /// let (when, until) = (When::At(Millis(7)), None);
+    /// let crash = Fault::Failure { when, mode: FailureMode::Sw1, part: Some(Module::Mcl), until };
+    /// assert_eq!(crash.name(), "SW1 of MCL");
+    /// ```
+    pub fn name(&self) -> String {
+        match self {
+            Self::Failure { mode, part: Some(part), .. } if mode.rule().one_module => {
+                format!("{} of {}", mode.name(), part.name())
+            }
+            Self::Failure { mode, .. } => mode.name().to_owned(),
+            Self::Operator(_) => "operator".to_owned(),
+            Self::Event(it) => match it.kind {
+                EventKind::Obstacle { .. } => "obstacle".to_owned(),
+                EventKind::Odometry { .. } => "odometry".to_owned(),
+                EventKind::Fault { hardware, units } => format!("hardware {hardware}:{units} lost"),
+                EventKind::Repair { hardware, units } => {
+                    format!("hardware {hardware}:{units} back")
+                }
+            },
+            Self::Power(it) => format!("power in zone {}", it.zone),
+        }
+    }
+}
+
+impl From<&Faults> for Plan {
+    /// What a file says, less its random events, which are drawn by each run.
+    fn from(faults: &Faults) -> Self {
+        let script = Script::from(faults);
+        let failure = |it: &Injection| Fault::Failure {
+            when: it.when,
+            mode: it.mode,
+            part: it.mode.rule().one_module.then_some(it.part),
+            until: it.until,
+        };
+        let failures = script.injections.iter().map(failure);
+        let answers = script.answers.into_iter().map(Fault::Operator);
+        let events = faults.events.iter().copied().map(Fault::Event);
+        let powers = faults.power_errors.iter().copied().map(Fault::Power);
+        Self { faults: failures.chain(answers).chain(events).chain(powers).collect() }
+    }
+}
+
+impl From<&Plan> for Faults {
+    fn from(plan: &Plan) -> Self {
+        let mut faults = Self::default();
+        for fault in &plan.faults {
+            match fault {
+                Fault::Failure { when, mode, part, until } => faults.incidents.push(Incident {
+                    when: *when,
+                    kind: IncidentKind::Failure { mode: *mode, part: *part, until: *until },
+                }),
+                Fault::Operator(it) => faults.incidents.push(Incident {
+                    when: When::Place(it.x),
+                    kind: IncidentKind::Operator { answers: it.answers.clone(), delay: it.delay },
+                }),
+                Fault::Event(it) => faults.events.push(*it),
+                // A file names each zone once; errors of one zone add up, as those of zones that
+                // overlap do.
+                Fault::Power(it) => match faults.power_errors.iter_mut().find(|o| o.zone == it.zone) {
+                    Some(other) => {
+                        let sum = other.permille.saturating_add(it.permille);
+                        other.permille = sum.clamp(-999, 10_000);
+                    }
+                    None => faults.power_errors.push(*it),
+                },
+            }
+        }
+        faults.events.sort_by_key(|it| it.x);
+        faults
+    }
+}
+
+impl From<&Plan> for Script {
+    fn from(plan: &Plan) -> Self {
+        let mut script = Self::default();
+        for fault in &plan.faults {
+            match fault {
+                Fault::Failure { when, mode, part, until } => {
+                    let it = Injection::new(*when, *mode);
+                    let (part, until) = (part.unwrap_or(it.part), *until);
+                    script.injections.push(Injection { part, until, ..it });
+                }
+                Fault::Operator(it) => script.answers.push(it.clone()),
+                Fault::Event(_) | Fault::Power(_) => {}
+            }
+        }
+        script
+    }
+}
+
+impl Plan {
+    /// As the text of a `panorama-faults/1` file.
+    pub fn to_toml(&self, mission: &Definition) -> String {
+        faults_text(&Faults::from(self), mission)
+    }
+
+    /// The names of its faults, sorted, each once: the signature of its cause.
+    pub fn signature(&self) -> String {
+        let mut names: Vec<_> = self.faults.iter().map(Fault::name).collect();
+        names.sort();
+        names.dedup();
+        if names.is_empty() { "nothing fails".to_owned() } else { names.join(" + ") }
+    }
+
+    /// The signature with the hardware and zones of a mission by their names.
+    pub fn named_signature(&self, mission: &Definition) -> String {
+        let name = |fault: &Fault| match fault {
+            Fault::Event(Event { kind, .. }) => match kind {
+                EventKind::Fault { hardware, units } | EventKind::Repair { hardware, units } => {
+                    let kinds = mission.hardware.get(*hardware);
+                    let what = kinds.map_or("hardware", |it| it.name.as_str());
+                    let lost = matches!(kind, EventKind::Fault { .. });
+                    format!("{units} {what} {}", if lost { "lost" } else { "back" })
+                }
+                _ => fault.name(),
+            },
+            Fault::Power(it) => {
+                let zone = mission.zones.get(it.zone).map_or("a zone", |it| it.id.as_str());
+                format!("power in {zone}")
+            }
+            _ => fault.name(),
+        };
+        let mut names: Vec<_> = self.faults.iter().map(name).collect();
+        names.sort();
+        names.dedup();
+        if names.is_empty() { "nothing fails".to_owned() } else { names.join(" + ") }
+    }
+}
+
+/// A place of the path in whole mm, as a moment.
+pub(super) const fn place(x_mm: u64) -> When {
+    When::Place(Millimetres(x_mm))
+}
+
+/// A time after the start in ms, as a moment.
+pub(super) const fn at(t_ms: u64) -> When {
+    When::At(Millis(t_ms))
+}

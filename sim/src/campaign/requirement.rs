@@ -1,0 +1,219 @@
+//! What must hold of every run, whatever fails.
+
+use super::plan::{Fault, Plan};
+use super::subject::Observed;
+use crate::run::Outcome;
+use cotama_models::cotama::FailureMode;
+use std::fmt;
+
+/// How far the robot may go on after its permit to move is gone, in mm: its braking distance from
+/// the speed of the experiment.
+pub const BRAKING_MM: u64 = 150;
+
+/// What must hold of a run.
+///
+/// ```
+/// use cotama_sim::campaign::requirement::Requirement;
+/// for text in ["completed", "in-time", "energy<=8640000", "never gs.abort"] {
+///     assert_eq!(text.parse::<Requirement>().unwrap().to_string(), text);
+/// }
+/// let error = "time < 5".parse::<Requirement>().unwrap_err();
+/// assert!(error.to_string().starts_with("`time < 5` is no requirement"));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Requirement {
+    /// The mission is completed within its limits.
+    Completed,
+    /// It is completed, or the robot stands safely.
+    NotFailed,
+    /// The robot never moves after it is safe.
+    StandsWhenSafe,
+    /// It brakes within [`BRAKING_MM`] when the permit to move is gone, unless a motor ran away.
+    Brakes,
+    /// It never moves without a module that it requires for longer than the failures of the run
+    /// take to be detected, decided and answered, one after the other: [`allowed_ms`].
+    InTime,
+    /// A number of the run is at most so much.
+    AtMost(Metric, u64),
+    /// A transition of the supervisors, as `gs.abort`, never fires.
+    Never(String),
+}
+
+/// A number of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Metric {
+    /// The time used, in ms.
+    Time,
+    /// The energy used, in mJ.
+    Energy,
+    /// How often the operator was asked.
+    Requests,
+    /// The longest time in ms that the robot moved without a module that it required.
+    Exposed,
+}
+
+impl Metric {
+    const ALL: [Self; 4] = [Self::Time, Self::Energy, Self::Requests, Self::Exposed];
+
+    /// Its name: `time`, `energy`, `requests`, `exposed`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Time => "time",
+            Self::Energy => "energy",
+            Self::Requests => "requests",
+            Self::Exposed => "exposed",
+        }
+    }
+
+    /// Its value in a run.
+    pub const fn of(self, run: &Observed) -> u64 {
+        match self {
+            Self::Time => run.time_ms,
+            Self::Energy => run.energy_mj,
+            Self::Requests => run.requests,
+            Self::Exposed => run.exposed_ms,
+        }
+    }
+}
+
+/// The time in ms that the failures of a plan allow the robot to move without a module: each alone
+/// is detected, decided and answered within two rounds of 100 ms, and a second later it stands; they
+/// may follow each other.
+pub fn allowed_ms(plan: &Plan) -> u64 {
+    let one = |mode: FailureMode| u64::from(mode.rule().latency_ms).max(2_000) + 1_200;
+    let failures = plan.faults.iter().filter_map(|it| match it {
+        Fault::Failure { mode, .. } => Some(one(*mode)),
+        _ => None,
+    });
+    failures.sum()
+}
+
+impl Requirement {
+    /// Whether it holds of a run.
+    pub fn holds(&self, plan: &Plan, run: &Observed) -> bool {
+        self.distance(plan, run) > 0
+    }
+
+    /// How far a run is from breaking it: a level for searches, in its own unit; 0 or less when it
+    /// is broken.
+    pub fn distance(&self, plan: &Plan, run: &Observed) -> i64 {
+        let left = |limit: u64, value: u64| {
+            let left = i128::from(limit) - i128::from(value) + 1;
+            i64::try_from(left).unwrap_or(i64::MIN)
+        };
+        match self {
+            Self::Completed => i64::from(run.outcome == Outcome::Completed),
+            Self::NotFailed => i64::from(run.outcome != Outcome::Failed),
+            Self::StandsWhenSafe => i64::from(!run.moved_when_safe),
+            Self::Brakes if run.ran_away => 1,
+            Self::Brakes => left(BRAKING_MM, run.braked_mm),
+            Self::InTime => left(allowed_ms(plan), run.exposed_ms),
+            Self::AtMost(metric, limit) => left(*limit, metric.of(run)),
+            Self::Never(transition) => i64::from(run.fired.binary_search(transition).is_err()),
+        }
+    }
+
+    /// Whether it speaks of supervisors.
+    pub const fn needs_supervisors(&self) -> bool {
+        matches!(
+            self,
+            Self::StandsWhenSafe
+                | Self::Brakes
+                | Self::InTime
+                | Self::Never(_)
+                | Self::AtMost(Metric::Requests | Metric::Exposed, _)
+        )
+    }
+
+    /// What it says, in words.
+    pub fn words(&self) -> String {
+        match self {
+            Self::Completed => "the mission is completed within its limits".into(),
+            Self::NotFailed => "the mission is completed, or the robot stands safely".into(),
+            Self::StandsWhenSafe => "the robot never moves after it is safe".into(),
+            Self::Brakes => format!(
+                "the robot stands within {BRAKING_MM} mm after its permit to move is gone, unless \
+                 a motor runs away"
+            ),
+            Self::InTime => "the robot never moves without a module that it requires for longer \
+                             than its failures take to be answered"
+                .into(),
+            Self::AtMost(metric, limit) => {
+                let (what, unit) = match metric {
+                    Metric::Time => ("the time used", " ms"),
+                    Metric::Energy => ("the energy used", " mJ"),
+                    Metric::Requests => ("the requests to the operator", ""),
+                    Metric::Exposed => ("the longest motion without a required module", " ms"),
+                };
+                let verb = if *metric == Metric::Requests { "are" } else { "is" };
+                format!("{what} {verb} at most {limit}{unit}")
+            }
+            Self::Never(transition) => format!("`{transition}` never fires"),
+        }
+    }
+}
+
+const PLAIN: [(&str, Requirement); 5] = [
+    ("completed", Requirement::Completed),
+    ("not-failed", Requirement::NotFailed),
+    ("stands-when-safe", Requirement::StandsWhenSafe),
+    ("brakes", Requirement::Brakes),
+    ("in-time", Requirement::InTime),
+];
+
+impl fmt::Display for Requirement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::AtMost(metric, limit) => write!(f, "{}<={limit}", metric.name()),
+            Self::Never(transition) => write!(f, "never {transition}"),
+            _ => {
+                let name = PLAIN.iter().find(|it| it.1 == *self).map_or("", |it| it.0);
+                f.write_str(name)
+            }
+        }
+    }
+}
+
+/// A text that is no requirement.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NoRequirement(String);
+
+impl fmt::Display for NoRequirement {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let names: Vec<_> = PLAIN.iter().map(|it| it.0).collect();
+        write!(
+            f,
+            "`{}` is no requirement; there are {}, METRIC<=NUMBER with time (ms), energy (mJ), \
+             requests or exposed (ms), and `never NET.TRANSITION`",
+            self.0.escape_debug(),
+            names.join(", ")
+        )
+    }
+}
+
+impl std::error::Error for NoRequirement {}
+
+impl std::str::FromStr for Requirement {
+    type Err = NoRequirement;
+
+    fn from_str(text: &str) -> Result<Self, NoRequirement> {
+        let no = || NoRequirement(text.to_owned());
+        if let Some((_, it)) = PLAIN.iter().find(|it| it.0 == text) {
+            return Ok(it.clone());
+        }
+        if let Some(transition) = text.strip_prefix("never ") {
+            let name = |it: &str| {
+                !it.is_empty() && it.bytes().all(|it| it.is_ascii_graphic() && it != b'"')
+            };
+            let parts = transition.split_once('.');
+            let fits = parts.is_some_and(|(net, it)| name(net) && name(it));
+            return if fits { Ok(Self::Never(transition.to_owned())) } else { Err(no()) };
+        }
+        let (name, limit) = text.split_once("<=").ok_or_else(no)?;
+        let metric = Metric::ALL.into_iter().find(|it| it.name() == name).ok_or_else(no)?;
+        if !limit.bytes().all(|it| it.is_ascii_digit()) {
+            return Err(no());
+        }
+        Ok(Self::AtMost(metric, limit.parse().map_err(|_| no())?))
+    }
+}

@@ -1,0 +1,212 @@
+//! What can go wrong in a mission, how likely it is drawn, and when: what every strategy draws from.
+
+use super::plan::{Fault, Plan, at, place};
+use crate::streams::Stream;
+use crate::supervised::When;
+use cotama_core::units::{Millimetres, Millis};
+use cotama_models::cotama::{FailureMode, Module, local};
+use cotama_models::missions::Mission;
+use cotama_models::missions::faults::{Event, EventKind, Moment, PowerError};
+
+/// What can go wrong in a mission.
+///
+/// ```
+/// use cotama_models::cotama::FailureMode;
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::space::{Rates, Space};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let space = Space::of(&mission, Rates::Even, 1..=3);
+/// assert_eq!(space.kinds.len(), FailureMode::ALL.len());
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Space {
+    /// What can go wrong, each with its weight.
+    pub kinds: Vec<Weighted>,
+    /// The fewest faults of a plan.
+    pub least: u64,
+    /// The most faults of a plan.
+    pub most: u64,
+    /// Where the path ends, in mm.
+    pub path_mm: u64,
+    /// Times are drawn below this, in ms.
+    pub time_ms: u64,
+    /// Whether supervisors decide: then a moment can be a time, or a place of the local one.
+    pub supervised: bool,
+}
+
+/// A kind of fault and how likely it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Weighted {
+    /// What.
+    pub kind: Kind,
+    /// How likely it is drawn, among the weights of all.
+    pub weight: u64,
+}
+
+/// A kind of fault, with the range of its parameters.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A row of the FMECA; of a row about one module, whichever it is, the module is drawn too.
+    Failure(FailureMode),
+    /// An obstacle, for 1 to 60 s (assumed).
+    Obstacle,
+    /// So much more path to drive, 0.1 to 5 m (assumed).
+    Odometry,
+    /// So many units of hardware fail.
+    Hardware {
+        /// The index of the hardware.
+        hardware: usize,
+        /// How many.
+        units: u8,
+    },
+    /// Power in a zone, from −10 % to +30 % of the modelled one (assumed).
+    Power {
+        /// The index of the zone.
+        zone: usize,
+    },
+}
+
+/// How kinds of faults are weighted.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Rates {
+    /// Each kind is as likely as each other: what searches well.
+    #[default]
+    Even,
+    /// By the mean times between failures of the FMECA, most of which are assumed: what estimates.
+    Fmeca,
+}
+
+impl Rates {
+    /// Its name: `even`, `fmeca`.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Even => "even",
+            Self::Fmeca => "fmeca",
+        }
+    }
+}
+
+/// The places of the local supervisor at which something may be drawn to fail.
+const STATES: [local::State; 5] = [
+    local::State::Planning,
+    local::State::Following,
+    local::State::HandOver,
+    local::State::Teleprogrammed,
+    local::State::Teleoperated,
+];
+/// A mean time between failures of 10 million hours has weight 1.
+const LONGEST_MTBF_MH: u64 = 10_000_000_000;
+
+impl Space {
+    /// What can go wrong in this mission: under supervisors every row of the FMECA, else obstacles,
+    /// wrong odometry, lost hardware, and power that differs by zone.
+    pub fn of(mission: &Mission, rates: Rates, faults: std::ops::RangeInclusive<u64>) -> Self {
+        let supervised = mission.supervisor().is_some();
+        let weight = |mode: FailureMode| match rates {
+            Rates::Even => 1,
+            Rates::Fmeca => {
+                (LONGEST_MTBF_MH / u64::from(mode.description().mtbf_mh).max(1)).max(1)
+            }
+        };
+        let kinds = if supervised {
+            let one = |it: &FailureMode| Weighted { kind: Kind::Failure(*it), weight: weight(*it) };
+            FailureMode::ALL.iter().map(one).collect()
+        } else {
+            let hardware = mission.hardware.iter().enumerate().flat_map(|(hardware, it)| {
+                (1..=it.units).map(move |units| Kind::Hardware { hardware, units })
+            });
+            let zones = (0..mission.zones.len()).map(|zone| Kind::Power { zone });
+            let kinds = [Kind::Obstacle, Kind::Odometry].into_iter().chain(hardware).chain(zones);
+            kinds.map(|kind| Weighted { kind, weight: 1 }).collect()
+        };
+        let (path_mm, limit) = (mission.path_length.0, mission.limits[0]);
+        let (least, most) = (*faults.start(), (*faults.end()).max(*faults.start()));
+        Self { kinds, least, most, path_mm, time_ms: (limit / 2).max(1), supervised }
+    }
+
+    /// Draws a plan of these kinds.
+    pub fn draw(&self, stream: &mut Stream, kinds: &[Weighted]) -> Plan {
+        let count = self.least + stream.below(self.most - self.least + 1);
+        Plan { faults: (0..count).map(|_| self.fault(stream, kinds)).collect() }
+    }
+
+    /// Draws one fault.
+    pub fn fault(&self, stream: &mut Stream, kinds: &[Weighted]) -> Fault {
+        let all: u64 = kinds.iter().map(|it| it.weight).sum();
+        let mut left = stream.below(all);
+        let chosen = kinds.iter().find(|it| {
+            let found = left < it.weight;
+            left = left.saturating_sub(it.weight);
+            found
+        });
+        let kind = chosen.map_or(Kind::Obstacle, |it| it.kind);
+        let when = self.moment(stream);
+        self.with(kind, when, stream)
+    }
+
+    /// A fault of this kind at this moment; its parameters are drawn.
+    pub fn with(&self, kind: Kind, when: When, stream: &mut Stream) -> Fault {
+        let x = if let Moment::Place(x) = when { x } else { Millimetres(0) };
+        let event = |kind| Fault::Event(Event { x, kind });
+        match kind {
+            Kind::Failure(mode) => {
+                let part = mode.rule().one_module.then(|| self.part(stream));
+                let until = (stream.below(4) == 0).then(|| self.end(when, stream));
+                Fault::Failure { when, mode, part, until }
+            }
+            Kind::Obstacle => {
+                event(EventKind::Obstacle { delay: Millis(1_000 * (1 + stream.below(60))) })
+            }
+            Kind::Odometry => {
+                event(EventKind::Odometry { extra: Millimetres(100 * (1 + stream.below(50))) })
+            }
+            Kind::Hardware { hardware, units } => event(EventKind::Fault { hardware, units }),
+            Kind::Power { zone } => {
+                let permille = i32::try_from(stream.below(401)).unwrap_or(0) - 100;
+                Fault::Power(PowerError { zone, permille })
+            }
+        }
+    }
+
+    /// Draws a module.
+    pub fn part(&self, stream: &mut Stream) -> Module {
+        Module::ALL[stream.below(Module::ALL.len() as u64) as usize]
+    }
+
+    /// Draws a moment: a place of the path, and under supervisors as often a time, or a place of
+    /// the local supervisor.
+    pub fn moment(&self, stream: &mut Stream) -> When {
+        if !self.supervised {
+            return place(stream.below(self.path_mm + 1));
+        }
+        match stream.below(3) {
+            0 => at(stream.below(self.time_ms)),
+            1 => place(stream.below(self.path_mm + 1)),
+            _ => {
+                let state = STATES[stream.below(STATES.len() as u64) as usize];
+                When::During(state, Millis(stream.below(20_000)))
+            }
+        }
+    }
+
+    /// Draws an end for what begins at a moment.
+    fn end(&self, begin: When, stream: &mut Stream) -> When {
+        match begin {
+            When::Place(x) => place((x.0 + 1 + stream.below(20_000)).min(self.path_mm)),
+            When::At(time) => at(time.0 + 1 + stream.below(120_000)),
+            When::During(state, after) => {
+                When::During(state, Millis(after.0 + 1 + stream.below(60_000)))
+            }
+        }
+    }
+
+    /// The moments of an abstract timeline: four places of the path, and under supervisors half a
+    /// second after each place of the local one is first reached.
+    pub fn timeline(&self) -> Vec<When> {
+        let places = [5, 30, 55, 80].map(|percent| place(self.path_mm * percent / 100));
+        let states = STATES.map(|state| When::During(state, Millis(500)));
+        let states = states.into_iter().filter(|_| self.supervised);
+        places.into_iter().chain(states).collect()
+    }
+}

@@ -1,0 +1,108 @@
+//! Which plan comes next: strategies behind one door.
+//!
+//! Runs are numbered, and a [block](BLOCK) of runs is drawn by one [`Draws`]. What a strategy learns
+//! stays in its block, so that blocks can be run in any order, on any thread or machine, and the
+//! plan of every run is a function of the seed and its number.
+
+mod covering;
+mod exhaustive;
+mod guided;
+mod uniform;
+
+pub use covering::Covering;
+pub use exhaustive::Exhaustive;
+pub use guided::Guided;
+pub use uniform::{Swarm, Uniform};
+
+use super::plan::Plan;
+use super::space::Space;
+use super::subject::Observed;
+use std::fmt;
+
+/// How many runs are drawn by one [`Draws`].
+pub const BLOCK: u64 = 1_000;
+
+/// Draws the plans of a campaign.
+pub trait Strategy: fmt::Debug + Send + Sync {
+    /// Draws the runs from `first` on, at most [`BLOCK`] of them, of the campaign with this seed.
+    fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's>;
+
+    /// How many different plans there are, if it counts them: it ends after these.
+    fn total(&self, _space: &Space) -> Option<u64> {
+        None
+    }
+
+    /// Whether runs are drawn independently of each other and of what they come to, so that the
+    /// share of failures among them estimates a probability.
+    fn estimates(&self) -> bool {
+        false
+    }
+}
+
+/// Draws the plans of one block, in the order of runs.
+pub trait Draws {
+    /// The next plan.
+    fn next(&mut self) -> Plan;
+
+    /// What became of the plan before; how far it was from breaking each requirement, the least.
+    fn learn(&mut self, _run: &Observed, _distance: i64) {}
+}
+
+/// The strategies by name.
+///
+/// ```
+/// use cotama_sim::campaign::strategy::StrategyName;
+/// let names = StrategyName::ALL.map(StrategyName::name);
+/// assert_eq!(names, ["uniform", "swarm", "pairwise", "three-way", "guided", "exhaustive"]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StrategyName {
+    /// [`Uniform`].
+    Uniform,
+    /// [`Swarm`].
+    Swarm,
+    /// [`Covering`] with any two values.
+    Pairwise,
+    /// [`Covering`] with any three values.
+    ThreeWay,
+    /// [`Guided`].
+    Guided,
+    /// [`Exhaustive`].
+    Exhaustive,
+}
+
+impl StrategyName {
+    /// All.
+    pub const ALL: [Self; 6] = [
+        Self::Uniform,
+        Self::Swarm,
+        Self::Pairwise,
+        Self::ThreeWay,
+        Self::Guided,
+        Self::Exhaustive,
+    ];
+
+    /// Its name.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Uniform => "uniform",
+            Self::Swarm => "swarm",
+            Self::Pairwise => "pairwise",
+            Self::ThreeWay => "three-way",
+            Self::Guided => "guided",
+            Self::Exhaustive => "exhaustive",
+        }
+    }
+
+    /// The strategy.
+    pub fn strategy(self, space: &Space) -> Box<dyn Strategy> {
+        match self {
+            Self::Uniform => Box::new(Uniform),
+            Self::Swarm => Box::new(Swarm),
+            Self::Pairwise => Box::new(Covering::new(space, 2)),
+            Self::ThreeWay => Box::new(Covering::new(space, 3)),
+            Self::Guided => Box::new(Guided),
+            Self::Exhaustive => Box::new(Exhaustive),
+        }
+    }
+}
