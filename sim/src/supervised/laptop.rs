@@ -167,6 +167,11 @@ impl Laptop {
         seen
     }
 
+    /// Whether each further period under these disturbances is as the last one was.
+    pub(super) fn is_steady(&self, disturbed: Disturbances) -> bool {
+        self.steady == Some(disturbed)
+    }
+
     /// The age of what a module made last; none before it made anything.
     pub(super) fn age(&self, module: Module) -> Option<Millis> {
         let at = COSTS.iter().position(|it| it.module == module)?;

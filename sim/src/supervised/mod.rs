@@ -368,6 +368,9 @@ fn finish<P: Program<W, CLOCKS, S> + Clone, const W: usize, const S: usize, R: R
         if world.period() {
             break;
         }
+        if !R::WANTED {
+            world.pass_over();
+        }
     }
     if R::WANTED {
         world.record(&mut recorded, period, recorder);

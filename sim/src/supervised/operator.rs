@@ -80,6 +80,16 @@ impl Operator {
         })
     }
 
+    /// Until when he says nothing new while all stays as it is, but for the goal of the drive.
+    pub(super) fn waits_until(&self, now: Millis) -> Option<Millis> {
+        let end = Millis(self.since.0.saturating_add(self.delay.0));
+        match self.next.front() {
+            _ if end > now => Some(end),
+            None | Some(Answer::Goal) => Some(Millis(u64::MAX)),
+            Some(_) => None,
+        }
+    }
+
     /// A request reaches him.
     fn hear(&mut self, view: View) {
         let scripted = self.script.front().is_some_and(|it| it.x <= view.x);

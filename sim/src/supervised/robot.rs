@@ -40,6 +40,25 @@ impl Robot {
         self.speed_mm_s = if self.x_um == end { 0 } else { after };
     }
 
+    /// Whether it has gone on evenly since it was as before, for this time.
+    pub fn is_steady_since(&self, before: &Self, time: Millis) -> bool {
+        let way = before.speed_mm_s.saturating_mul(time.0);
+        self.speed_mm_s == before.speed_mm_s && self.x_um == before.x_um.saturating_add(way)
+    }
+
+    /// Goes on evenly for so many times this time.
+    pub(super) fn glide(&mut self, times: u64, time: Millis) {
+        self.x_um += self.speed_mm_s * time.0 * times;
+    }
+
+    /// How often it can go on evenly for this time and still be before a place; no matter how often
+    /// if it stands before it, and none if it is not before it now.
+    pub(super) fn times_before(&self, place: Millimetres, time: Millis) -> Option<u64> {
+        let step = self.speed_mm_s.saturating_mul(time.0);
+        let left = place.0.saturating_mul(1000).checked_sub(self.x_um + 1)?;
+        Some(left.checked_div(step).unwrap_or(u64::MAX))
+    }
+
     /// Stands at once: motors without power on a level floor.
     pub fn stand(&mut self) {
         self.speed_mm_s = 0;

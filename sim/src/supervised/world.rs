@@ -25,6 +25,7 @@ use objective::Objective;
 
 mod objective;
 mod observers;
+mod passing;
 mod records;
 mod telling;
 
@@ -93,6 +94,8 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// Quality of what was driven, in thousandths per mm.
     quality: u64,
     run: Run,
+    /// Nothing happened in the last period: see `passing`.
+    calm: bool,
 }
 
 impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, W, S> {
@@ -150,18 +153,23 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 braked: Millimetres(0),
                 moved_when_safe: false,
             },
+            calm: false,
         })
     }
 
     /// One period; whether the mission is over.
     pub(super) fn period(&mut self) -> bool {
+        let (before, adjusted) = (self.robot, self.decider.requests().adjusted);
+        self.calm = true;
         self.fail();
         self.travel();
+        self.calm &= self.thinks() && self.robot.is_steady_since(&before, PERIOD);
         if self.thinks() {
             let seen = self.compute();
             self.observe(seen);
             self.take_a_round();
         }
+        self.calm &= self.decider.requests().adjusted == adjusted;
         self.now.0 += PERIOD.0;
         let end = match self.objective() {
             Objective::Done => Some(self.accomplished()),
@@ -225,6 +233,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if past(time));
             failure.over |= by_itself || failure.until.is_some_and(due);
         }
+        self.calm &= fail.is_empty();
         for Injection { mode, part, until, .. } in fail {
             let part = Modules::of(&[part]);
             self.failures.push(Failure {
@@ -268,6 +277,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
             }
         }
         let seen = self.laptop.work(disturbed);
+        self.calm &= self.laptop.is_steady(disturbed) && !disturbed.hiccup;
         let used = runs.facts().required.has(Module::Mcl) && self.robot.speed().0 > 0;
         if let (true, Some(age)) = (used, self.laptop.age(Module::Mcl)) {
             self.run.oldest_pose = self.run.oldest_pose.max(age);

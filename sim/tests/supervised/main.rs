@@ -10,6 +10,7 @@ mod matrix;
 mod observers;
 mod other_missions;
 mod pairs;
+mod passing;
 mod recovery;
 mod rules;
 mod seven_points;

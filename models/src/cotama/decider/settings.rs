@@ -46,6 +46,15 @@ impl Settings {
         }
     }
 
+    /// Whether time alone changes nothing of what they leave.
+    pub(super) fn stay(&self, now: Millis, up: Flags) -> bool {
+        self.0.iter().all(|it| {
+            let gone = now.0.saturating_sub(it.seen.0);
+            let is_up = !it.flags.common(up).is_empty();
+            !it.changed || is_up || gone >= u64::from(Adjustment::HOLD_MS)
+        })
+    }
+
     /// What they leave of speed and quality.
     pub(super) fn effect(&self, now: Millis, mode: Mode) -> Adjusted {
         let lasts = |it: &Setting| {

@@ -26,6 +26,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         let part = if scheduler.part.is_empty() { first } else { scheduler.part };
         let works = self.works();
         let perceived = Perceived { raised, lowered: self.newly_lowered(), part, works };
+        self.calm &= raised.is_empty() && perceived.lowered.is_empty();
         let at = self.progress();
         let mut rest = Rest {
             drives: matches!(self.objective(), super::Objective::Drives(_)),

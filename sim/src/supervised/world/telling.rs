@@ -31,6 +31,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             let silence: Vec<_> = self.silence().into_iter().collect();
             self.note_finding(&finding, &silence, silence.first().copied());
         }
+        self.calm &= round.told.is_none() && round.finding.is_none() && seen.is_empty();
         for it in &seen {
             self.note(it);
         }
