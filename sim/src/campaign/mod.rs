@@ -8,9 +8,16 @@
 //! function of the seed: neither threads nor [shards](run::Shard) change it.
 #![allow(clippy::cast_precision_loss)] // numbers of runs need no more than 52 bits
 
+pub mod compare;
+pub mod findings;
 pub mod plan;
+pub mod rare;
 pub mod requirement;
+pub mod results;
+pub mod run;
+pub mod shrink;
 pub mod space;
 pub mod statistics;
 pub mod strategy;
 pub mod subject;
+pub mod testing;

@@ -128,13 +128,15 @@ impl From<&Plan> for Faults {
                 Fault::Event(it) => faults.events.push(*it),
                 // A file names each zone once; errors of one zone add up, as those of zones that
                 // overlap do.
-                Fault::Power(it) => match faults.power_errors.iter_mut().find(|o| o.zone == it.zone) {
-                    Some(other) => {
-                        let sum = other.permille.saturating_add(it.permille);
-                        other.permille = sum.clamp(-999, 10_000);
+                Fault::Power(it) => {
+                    match faults.power_errors.iter_mut().find(|o| o.zone == it.zone) {
+                        Some(other) => {
+                            let sum = other.permille.saturating_add(it.permille);
+                            other.permille = sum.clamp(-999, 10_000);
+                        }
+                        None => faults.power_errors.push(*it),
                     }
-                    None => faults.power_errors.push(*it),
-                },
+                }
             }
         }
         faults.events.sort_by_key(|it| it.x);

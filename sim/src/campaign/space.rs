@@ -105,9 +105,7 @@ impl Space {
         let supervised = mission.supervisor().is_some();
         let weight = |mode: FailureMode| match rates {
             Rates::Even => 1,
-            Rates::Fmeca => {
-                (LONGEST_MTBF_MH / u64::from(mode.description().mtbf_mh).max(1)).max(1)
-            }
+            Rates::Fmeca => (LONGEST_MTBF_MH / u64::from(mode.description().mtbf_mh).max(1)).max(1),
         };
         let kinds = if supervised {
             let one = |it: &FailureMode| Weighted { kind: Kind::Failure(*it), weight: weight(*it) };

@@ -165,7 +165,8 @@ impl<'m> Subject<'m> {
             Robot::Plain(simulation) => plain(simulation, plan),
             Robot::Supervised(it) => {
                 // There is a plan at the start: that does not depend on what fails later.
-                it.run(&Script::from(plan)).map_or_else(|_| Observed::nothing(), |it| Observed::of(&it))
+                it.run(&Script::from(plan))
+                    .map_or_else(|_| Observed::nothing(), |it| Observed::of(&it))
             }
         }
     }
@@ -273,7 +274,9 @@ pub fn state_name(state: local::State) -> &'static str {
 
 fn feature(kind: &str, numbers: &[u64]) -> u64 {
     numbers.iter().fold(fnv1a(kind.as_bytes()), |hash, it| {
-        (hash ^ it.wrapping_mul(0x9e37_79b9_7f4a_7c15)).rotate_left(23).wrapping_mul(0x0100_0000_01b3)
+        (hash ^ it.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+            .rotate_left(23)
+            .wrapping_mul(0x0100_0000_01b3)
     })
 }
 

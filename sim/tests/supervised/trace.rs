@@ -91,8 +91,13 @@ fn a_changed_trace_is_not_identical() {
 }
 
 fn incident() -> impl Strategy<Value = Incident> {
-    let failure = prop::sample::select(FailureMode::ALL).prop_map(|mode| IncidentKind::Failure { mode, part: None, until: None });
-    (0u64..80_000, failure).prop_map(|(x, kind)| Incident { when: Moment::Place(Millimetres(x)), kind })
+    let failure = prop::sample::select(FailureMode::ALL).prop_map(|mode| IncidentKind::Failure {
+        mode,
+        part: None,
+        until: None,
+    });
+    (0u64..80_000, failure)
+        .prop_map(|(x, kind)| Incident { when: Moment::Place(Millimetres(x)), kind })
 }
 
 fn answers() -> impl Strategy<Value = Incident> {

@@ -1,7 +1,7 @@
 //! Reading the incidents of a script: failures, repairs, and what the operator answers.
 
 use super::entry::Names;
-use super::fields::Fields;
+use super::fields::{Fields, Reported};
 use super::moments;
 use crate::cotama::{FailureMode, Module};
 use crate::missions::diagnostic::{Diagnostic, Spanned};
@@ -21,16 +21,17 @@ pub(super) fn is_timed(fields: &Fields<'_>) -> bool {
 }
 
 /// The module of a failure of one module, if it is named.
-fn part(fields: &mut Fields<'_>, mode: FailureMode) -> Option<Option<Module>> {
-    let Some(name) = fields.optional_text("module").ok()? else { return Some(None) };
-    fields.index_of(&name, "module", Module::ALL.iter().map(|it| it.name()))?;
+fn part(fields: &mut Fields<'_>, mode: FailureMode) -> Result<Option<Module>, Reported> {
+    let Some(name) = fields.optional_text("module")? else { return Ok(None) };
+    let names = Module::ALL.iter().map(|it| it.name());
+    fields.index_of(&name, "module", names).ok_or(Reported)?;
     if !mode.rule().one_module {
         let message = format!("{} is no failure of one module, whichever it is", mode.name());
         let help = "leave `module` out: the row of the FMECA says what fails";
         fields.report(Diagnostic::new(name.span, message, "not one module").help(help));
-        return None;
+        return Err(Reported);
     }
-    Some(Module::named(&name.value))
+    Ok(Module::named(&name.value))
 }
 
 /// Reads what is left of an incident of this kind.
@@ -54,7 +55,7 @@ pub(super) fn incident(
         }
         let part = part(fields, mode);
         let until = moments::end(fields, names);
-        return Some(IncidentKind::Failure { mode, part: part?, until: until? });
+        return Some(IncidentKind::Failure { mode, part: part.ok()?, until: until.ok()? });
     }
     let delay = fields.integer("delay_ms", AT_LEAST_ZERO).map(Millis);
     let found = fields.texts("answers");

@@ -2,7 +2,7 @@
 //! local supervisor.
 
 use super::entry::Names;
-use super::fields::Fields;
+use super::fields::{Fields, Reported};
 use crate::missions::diagnostic::Diagnostic;
 use crate::missions::faults::Moment;
 use crate::missions::known::AT_LEAST_ZERO;
@@ -16,24 +16,27 @@ const END: Keys = ["until_x_mm", "until_t_ms", "until_during", "until_after_ms"]
 
 /// When a failure begins, where it is not by place alone.
 pub(super) fn start(fields: &mut Fields<'_>) -> Option<Moment> {
-    moment(fields, START)?
+    moment(fields, START).ok()?
 }
 
 /// When a failure ends, if it is said.
-pub(super) fn end(fields: &mut Fields<'_>, names: &Names<'_>) -> Option<Option<Moment>> {
+pub(super) fn end(fields: &mut Fields<'_>, names: &Names<'_>) -> Result<Option<Moment>, Reported> {
     let end = moment(fields, END)?;
     if let Some(Moment::Place(x)) = end {
         on_the_path(fields, END[0], Some(x), names);
     }
-    Some(end)
+    Ok(end)
 }
 
 /// The moment that one of the keys says; an error when two do.
-fn moment(fields: &mut Fields<'_>, [x, t, during, after]: Keys) -> Option<Option<Moment>> {
-    let place = fields.optional_integer(x, AT_LEAST_ZERO).map(|it| it.map(Millimetres)).ok();
-    let time = fields.optional_integer(t, AT_LEAST_ZERO).map(|it| it.map(Millis)).ok();
-    let state = fields.optional_text(during).ok();
-    let wait = fields.optional_integer(after, AT_LEAST_ZERO).map(|it| it.map(Millis)).ok();
+fn moment(
+    fields: &mut Fields<'_>,
+    [x, t, during, after]: Keys,
+) -> Result<Option<Moment>, Reported> {
+    let place = fields.optional_integer(x, AT_LEAST_ZERO).map(|it| it.map(Millimetres));
+    let time = fields.optional_integer(t, AT_LEAST_ZERO).map(|it| it.map(Millis));
+    let state = fields.optional_text(during);
+    let wait = fields.optional_integer(after, AT_LEAST_ZERO).map(|it| it.map(Millis));
     let (place, time, state, wait) = (place?, time?, state?, wait?);
     let said = [place.is_some(), time.is_some(), state.is_some()];
     if said.into_iter().filter(|it| *it).count() > 1 {
@@ -41,20 +44,20 @@ fn moment(fields: &mut Fields<'_>, [x, t, during, after]: Keys) -> Option<Option
         let key = if time.is_some() { t } else { during };
         let help = "leave out all but one";
         fields.report(Diagnostic::new(fields.span_of(key), message, "said twice").help(help));
-        return None;
+        return Err(Reported);
     }
     if let (None, Some(_)) = (&state, wait) {
         let message = format!("`{after}` is counted from a place of the local supervisor");
         let help = format!("add `{during}`, or write `{t}`");
         fields.report(Diagnostic::new(fields.span_of(after), message, "since when?").help(help));
-        return None;
+        return Err(Reported);
     }
     let Some(state) = state else {
-        return Some(place.map(Moment::Place).or(time.map(Moment::At)));
+        return Ok(place.map(Moment::Place).or(time.map(Moment::At)));
     };
     let names = Moment::STATES.iter().map(|it| it.0);
-    let at = fields.index_of(&state, "place of the local supervisor", names)?;
-    Some(Some(Moment::During(Moment::STATES[at].1, wait.unwrap_or(Millis(0)))))
+    let at = fields.index_of(&state, "place of the local supervisor", names).ok_or(Reported)?;
+    Ok(Some(Moment::During(Moment::STATES[at].1, wait.unwrap_or(Millis(0)))))
 }
 
 /// Reports a place of the key that is behind the end of the path.
@@ -69,7 +72,6 @@ pub(super) fn on_the_path(
     {
         let message = format!("the event at {x} lies behind the end of the path, {end}");
         let help = format!("place it between 0 and {}", end.0);
-        fields
-            .report(Diagnostic::new(fields.span_of(key), message, "not on the path").help(help));
+        fields.report(Diagnostic::new(fields.span_of(key), message, "not on the path").help(help));
     }
 }

@@ -44,6 +44,7 @@ pub fn incomplete_beta(a: f64, b: f64, x: f64) -> f64 {
     front * fraction(a, b, x)
 }
 
+#[allow(clippy::many_single_char_names, reason = "the letters of the formula")]
 fn fraction(a: f64, b: f64, x: f64) -> f64 {
     const TINY: f64 = 1e-300;
     /// So many terms suffice for parameters up to 10^9.
@@ -74,7 +75,8 @@ pub fn quantile(a: f64, b: f64, probability: f64) -> f64 {
     let (mut low, mut high) = (0.0, 1.0);
     // Small answers need steps by their size: halve the exponent first.
     for _ in 0..200 {
-        let middle: f64 = if low == 0.0 && high > 1e-12 { high / 16.0 } else { (low + high) / 2.0 };
+        let middle: f64 =
+            if low == 0.0 && high > 1e-12 { high / 16.0 } else { f64::midpoint(low, high) };
         if middle <= low || middle >= high {
             break;
         }
@@ -84,7 +86,7 @@ pub fn quantile(a: f64, b: f64, probability: f64) -> f64 {
             high = middle;
         }
     }
-    (low + high) / 2.0
+    f64::midpoint(low, high)
 }
 
 #[cfg(test)]

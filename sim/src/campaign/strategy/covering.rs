@@ -25,8 +25,10 @@ impl Covering {
     pub fn new(space: &Space, strength: u32) -> Self {
         let factors = Factors::of(space);
         let values = factors.widths().max().unwrap_or(1).max(factors.count() as u64);
-        let is_prime = |it: &u64| (2..).take_while(|d| d * d <= *it).all(|d| it % d != 0);
-        let prime = (values.max(2)..).find(is_prime).unwrap_or(2);
+        let is_prime = |it: &u64| (2..=it.isqrt()).all(|d| !it.is_multiple_of(d));
+        // Between a number and its double lies a prime (Bertrand, Chebyshev).
+        let least = values.max(2);
+        let prime = (least..=2 * least).find(is_prime).unwrap_or(least);
         Self { prime, strength: strength.clamp(2, 3) }
     }
 
@@ -81,6 +83,6 @@ impl Draws for Rows<'_> {
         self.run += 1;
         let values =
             self.factors.widths().zip(0..).map(|(width, at)| self.array.value(run, at) % width);
-        plan(self.space, &self.factors, &values.collect::<Vec<_>>(), &self.streams, run)
+        plan(self.space, &self.factors, &values.collect::<Vec<_>>(), self.streams, run)
     }
 }

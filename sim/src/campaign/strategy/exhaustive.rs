@@ -43,7 +43,7 @@ pub(super) fn plan(
     space: &Space,
     factors: &Factors,
     values: &[u64],
-    streams: &Streams,
+    streams: Streams,
     run: u64,
 ) -> Plan {
     let mut stream = of_run(streams, run);
@@ -82,6 +82,6 @@ impl Draws for All<'_> {
             it
         };
         let values: Vec<_> = self.factors.widths().map(digit).collect();
-        plan(self.space, &self.factors, &values, &self.streams, run)
+        plan(self.space, &self.factors, &values, self.streams, run)
     }
 }

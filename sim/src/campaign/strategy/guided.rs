@@ -46,7 +46,7 @@ struct Corpus<'s> {
 
 impl Draws for Corpus<'_> {
     fn next(&mut self) -> Plan {
-        let mut stream = of_run(&self.streams, self.run);
+        let mut stream = of_run(self.streams, self.run);
         self.run += 1;
         self.tried = if self.kept.is_empty() || stream.below(FRESH) == 0 {
             self.space.draw(&mut stream, &self.space.kinds)

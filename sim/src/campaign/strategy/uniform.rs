@@ -43,7 +43,7 @@ struct Independent<'s> {
 
 impl Draws for Independent<'_> {
     fn next(&mut self) -> Plan {
-        let mut stream = of_run(&self.streams, self.run);
+        let mut stream = of_run(self.streams, self.run);
         self.run += 1;
         if !self.swarm {
             return self.space.draw(&mut stream, &self.space.kinds);
@@ -54,13 +54,12 @@ impl Draws for Independent<'_> {
 }
 
 /// The random numbers of a run.
-pub(super) fn of_run(streams: &Streams, run: u64) -> Stream {
+pub(super) fn of_run(streams: Streams, run: u64) -> Stream {
     streams.stream(&format!("run {run}"))
 }
 
 /// The kinds of one swarm: at least one.
 fn swarm(space: &Space, stream: &mut Stream) -> Vec<Weighted> {
-    let kinds: Vec<_> =
-        space.kinds.iter().copied().filter(|_| stream.below(2) == 0).collect();
+    let kinds: Vec<_> = space.kinds.iter().copied().filter(|_| stream.below(2) == 0).collect();
     if kinds.is_empty() { space.kinds.clone() } else { kinds }
 }

@@ -79,7 +79,11 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         self.waiting.iter().for_each(|it| due(it.when));
         for it in self.failures.iter().filter(|it| !it.over) {
             it.until.into_iter().for_each(&mut due);
-            changes(it).into_iter().flatten().filter(|at| *at >= now).for_each(|at| due(When::At(at)));
+            changes(it)
+                .into_iter()
+                .flatten()
+                .filter(|at| *at >= now)
+                .for_each(|at| due(When::At(at)));
         }
         if let Some(border) = self.next_border(robot.x()) {
             due(When::Place(border));

@@ -1,0 +1,105 @@
+//! Policies over the same fault plans.
+
+use super::run::{Campaign, Settings, Shard};
+use super::statistics::{
+    Difference, Interval, clopper_pearson, mcnemar, mean_interval, paired_difference,
+};
+use super::subject::{Policy, Subject, Unready};
+use crate::run::Outcome;
+use cotama_models::missions::Mission;
+use std::ops::ControlFlow;
+
+/// What a policy comes to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Compared {
+    /// Its name.
+    pub name: String,
+    /// How many runs were completed, ended safely, and failed.
+    pub outcomes: [u64; 3],
+    /// The probability that a mission is completed.
+    pub success: Interval,
+    /// The mean time used in ms, energy in mJ, requests to the operator and plans made again.
+    pub means: [Interval; 4],
+    /// Against the first policy; none of the first.
+    pub against: Option<Against>,
+}
+
+/// The difference to the first policy.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Against {
+    /// In success.
+    pub success: Difference,
+    /// In the means.
+    pub means: [Interval; 4],
+}
+
+/// Whether a run was completed, and its numbers.
+type Row = (bool, [f64; 4]);
+
+/// Runs the same plans with each policy, on so many threads.
+///
+/// # Errors
+/// An [`Unready`] for a mission that cannot be run by one of them.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::{compare::compare, run::Settings, subject::Policy};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let rigid = Policy { rigid: true, ..Policy::default() };
+/// let policies = [("rigid".to_owned(), rigid), ("rule".to_owned(), Policy::default())];
+/// let settings = Settings { runs: 200, ..Settings::new(false) };
+/// let found = compare(&mission, &policies, &settings, 2).unwrap();
+/// assert!(found[1].outcomes[0] > found[0].outcomes[0]);
+/// assert!(found[1].against.as_ref().unwrap().success.success.low > 0.0);
+/// ```
+pub fn compare(
+    mission: &Mission,
+    policies: &[(String, Policy)],
+    settings: &Settings,
+    jobs: usize,
+) -> Result<Vec<Compared>, Unready> {
+    /// How often each interval holds the truth.
+    const CONFIDENCE: f64 = 0.95;
+    let mut first: Vec<Row> = Vec::new();
+    let mut found = Vec::new();
+    for (name, policy) in policies {
+        let campaign = Campaign::new(Subject::new(mission, *policy)?, settings.clone());
+        let (mut rows, mut outcomes) = (Vec::new(), [0; 3]);
+        campaign.run(Shard::ALL, 0, jobs, &mut |lines| {
+            for it in lines {
+                outcomes[it.outcome as usize] += 1;
+                let numbers = [it.time_ms, it.energy_mj, it.requests, it.replans];
+                rows.push((it.outcome == Outcome::Completed, numbers.map(|it| it as f64)));
+            }
+            ControlFlow::Continue(())
+        });
+        let runs = rows.len() as u64;
+        let column = |axis: usize| rows.iter().map(|it| it.1[axis]).collect::<Vec<_>>();
+        let against = (!first.is_empty()).then(|| {
+            let only = |mine: bool| {
+                let pairs = first.iter().zip(&rows);
+                pairs.filter(|(a, b)| a.0 != b.0 && b.0 == mine).count() as u64
+            };
+            let pairs = |axis: usize| {
+                let pairs = first.iter().zip(&rows);
+                pairs.map(|(a, b)| (a.1[axis], b.1[axis])).collect::<Vec<_>>()
+            };
+            Against {
+                success: mcnemar(only(false), only(true), runs, CONFIDENCE),
+                means: [0, 1, 2, 3].map(|axis| paired_difference(&pairs(axis), CONFIDENCE)),
+            }
+        });
+        found.push(Compared {
+            name: name.clone(),
+            outcomes,
+            success: clopper_pearson(outcomes[0], runs, CONFIDENCE),
+            means: [0, 1, 2, 3].map(|axis| mean_interval(&column(axis), CONFIDENCE)),
+            against,
+        });
+        if first.is_empty() {
+            first = rows;
+        }
+    }
+    Ok(found)
+}

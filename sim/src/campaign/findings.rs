@@ -1,0 +1,170 @@
+//! Failing runs made small and put together by their cause.
+
+use super::plan::{Fault, Plan};
+use super::requirement::Requirement;
+use super::results::Tally;
+use super::shrink::shrink;
+use super::subject::{Observed, Subject, state_name};
+use cotama_models::missions::faults::{EventKind, Faults, Moment};
+use cotama_models::missions::{Definition, Mission};
+use std::fmt::Write;
+
+/// Failing runs with one cause: their shrunk plans have the same faults.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Cluster {
+    /// The requirement that they break.
+    pub requirement: Requirement,
+    /// The faults of the cause.
+    pub signature: String,
+    /// The runs, of those that were shrunk.
+    pub runs: Vec<u64>,
+    /// The smallest plan of any of them: the fewest faults, then the shortest text.
+    pub plan: Plan,
+    /// The scenario: a commented `panorama-faults/1` file.
+    pub scenario: String,
+}
+
+/// Failing runs by their causes.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Findings {
+    /// The most frequent first.
+    pub clusters: Vec<Cluster>,
+    /// How many failing runs were shrunk.
+    pub shrunk: u64,
+    /// How many runs that took, and the most that one took.
+    pub cost: (u64, u64),
+}
+
+impl Findings {
+    /// Shrinks at most so many kept runs of each requirement.
+    pub fn of(
+        subject: &Subject<'_>,
+        requirements: &[Requirement],
+        kept: &Tally,
+        most: usize,
+    ) -> Self {
+        let (mission, mut found) = (subject.mission(), Self::default());
+        for requirement in requirements {
+            let lines = kept.kept.get(&requirement.to_string()).map_or(&[][..], Vec::as_slice);
+            for line in lines.iter().take(most) {
+                let Some(text) = &line.plan else { continue };
+                let Ok(faults) = Faults::parse("a result", text, mission) else { continue };
+                let plan = Plan::from(&faults);
+                let shrunk = shrink(subject, requirement, &plan);
+                found.shrunk += 1;
+                found.cost = (found.cost.0 + shrunk.runs, found.cost.1.max(shrunk.runs));
+                found.put(requirement, line.run, plan.faults.len(), shrunk.plan, subject);
+            }
+        }
+        found.clusters.sort_by(|a, b| {
+            let key = |it: &Cluster| (std::cmp::Reverse(it.runs.len()), it.runs[0]);
+            a.requirement.cmp(&b.requirement).then(key(a).cmp(&key(b)))
+        });
+        found
+    }
+
+    fn put(
+        &mut self,
+        what: &Requirement,
+        run: u64,
+        from: usize,
+        plan: Plan,
+        subject: &Subject<'_>,
+    ) {
+        let signature = plan.named_signature(subject.mission());
+        let size = |plan: &Plan| (plan.faults.len(), compact(plan, subject.mission()).len());
+        let scenario = |plan: &Plan| scenario(plan, what, subject, run, from);
+        let same = |it: &&mut Cluster| it.requirement == *what && it.signature == signature;
+        if let Some(cluster) = self.clusters.iter_mut().find(same) {
+            cluster.runs.push(run);
+            if size(&plan) < size(&cluster.plan) {
+                (cluster.scenario, cluster.plan) = (scenario(&plan), plan);
+            }
+            return;
+        }
+        let (scenario, requirement) = (scenario(&plan), what.clone());
+        self.clusters.push(Cluster { requirement, signature, runs: vec![run], plan, scenario });
+    }
+}
+
+/// A plan as a commented scenario: what it breaks, what happened, and the faults, a line each.
+pub fn scenario(
+    plan: &Plan,
+    requirement: &Requirement,
+    subject: &Subject<'_>,
+    run: u64,
+    from: usize,
+) -> String {
+    let observed = subject.run(plan);
+    let mut text = format!("# Breaks `{requirement}`: {}.\n", requirement.words());
+    let fault = |count: usize| if count == 1 { "fault" } else { "faults" };
+    let count = plan.faults.len();
+    let _ = writeln!(text, "# Run {run}, {from} {}, made small: {count}.", fault(from));
+    story(subject.mission(), plan, &observed).iter().for_each(|it| {
+        let _ = writeln!(text, "# - {it}");
+    });
+    text + &compact(plan, subject.mission())
+}
+
+/// What happened, in a few sentences.
+fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
+    let mut lines = Vec::new();
+    for fault in &plan.faults {
+        if let Fault::Failure { when, mode, .. } = fault {
+            let text = mode.description();
+            let met = run.met.iter().find(|it| it.0 == *mode);
+            let during = met.map_or("it never comes to that".to_owned(), |it| {
+                format!("met in {}", state_name(it.1))
+            });
+            lines.push(format!(
+                "{when}, {} fails: {}, {} ({during})",
+                fault.name(),
+                text.component,
+                text.failure
+            ));
+        } else if let Fault::Event(it) = fault {
+            let what = Plan { faults: vec![fault.clone()] }.named_signature(mission);
+            let size = match it.kind {
+                EventKind::Obstacle { delay } => format!(" of {} ms", delay.0),
+                EventKind::Odometry { extra } => format!(" of {} mm", extra.0),
+                _ => String::new(),
+            };
+            lines.push(format!("{}, {what}{size}", Moment::Place(it.x)));
+        } else if let Fault::Power(it) = fault {
+            let what = Plan { faults: vec![fault.clone()] }.named_signature(mission);
+            lines.push(format!("{what} differs by {} ‰", it.permille));
+        }
+    }
+    let metres = |mm: u64| format!("{}.{} m", mm / 1_000, mm / 100 % 10);
+    let seconds = |ms: u64| format!("{}.{:03} s", ms / 1_000, ms % 1_000);
+    let mut end = format!(
+        "the run is {} after {} and {}",
+        run.outcome.name(),
+        seconds(run.time_ms),
+        metres(run.x_mm)
+    );
+    if run.exposed_ms > 0 {
+        let _ = write!(end, "; it moved {} without a required module", seconds(run.exposed_ms));
+    }
+    if run.requests > 0 {
+        let _ = write!(end, "; requests to the operator: {}", run.requests);
+    }
+    if run.replans > 0 {
+        let _ = write!(end, "; plans made again: {}", run.replans);
+    }
+    lines.push(end);
+    lines
+}
+
+/// A plan as a `panorama-faults/1` file with a line for each fault.
+pub fn compact(plan: &Plan, mission: &Definition) -> String {
+    let text = plan.to_toml(mission);
+    let (head, events) =
+        text.split_once("\n[[event]]\n").map_or((text.as_str(), None), |it| (it.0, Some(it.1)));
+    let Some(events) = events else { return head.to_owned() };
+    let lines = events.split("\n[[event]]\n").map(|it| {
+        let keys: Vec<_> = it.lines().filter(|it| !it.is_empty()).collect();
+        format!("  {{ {} }},\n", keys.join(", "))
+    });
+    format!("{head}event = [\n{}]\n", lines.collect::<String>())
+}

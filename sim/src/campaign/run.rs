@@ -1,0 +1,259 @@
+//! The runs of a campaign: what is asked for, what one run leaves, and the loop.
+
+use super::plan::Plan;
+use super::requirement::Requirement;
+use super::space::{Rates, Space};
+use super::strategy::{BLOCK, Strategy, StrategyName};
+use super::subject::{Observed, Subject, state_name};
+use crate::run::Outcome;
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::sync_channel;
+use std::thread;
+
+/// The most runs of a campaign.
+pub const MAX_RUNS: u64 = 1_000_000_000;
+/// The most faults of a plan.
+pub const MAX_FAULTS: u64 = 8;
+
+/// What a campaign draws and asks: with the mission, all that its results depend on.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Settings {
+    /// How many missions are run, at most [`MAX_RUNS`].
+    pub runs: u64,
+    /// The seed of all draws.
+    pub seed: u64,
+    /// How plans are drawn.
+    pub strategy: StrategyName,
+    /// How kinds of faults are weighted.
+    pub rates: Rates,
+    /// The fewest and the most faults of a plan, at most [`MAX_FAULTS`].
+    pub faults: (u64, u64),
+    /// What must hold.
+    pub requirements: Vec<Requirement>,
+}
+
+impl Settings {
+    /// A thousand runs of uniformly drawn plans with one to three faults.
+    pub fn new(supervised: bool) -> Self {
+        let requirements = if supervised {
+            vec![Requirement::InTime, Requirement::Brakes, Requirement::StandsWhenSafe]
+        } else {
+            vec![Requirement::NotFailed]
+        };
+        Self {
+            runs: 1_000,
+            seed: 0,
+            strategy: StrategyName::Uniform,
+            rates: Rates::Even,
+            faults: (1, 3),
+            requirements,
+        }
+    }
+}
+
+/// A part of a campaign: every so-many-th block of its runs.
+///
+/// ```
+/// use cotama_sim::campaign::run::Shard;
+/// let shard = Shard { index: 2, of: 3 };
+/// assert_eq!(shard.blocks(2_600).collect::<Vec<_>>(), [1, 4]);
+/// assert_eq!(Shard::ALL.blocks(1).collect::<Vec<_>>(), [0]);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Shard {
+    /// Its number, from 1.
+    pub index: u64,
+    /// How many shards there are.
+    pub of: u64,
+}
+
+impl Shard {
+    /// The whole.
+    pub const ALL: Self = Self { index: 1, of: 1 };
+
+    /// The numbers of its blocks, of a campaign with so many runs.
+    pub fn blocks(self, runs: u64) -> impl Iterator<Item = u64> {
+        (0..runs.div_ceil(BLOCK))
+            .skip(self.index.saturating_sub(1) as usize)
+            .step_by(self.of as usize)
+    }
+}
+
+/// What one run leaves: a line of the results.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Line {
+    /// The number of the run, from 0.
+    pub run: u64,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The time used, in ms.
+    pub time_ms: u64,
+    /// The energy used, in mJ.
+    pub energy_mj: u64,
+    /// How far the robot came, in mm.
+    pub x_mm: u64,
+    /// How often the operator was asked.
+    pub requests: u64,
+    /// How many plans there were after the first.
+    pub replans: u64,
+    /// The longest time that the robot moved without a module that it required, in ms.
+    pub exposed_ms: u64,
+    /// What went wrong; under supervisors with the place of the local one then, as
+    /// `SON2@Following`.
+    pub faults: Vec<String>,
+    /// The requirements that did not hold.
+    pub violated: Vec<String>,
+    /// The plan as a `panorama-faults/1` file, where one did not hold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plan: Option<String>,
+}
+
+/// A campaign, ready to run.
+#[derive(Debug)]
+pub struct Campaign<'m> {
+    /// What is run.
+    pub subject: Subject<'m>,
+    /// What is drawn and asked.
+    pub settings: Settings,
+    space: Space,
+    strategy: Box<dyn Strategy>,
+}
+
+impl<'m> Campaign<'m> {
+    /// A campaign with the space of its mission. A strategy that counts its plans runs no more than
+    /// there are.
+    ///
+    /// ```
+    /// use cotama_models::missions::{Mission, embedded};
+    /// use cotama_sim::campaign::run::{Campaign, Settings, Shard};
+    /// use cotama_sim::campaign::subject::{Policy, Subject};
+    /// let delivery = embedded::mission("delivery").unwrap();
+    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// let subject = Subject::new(&mission, Policy::default()).unwrap();
+    /// let campaign = Campaign::new(subject, Settings { runs: 20, ..Settings::new(true) });
+    /// let mut lines = Vec::new();
+    /// campaign.run(Shard::ALL, 0, 1, &mut |block| {
+    ///     lines.extend(block);
+    ///     std::ops::ControlFlow::Continue(())
+    /// });
+    /// assert_eq!(lines.len(), 20);
+    /// assert!(lines.iter().all(|it| it.violated.is_empty()));
+    /// ```
+    pub fn new(subject: Subject<'m>, settings: Settings) -> Self {
+        let (least, most) = settings.faults;
+        let space = Space::of(subject.mission(), settings.rates, least..=most);
+        Self::within(subject, settings, space)
+    }
+
+    /// A campaign with a space of the caller's.
+    pub fn within(subject: Subject<'m>, settings: Settings, space: Space) -> Self {
+        let strategy = settings.strategy.strategy(&space);
+        let runs = strategy.total(&space).map_or(settings.runs, |it| it.min(settings.runs));
+        Self { subject, settings: Settings { runs, ..settings }, space, strategy }
+    }
+
+    /// Whether the share of failures estimates a probability.
+    pub fn estimates(&self) -> bool {
+        self.strategy.estimates()
+    }
+
+    /// The runs of a block, in their order.
+    pub fn block(&self, block: u64) -> Vec<Line> {
+        let first = block.saturating_mul(BLOCK);
+        let count = self.settings.runs.saturating_sub(first).min(BLOCK);
+        let mut draws = self.strategy.block(&self.space, self.settings.seed, first);
+        let lines = (first..first + count).map(|run| {
+            let plan = draws.next();
+            let observed = self.subject.run(&plan);
+            draws.learn(&observed, self.distance(&plan, &observed));
+            self.line(run, &plan, &observed)
+        });
+        lines.collect()
+    }
+
+    /// The least distance of a run from breaking a requirement.
+    pub fn distance(&self, plan: &Plan, observed: &Observed) -> i64 {
+        let distances = self.settings.requirements.iter().map(|it| it.distance(plan, observed));
+        distances.min().unwrap_or(i64::MAX)
+    }
+
+    fn line(&self, run: u64, plan: &Plan, observed: &Observed) -> Line {
+        let broken = self.settings.requirements.iter().filter(|it| !it.holds(plan, observed));
+        let violated: Vec<_> = broken.map(ToString::to_string).collect();
+        let mission = self.subject.mission();
+        let faults = if self.subject.is_supervised() {
+            let met = observed.met.iter();
+            met.map(|(mode, state)| format!("{}@{}", mode.name(), state_name(*state))).collect()
+        } else {
+            let one = |it: &super::plan::Fault| {
+                Plan { faults: vec![it.clone()] }.named_signature(mission)
+            };
+            plan.faults.iter().map(one).collect()
+        };
+        Line {
+            run,
+            outcome: observed.outcome,
+            time_ms: observed.time_ms,
+            energy_mj: observed.energy_mj,
+            x_mm: observed.x_mm,
+            requests: observed.requests,
+            replans: observed.replans,
+            exposed_ms: observed.exposed_ms,
+            faults,
+            plan: (!violated.is_empty()).then(|| plan.to_toml(mission)),
+            violated,
+        }
+    }
+
+    /// Runs the blocks of a shard but for the first so many, on so many threads, and gives them to
+    /// `sink` one after the other in their order, until it breaks off.
+    pub fn run(
+        &self,
+        shard: Shard,
+        done: usize,
+        jobs: usize,
+        sink: &mut dyn FnMut(Vec<Line>) -> ControlFlow<()>,
+    ) {
+        let blocks: Vec<u64> = shard.blocks(self.settings.runs).skip(done).collect();
+        let jobs = jobs.clamp(1, blocks.len().max(1));
+        if jobs == 1 {
+            for &block in &blocks {
+                if sink(self.block(block)).is_break() {
+                    return;
+                }
+            }
+            return;
+        }
+        let (next, stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
+        let (send, receive) = sync_channel(jobs * 2);
+        thread::scope(|scope| {
+            for _ in 0..jobs {
+                let (send, next, stopped, blocks) = (send.clone(), &next, &stopped, &blocks);
+                scope.spawn(move || {
+                    loop {
+                        let at = next.fetch_add(1, Ordering::Relaxed);
+                        let Some(&block) = blocks.get(at) else { return };
+                        let is_over = stopped.load(Ordering::Relaxed);
+                        if is_over || send.send((at, self.block(block))).is_err() {
+                            return;
+                        }
+                    }
+                });
+            }
+            drop(send);
+            let (mut early, mut due) = (BTreeMap::new(), 0);
+            for (at, lines) in receive {
+                early.insert(at, lines);
+                while let Some(lines) = early.remove(&due) {
+                    due += 1;
+                    if !stopped.load(Ordering::Relaxed) && sink(lines).is_break() {
+                        stopped.store(true, Ordering::Relaxed);
+                    }
+                }
+            }
+        });
+    }
+}
