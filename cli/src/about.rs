@@ -1,6 +1,7 @@
 //! What other programs need of this one: tables for firmware, schemas, completions, manual pages.
 
 use crate::answers::assign::AssignAnswer;
+use crate::answers::campaign::CampaignAnswer;
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
 use crate::answers::conform::ConformAnswer;
 use crate::answers::error::ErrorAnswer;
@@ -59,6 +60,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
             return Ok(Exit::Success);
         }
         SchemaName::Fmeca => schemas.into_root_schema_for::<FmecaAnswer>(),
+        SchemaName::Campaign => schemas.into_root_schema_for::<CampaignAnswer>(),
         SchemaName::New => schemas.into_root_schema_for::<NewAnswer>(),
         SchemaName::Mission => return print(&file_schemas::mission()),
         SchemaName::Faults => return print(&file_schemas::faults()),

@@ -1,6 +1,7 @@
 //! The answers in JSON: types that are written, and from which the schemas in `schemas/` are made.
 
 pub(crate) mod assign;
+pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod error;

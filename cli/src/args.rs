@@ -1,6 +1,7 @@
 //! The command line.
 
 mod assign;
+mod campaign;
 mod check;
 mod conform;
 mod fitted;
@@ -13,6 +14,7 @@ mod schema;
 mod team;
 
 pub(crate) use assign::AssignArgs;
+pub(crate) use campaign::{CampaignArgs, PolicyName};
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use conform::ConformArgs;
 pub(crate) use fitted::command;
@@ -192,6 +194,13 @@ Examples:
     /// and effects (Ishikawa), one a function.
     #[command(after_long_help = fmeca::FMECA_EXAMPLES)]
     Fmeca(FmecaArgs),
+    /// Runs a mission many times under drawn faults, and hands each failure back as a small file
+    ///
+    /// Plans of faults are drawn from the seed, run, and held against requirements. Of each failure
+    /// the smallest plan is looked for that still fails, and those with one cause are put together.
+    /// Neither the number of threads nor the split into shards changes a byte of the results.
+    #[command(after_long_help = campaign::CAMPAIGN_EXAMPLES)]
+    Campaign(CampaignArgs),
     /// Begins a mission, a supervisor or a system of supervisors of your own
     ///
     /// What is written works as it is, and says what each part is for. Nothing is replaced.

@@ -10,6 +10,7 @@ mod answers;
 mod args;
 mod assign;
 mod budget;
+mod campaign;
 mod catalogue;
 mod check;
 mod conform;
@@ -106,6 +107,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Simulate(args) => simulate::simulate(&args, screen),
         Command::Conform(args) => conform::conform(&args, screen),
         Command::Fmeca(args) => fmeca::fmeca(&args, screen),
+        Command::Campaign(args) => campaign::campaign(&args, screen),
         Command::New(args) => new::new(&args, screen),
         Command::Show(args) => show::show(&args),
         Command::Table(args) => about::table(&args),

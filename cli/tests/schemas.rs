@@ -4,7 +4,7 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 19] = [
+const COMMANDS: [&str; 20] = [
     "list",
     "plan",
     "run",
@@ -20,6 +20,7 @@ const COMMANDS: [&str; 19] = [
     "conform",
     "recording",
     "fmeca",
+    "campaign",
     "new",
     "error",
     "mission",

@@ -27,6 +27,7 @@ pub(crate) enum SchemaName {
     Verify,
     Conform,
     Fmeca,
+    Campaign,
     New,
     /// A line of a recorded run
     Recording,

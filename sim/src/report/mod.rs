@@ -15,6 +15,7 @@ use view::View;
 
 mod activities;
 mod axis;
+pub mod campaign;
 mod charts;
 mod decisions;
 mod events;

@@ -1,0 +1,170 @@
+//! The command line of `cotama campaign`.
+
+use super::Json;
+use super::number::whole;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+use cotama_sim::campaign::requirement::Requirement;
+use cotama_sim::campaign::run::{MAX_FAULTS, MAX_RUNS, Shard};
+use cotama_sim::campaign::space::Rates;
+use cotama_sim::campaign::strategy::StrategyName;
+use cotama_sim::campaign::subject::Policy;
+use cotama_sim::options::{Aim, Planner};
+use std::path::PathBuf;
+
+pub(super) const CAMPAIGN_EXAMPLES: &str = "\
+Requirements (--require, repeated): completed; not-failed; METRIC<=N with time (ms) or energy (mJ); \
+under supervisors in-time, brakes, stands-when-safe, requests<=N, exposed<=N (ms), `never \
+NET.TRANSITION`. Usual: in-time, brakes and stands-when-safe, or not-failed without supervisors.
+
+Examples:
+  $ cotama campaign patrol --runs 200
+  $ cotama campaign delivery --runs 200 --strategy swarm --out found
+  $ cotama campaign delivery --runs 1000 --shard 1/2 --out part1
+  $ cotama campaign delivery --runs 1000 --shard 2/2 --out part2
+  $ cotama campaign merge part1 part2 --out whole
+  $ cotama campaign patrol --runs 5000 --require completed --at-most 0.9
+  $ cotama campaign patrol --runs 200 --compare";
+
+#[derive(Args, Debug)]
+pub(crate) struct CampaignArgs {
+    /// The name of a mission that comes with the program, the path of a mission file, or `merge`
+    pub(crate) scenario: String,
+    /// After `merge`: the folders of all shards
+    #[arg(value_name = "DIR")]
+    pub(crate) shards: Vec<PathBuf>,
+    /// How many missions are run
+    #[arg(long, value_name = "N", default_value_t = 1_000, value_parser = whole(1, MAX_RUNS))]
+    pub(crate) runs: u64,
+    /// On how many threads [default: as many as there are processors]
+    #[arg(long, value_name = "N", value_parser = whole(1, 1_024))]
+    pub(crate) jobs: Option<u64>,
+    /// The seed of all draws
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole(0, u64::MAX))]
+    pub(crate) seed: u64,
+    /// How plans of faults are drawn
+    #[arg(long, value_name = "HOW", default_value = "uniform", value_parser = strategies())]
+    pub(crate) strategy: StrategyName,
+    /// Which faults are likely: all alike (`even`), or by the FMECA (`fmeca`, under supervisors)
+    #[arg(long, value_name = "HOW", default_value = "even", value_parser = rates())]
+    pub(crate) rates: Rates,
+    /// How many faults a run has, as `2` or `1..3`
+    #[arg(long, value_name = "N[..N]", default_value = "1..3", value_parser = per_run)]
+    pub(crate) per_run: (u64, u64),
+    /// What must hold of every run
+    #[arg(long, value_name = "WHAT", value_parser = requirement)]
+    pub(crate) require: Vec<Requirement>,
+    /// Who plans
+    #[arg(long, value_enum, value_name = "WHO", default_value_t = PolicyName::Usual)]
+    pub(crate) policy: PolicyName,
+    /// Runs the same plans with each policy, and compares
+    #[arg(long, conflicts_with_all = ["shard", "out", "at_most", "within", "policy"])]
+    pub(crate) compare: bool,
+    /// Stops as soon as it is decided whether the probability of failure is at most this, or at
+    /// least twice this (but less than half way to 1)
+    #[arg(long, value_name = "P", value_parser = share, conflicts_with = "shard")]
+    pub(crate) at_most: Option<f64>,
+    /// Runs so many missions that the estimate misses by at most this
+    #[arg(long, value_name = "E", value_parser = share, conflicts_with_all = ["runs", "at_most"])]
+    pub(crate) within: Option<f64>,
+    /// How often an interval holds the truth, or a decision is right, at least
+    #[arg(long, value_name = "C", default_value = "0.95", value_parser = confidence)]
+    pub(crate) confidence: f64,
+    /// How many failing runs of each requirement are made small
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = whole(0, 200))]
+    pub(crate) shrink: u64,
+    /// Runs one part of the campaign, as `2/3`: merge them with `cotama campaign merge`
+    #[arg(long, value_name = "I/N", value_parser = shard, requires = "out")]
+    pub(crate) shard: Option<Shard>,
+    /// The folder of results, failures and the report; a campaign that was stopped goes on there
+    #[arg(long, value_name = "DIR")]
+    pub(crate) out: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) json: Json,
+}
+
+/// Who plans.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum PolicyName {
+    /// The rule of PANORAMA; under supervisors a complete search for the most quality
+    Usual,
+    /// The rule of PANORAMA, and a complete search where it finds nothing
+    Exact,
+    /// The same, and better plans when margins have grown
+    Upward,
+    /// The plan of the start is kept
+    Rigid,
+}
+
+impl PolicyName {
+    /// All, the one without adaptation first.
+    pub(crate) const ALL: [Self; 4] = [Self::Rigid, Self::Usual, Self::Exact, Self::Upward];
+
+    /// Its name on the command line.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            Self::Usual => "usual",
+            Self::Exact => "exact",
+            Self::Upward => "upward",
+            Self::Rigid => "rigid",
+        }
+    }
+
+    /// The policy, of a mission with supervisors or without.
+    pub(crate) const fn policy(self, supervised: bool) -> Policy {
+        let exact = if supervised {
+            Planner::Exact { aim: Aim::Quality, steps: 100_000 }
+        } else {
+            Planner::PanoramaThenExact { steps: 100_000 }
+        };
+        let (planner, upward, rigid) = match self {
+            Self::Usual => (None, false, false),
+            Self::Exact => (Some(exact), false, false),
+            Self::Upward => (Some(exact), true, false),
+            Self::Rigid => (None, false, true),
+        };
+        Policy { planner, upward, rigid }
+    }
+}
+
+fn strategies() -> impl TypedValueParser<Value = StrategyName> {
+    PossibleValuesParser::new(StrategyName::ALL.map(StrategyName::name)).map(|name| {
+        let found = StrategyName::ALL.into_iter().find(|it| it.name() == name);
+        found.unwrap_or(StrategyName::Uniform)
+    })
+}
+
+fn rates() -> impl TypedValueParser<Value = Rates> {
+    let names = [Rates::Even, Rates::Fmeca].map(Rates::name);
+    PossibleValuesParser::new(names)
+        .map(|name| if name == Rates::Fmeca.name() { Rates::Fmeca } else { Rates::Even })
+}
+
+fn requirement(text: &str) -> Result<Requirement, String> {
+    text.parse()
+        .map_err(|error: cotama_sim::campaign::requirement::NoRequirement| error.to_string())
+}
+
+fn per_run(text: &str) -> Result<(u64, u64), String> {
+    let (least, most) = text.split_once("..").unwrap_or((text, text));
+    let number = |it: &str| it.parse().ok().filter(|it| *it <= MAX_FAULTS);
+    let pair = number(least).zip(number(most)).filter(|it| it.0 <= it.1 && it.1 > 0);
+    pair.ok_or_else(|| format!("a number from 1 to {MAX_FAULTS}, or a range as 1..3, is needed"))
+}
+
+fn shard(text: &str) -> Result<Shard, String> {
+    let (index, of) = text.split_once('/').unwrap_or((text, ""));
+    let shard = index.parse().ok().zip(of.parse().ok()).map(|(index, of)| Shard { index, of });
+    let fits = |it: &Shard| (1..=it.of).contains(&it.index) && it.of <= 100_000;
+    shard.filter(fits).ok_or_else(|| "a part of the whole, as 2/3, is needed".into())
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|it| *it > 1e-9 && *it < 1.0);
+    number.ok_or_else(|| "a number between 0 and 1, as 0.01, is needed".into())
+}
+
+fn confidence(text: &str) -> Result<f64, String> {
+    let number = text.parse().ok().filter(|it| (0.5..=0.999_999).contains(it));
+    number.ok_or_else(|| "a number from 0.5 to 0.999999, as 0.95, is needed".into())
+}
