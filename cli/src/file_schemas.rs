@@ -7,8 +7,8 @@
 mod parts;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
-use cotama_models::cotama::{Configuration, FailureMode};
-use cotama_models::missions::faults::{self, Answer};
+use cotama_models::cotama::{Configuration, FailureMode, Module};
+use cotama_models::missions::faults::{self, Answer, Moment};
 use cotama_models::missions::known::{
     AT_LEAST_ZERO, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, PER_KM,
     PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS, SPEEDS, UNITS,
@@ -262,9 +262,21 @@ fn happenings() -> [(&'static str, Value); 3] {
 }
 
 /// What an event has beside its place and its kind.
-fn details() -> [(&'static str, Value); 7] {
+fn details() -> [(&'static str, Value); 15] {
     let modes: Vec<_> = FailureMode::ALL.iter().map(|it| it.name()).collect();
+    let modules: Vec<_> = Module::ALL.iter().map(|it| it.name()).collect();
+    let states = Moment::STATES.map(|it| it.0);
+    let (place, time) = ("where it ends, in mm", "when it ends, in ms after the start");
+    let state = "the local supervisor comes to this place for the first time";
     [
+        ("t_ms", integer(&AT_LEAST_ZERO, "in place of `x_mm`: when it fails, in ms")),
+        ("during", choice(&states, &format!("in place of `x_mm`: {state}"))),
+        ("after_ms", integer(&AT_LEAST_ZERO, "beside `during`: so long after that, in ms")),
+        ("until_x_mm", integer(&AT_LEAST_ZERO, place)),
+        ("until_t_ms", integer(&AT_LEAST_ZERO, time)),
+        ("until_during", choice(&states, &format!("it ends when {state}"))),
+        ("until_after_ms", integer(&AT_LEAST_ZERO, "beside `until_during`: so long after that")),
+        ("module", choice(&modules, "of a failure of one module, whichever it is: which one")),
         ("delay_ms", integer(&AT_LEAST_ZERO, "how long the robot or the operator waits, in ms")),
         ("extra_mm", integer(&POSITIVE, "so much more path to drive, in mm")),
         ("hardware", text("what fails or works again")),
@@ -280,12 +292,11 @@ fn details() -> [(&'static str, Value); 7] {
 
 fn event() -> Value {
     let kinds = [&EVENTS[..], &INCIDENTS].concat();
-    let needs = [
-        ("x_mm", integer(&AT_LEAST_ZERO, "where it happens, in mm")),
-        ("kind", choice(&kinds, "what happens; it says which other keys there are")),
-    ];
+    let needs = [("kind", choice(&kinds, "what happens; it says which other keys there are"))];
     let details = details();
     let keys = details.each_ref().map(|it| it.0);
+    let place = [("x_mm", integer(&AT_LEAST_ZERO, "where it happens, in mm"))];
+    let can: Vec<_> = place.into_iter().chain(details).collect();
     let has_mode = json!({ "required": ["mode"] });
     let repairs = says("kind", &["repair"]);
     let rules = [
@@ -294,12 +305,34 @@ fn event() -> Value {
         (says("kind", &["fault"]), &["hardware", "units_lost"]),
         (both(&repairs, &absent(&["mode"])), &["hardware", "units_back"]),
         (both(&repairs, &has_mode), &["mode"]),
-        (says("kind", &["failure"]), &["mode"]),
         (says("kind", &["operator"]), &["answers", "delay_ms"]),
     ];
     let rules = rules.map(|(kind, needs)| when(&kind, &only(needs, &keys)));
-    let rules = rules.into_iter().chain([obstacles_last()]).collect();
-    with(table(&needs, &details, "something that happens once"), "allOf", rules)
+    let rules = rules.into_iter().chain([obstacles_last(), fails(&keys), placed()]).collect();
+    with(table(&needs, &can, "something that happens once"), "allOf", rules)
+}
+
+/// A failure names its mode, and can name its module, and when it begins and ends.
+fn fails(keys: &[&str]) -> Value {
+    let own = |key: &&str| {
+        ["mode", "module", "t_ms", "during", "after_ms"].contains(key) || key.starts_with("until_")
+    };
+    let others: Vec<_> = keys.iter().copied().filter(|it| !own(it)).collect();
+    let once = json!({ "oneOf": [
+        { "required": ["x_mm"] }, { "required": ["t_ms"] }, { "required": ["during"] },
+    ] });
+    let then = both(&json!({ "required": ["mode"] }), &both(&absent(&others), &once));
+    let since = json!({ "dependencies": {
+        "after_ms": ["during"], "until_after_ms": ["until_during"],
+    } });
+    when(&says("kind", &["failure"]), &both(&then, &since))
+}
+
+/// Everything else happens at a place.
+fn placed() -> Value {
+    let kinds: Vec<_> =
+        EVENTS.iter().chain(&INCIDENTS).copied().filter(|it| *it != "failure").collect();
+    when(&says("kind", &kinds), &json!({ "required": ["x_mm"] }))
 }
 
 /// An obstacle costs time, while an operator may answer at once.

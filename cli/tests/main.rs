@@ -8,6 +8,7 @@ mod assign;
 mod bad_input;
 mod book;
 mod broken_pnml;
+mod campaign;
 mod certificates;
 mod check;
 mod common;

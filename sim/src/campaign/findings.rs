@@ -96,14 +96,27 @@ pub fn scenario(
     from: usize,
 ) -> String {
     let observed = subject.run(plan);
-    let mut text = format!("# Breaks `{requirement}`: {}.\n", requirement.words());
+    let mut text = comment(&format!("Breaks `{requirement}`: {}.", requirement.words()));
     let fault = |count: usize| if count == 1 { "fault" } else { "faults" };
     let count = plan.faults.len();
     let _ = writeln!(text, "# Run {run}, {from} {}, made small: {count}.", fault(from));
     story(subject.mission(), plan, &observed).iter().for_each(|it| {
-        let _ = writeln!(text, "# - {it}");
+        text.push_str(&comment(&format!("- {it}")));
     });
     text + &compact(plan, subject.mission())
+}
+
+/// A text as lines of a comment, of at most 100 characters as far as its words allow.
+fn comment(text: &str) -> String {
+    let (mut lines, mut line) = (String::new(), "#".to_owned());
+    for word in text.split(' ') {
+        if line.chars().count() + 1 + word.chars().count() > 100 {
+            lines = lines + &line + "\n";
+            "#  ".clone_into(&mut line);
+        }
+        line = line + " " + word;
+    }
+    lines + &line + "\n"
 }
 
 /// What happened, in a few sentences.

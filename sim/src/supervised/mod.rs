@@ -15,6 +15,7 @@ mod effect;
 mod laptop;
 pub mod operator;
 mod plan;
+mod planted;
 pub mod robot;
 mod script;
 pub mod story;
@@ -25,6 +26,7 @@ pub use cotama_models::cotama::Judged;
 pub use effect::{Effect, Ends, Motion, effect};
 pub(crate) use effect::{observable, raises};
 pub use operator::Answers;
+pub use planted::Planted;
 pub use script::{Injection, Script, When};
 pub use world::{PERIOD, PLANNING};
 
@@ -175,6 +177,7 @@ pub struct Supervised<'m> {
     mission: &'m Mission,
     supervisors: Supervisors,
     planner: Planner,
+    planted: Vec<Planted>,
 }
 
 /// The decisional level, packed.
@@ -186,6 +189,8 @@ enum Supervisors {
     Recovering,
     /// One of both with a global supervisor that was made from the mission.
     Made(OwnedNet, Box<Packed<WORDS, CLOCKS, SLOTS>>),
+    /// The caller's.
+    Given(System<'static>, Box<Packed<WORDS, CLOCKS, SLOTS>>),
 }
 
 /// Words of a marking that suffice for the most objectives of a mission.
@@ -241,7 +246,28 @@ impl<'m> Supervised<'m> {
             let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
             Supervisors::Made(made.clone(), Box::new(packed))
         };
-        Ok(Self { mission, supervisors, planner: PLANNER })
+        Ok(Self { mission, supervisors, planner: PLANNER, planted: Vec::new() })
+    }
+
+    /// The embedded mission, or one with its objectives, under these supervisors: the nets of
+    /// [`delivery`](delivery::SYSTEM) with transitions that were changed, for example. They have
+    /// the places and events of those, in their order.
+    ///
+    /// # Errors
+    /// When the nets do not fit each other.
+    pub fn of_supervisors(
+        mission: &'m Mission,
+        system: System<'static>,
+    ) -> Result<Self, Unsupervised> {
+        let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
+        let supervisors = Supervisors::Given(system, Box::new(packed));
+        Ok(Self { mission, supervisors, planner: PLANNER, planted: Vec::new() })
+    }
+
+    /// With these defects.
+    #[must_use]
+    pub fn with_planted(self, planted: Vec<Planted>) -> Self {
+        Self { planted, ..self }
     }
 
     /// Plans are made by this planner.
@@ -311,16 +337,21 @@ impl<'m> Supervised<'m> {
         after: Millis,
         recorder: &mut R,
     ) -> Result<(Run, Millimetres), NoPlan> {
-        let (mission, planner) = (self.mission, self.planner);
+        let (mission, planner, planted) = (self.mission, self.planner, &self.planted);
         match &self.supervisors {
             Supervisors::Delivery => {
                 let world = World::start(mission, global::NET, delivery::Program, script, planner)?;
-                Ok(finish(world, period, after, recorder))
+                Ok(finish(world.with(planted), period, after, recorder))
+            }
+            Supervisors::Given(system, packed) => {
+                let (global, program) = (*system.components[0].net, packed.load(system));
+                let world = World::start(mission, global, program, script, planner)?;
+                Ok(finish(world.under(*system).with(planted), period, after, recorder))
             }
             Supervisors::Recovering => {
                 let world =
                     World::start(mission, global::NET, recovering::Program, script, planner)?;
-                Ok(finish(world, period, after, recorder))
+                Ok(finish(world.with(planted), period, after, recorder))
             }
             Supervisors::Made(net, packed) => {
                 let view = net.view();
@@ -329,7 +360,7 @@ impl<'m> Supervised<'m> {
                 let system = System { components: &components, ..shipped(mission) };
                 let program = packed.load(&system);
                 let world = World::start(mission, net, program, script, planner)?;
-                Ok(finish(world, period, after, recorder))
+                Ok(finish(world.with(planted), period, after, recorder))
             }
         }
     }

@@ -10,7 +10,7 @@ use super::laptop::{Disturbances, Laptop, Seen, jobs};
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
-use super::{Conduct, Injection, Run, Script, When, shipped};
+use super::{Conduct, Injection, Planted, Run, Script, When, shipped};
 use crate::options::Planner;
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
 use cotama_core::net::Net;
@@ -18,7 +18,8 @@ use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, load, local, recovering,
+    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, Situation, load, local,
+    recovering,
 };
 use cotama_models::missions::Mission;
 use objective::Objective;
@@ -96,6 +97,7 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     run: Run,
     /// Nothing happened in the last period: see `passing`.
     calm: bool,
+    planted: &'m [Planted],
 }
 
 impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, W, S> {
@@ -154,7 +156,39 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 moved_when_safe: false,
             },
             calm: false,
+            planted: &[],
         })
+    }
+
+    /// The same with these defects.
+    pub(super) fn with(self, planted: &'m [Planted]) -> Self {
+        Self { planted, ..self }
+    }
+
+    /// The same with the names of these supervisors, whose program it runs.
+    pub(super) fn under(self, system: System<'static>) -> Self {
+        Self { system, ..self }
+    }
+
+    /// Whether an observer can see a failure now.
+    fn is_observable(&self, mode: FailureMode, situation: Situation, moving: bool) -> bool {
+        let hides = |it: &Planted| match *it {
+            Planted::Unseen(unseen) => unseen == mode,
+            Planted::UnseenWhile(first, unseen) => {
+                unseen == mode && self.failures.iter().any(|it| it.mode == first && !it.over)
+            }
+            _ => false,
+        };
+        observable(mode, situation, moving) && !self.planted.iter().any(hides)
+    }
+
+    /// How long an observer takes to see a failure, in ms.
+    fn latency_ms(&self, mode: FailureMode) -> u64 {
+        let later = self.planted.iter().filter_map(|it| match *it {
+            Planted::Late(late, by) if late == mode => Some(by.0),
+            _ => None,
+        });
+        u64::from(mode.rule().latency_ms) + later.sum::<u64>()
     }
 
     /// One period; whether the mission is over.
@@ -331,6 +365,11 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         } else {
             self.end()
         };
+        let creeps = matches!(objective, Objective::Safe | Objective::Security)
+            && self.planted.contains(&Planted::Creeps);
+        if creeps {
+            towards = MillimetresPerSecond(50);
+        }
         self.robot.go(towards, end, PERIOD);
         if matches!(objective, Objective::Stands(_) | Objective::Drives(_)) {
             self.drive_well(activity, self.robot.x().0 - before.0);

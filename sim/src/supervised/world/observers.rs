@@ -2,10 +2,10 @@
 
 use super::{CLOCKS, Failure, World};
 use crate::run::{Part, PlanCause};
-use crate::supervised::effect::{observable, raises};
+use crate::supervised::effect::raises;
 use crate::supervised::laptop::{Seen, jobs};
 use crate::supervised::plan::{Planning, Progress};
-use crate::supervised::{Decided, PERIOD};
+use crate::supervised::{Decided, PERIOD, Planted};
 use cotama_core::player::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
@@ -33,6 +33,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             mission: self.mission,
             planning: &mut self.planning,
             at,
+            with_lost: self.planted.contains(&Planted::PlansWithLost),
         };
         if let Some(finding) = self.decider.perceive(self.now, perceived, &mut rest) {
             // What the scheduler sees again goes back to what it was before.
@@ -55,16 +56,18 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     fn newly_seen(&mut self, scheduler: Seen) -> Vec<usize> {
         let (moving, situation) = (self.robot.speed().0 > 0, self.decider.situation());
         let mut seen = Vec::new();
-        for (number, failure) in self.failures.iter_mut().enumerate() {
-            let found = self.run.conduct[number].detected.is_some();
-            if !found && is_shown(failure, scheduler) {
+        for number in 0..self.failures.len() {
+            let (failure, found) = (self.failures[number], self.run.conduct[number].detected);
+            if found.is_none() && is_shown(&failure, scheduler) {
                 seen.push(number);
             }
-            if failure.over || found || !observable(failure.mode, situation, moving) {
+            let is_open = !failure.over && found.is_none();
+            if !is_open || !self.is_observable(failure.mode, situation, moving) {
                 continue;
             }
-            failure.seen.0 += PERIOD.0;
-            if failure.seen >= Millis(u64::from(failure.mode.rule().latency_ms)) {
+            let so_far = Millis(failure.seen.0 + PERIOD.0);
+            self.failures[number].seen = so_far;
+            if so_far >= Millis(self.latency_ms(failure.mode)) {
                 seen.push(number);
             }
         }
@@ -132,6 +135,8 @@ struct Rest<'w, 'm> {
     planning: &'w mut Planning<'m>,
     at: Progress,
     drives: bool,
+    /// A defect that was planted.
+    with_lost: bool,
 }
 
 impl Plans for Rest<'_, '_> {
@@ -153,6 +158,7 @@ impl Plans for Rest<'_, '_> {
             Why::Returned { modules, broken } => part(modules, broken).map(PlanCause::Back),
         };
         let Some(cause) = cause else { return Ok(false) };
+        let available = if self.with_lost { Modules::ALL } else { available };
         let planned = self.planning.plan(cause, self.at, available);
         planned.map(|()| true).map_err(|_| NoPlanLeft)
     }

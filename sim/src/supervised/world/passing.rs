@@ -7,7 +7,7 @@
 use super::objective::Objective;
 use super::{CLOCKS, Failure, PERIOD, World};
 use crate::run::LONGEST;
-use crate::supervised::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
+use crate::supervised::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect};
 use crate::supervised::{PLANNING, When};
 use cotama_core::player::Program;
 use cotama_core::units::{Millimetres, Millis};
@@ -29,10 +29,11 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         self.energy_uj += power.0 * time.0;
         self.grow_exposures(time);
         let (moving, situation) = (self.robot.speed().0 > 0, self.decider.situation());
-        for (it, conduct) in self.failures.iter_mut().zip(&self.run.conduct) {
-            let is_seen = conduct.detected.is_none() && observable(it.mode, situation, moving);
-            if !it.over && is_seen {
-                it.seen.0 += time.0;
+        for number in 0..self.failures.len() {
+            let it = self.failures[number];
+            let is_open = !it.over && self.run.conduct[number].detected.is_none();
+            if is_open && self.is_observable(it.mode, situation, moving) {
+                self.failures[number].seen.0 += time.0;
             }
         }
         self.run.rounds += periods;
@@ -116,10 +117,10 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
     fn periods_unseen(&self) -> u64 {
         let (moving, situation) = (self.robot.speed().0 > 0, self.decider.situation());
         let unseen = self.failures.iter().zip(&self.run.conduct).filter(|(it, conduct)| {
-            !it.over && conduct.detected.is_none() && observable(it.mode, situation, moving)
+            !it.over && conduct.detected.is_none() && self.is_observable(it.mode, situation, moving)
         });
         let periods = unseen.filter_map(|(it, _)| {
-            let left = u64::from(it.mode.rule().latency_ms).checked_sub(it.seen.0)?;
+            let left = self.latency_ms(it.mode).checked_sub(it.seen.0)?;
             // What was seen for long enough and raises nothing changes nothing.
             (left > 0).then(|| left.div_ceil(PERIOD.0) - 1)
         });

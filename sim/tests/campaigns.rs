@@ -1,0 +1,19 @@
+//! What campaigns find: defects planted in supervisors, observers, planning and the robot.
+//!
+//! `cargo test --release -p cotama-sim --test campaigns -- --ignored --nocapture` measures how many
+//! runs each strategy takes; `UPDATE_GOLDEN=1` writes the table anew.
+#![allow(missing_docs, clippy::pedantic, clippy::unwrap_used)]
+
+#[path = "campaigns/defects.rs"]
+mod defects;
+#[path = "campaigns/measured.rs"]
+mod measured;
+#[path = "campaigns/statistics.rs"]
+mod statistics;
+
+use cotama_models::missions::Mission;
+
+fn mission(name: &str) -> Mission {
+    let it = cotama_models::missions::embedded::mission(name).unwrap();
+    Mission::parse(it.name, it.text).unwrap()
+}

@@ -1,0 +1,133 @@
+//! How many runs each strategy takes to find each defect, and how small it gets.
+
+use super::defects::{BLIND, Defect, defects};
+use super::mission;
+use cotama_models::missions::Mission;
+use cotama_sim::campaign::findings::compact;
+use cotama_sim::campaign::shrink::{MAX_RUNS, Shrunk, shrink};
+use cotama_sim::campaign::space::{Rates, Space};
+use cotama_sim::campaign::strategy::{BLOCK, StrategyName};
+use cotama_sim::campaign::subject::Subject;
+use std::fmt::Write;
+
+const STRATEGIES: [StrategyName; 4] =
+    [StrategyName::Uniform, StrategyName::Swarm, StrategyName::Pairwise, StrategyName::Guided];
+
+/// The run, from 1, that finds the defect first, and its plan made small.
+fn found(
+    defect: &Defect,
+    mission: &Mission,
+    name: StrategyName,
+    seed: u64,
+    budget: u64,
+) -> Option<(u64, Shrunk)> {
+    let subject = Subject::of(mission, defect.supervised(mission));
+    let sound = Subject::new(mission, Default::default()).unwrap();
+    let space = Space::of(mission, Rates::Even, 1..=3);
+    let strategy = name.strategy(&space);
+    for first in (0..budget).step_by(BLOCK as usize) {
+        let mut draws = strategy.block(&space, seed, first);
+        for run in first..first + BLOCK {
+            let plan = draws.next();
+            let observed = subject.run(&plan);
+            // What the sound system fails too is no sign of the defect.
+            let fails = |plan: &cotama_sim::campaign::plan::Plan| {
+                !defect.breaks.holds(plan, &subject.run(plan))
+                    && defect.breaks.holds(plan, &sound.run(plan))
+            };
+            if fails(&plan) {
+                let shrunk = cotama_sim::campaign::shrink::shrink_by(&plan, &mut |it| fails(it));
+                return Some((run + 1, shrunk));
+            }
+            draws.learn(&observed, defect.breaks.distance(&plan, &observed));
+        }
+    }
+    None
+}
+
+#[test]
+fn the_blind_drive_is_found_and_is_three_faults() {
+    let mission = mission("delivery");
+    let (_, shrunk) = found(&BLIND, &mission, StrategyName::Guided, 0, 40_000).unwrap();
+    let text = compact(&shrunk.plan, &mission);
+    assert!(shrunk.plan.faults.len() <= 3 && shrunk.runs <= MAX_RUNS, "{text}");
+    let names = shrunk.plan.signature();
+    assert!(names.contains("SON2") && names.contains("CAM1"), "{text}");
+}
+
+#[test]
+fn a_planted_defect_is_found_and_made_small() {
+    let mission = mission("delivery");
+    let late = &defects()[19];
+    let (run, shrunk) = found(late, &mission, StrategyName::Uniform, 0, 2_000).unwrap();
+    let text = compact(&shrunk.plan, &mission);
+    assert!(run <= 200 && shrunk.minimal && shrunk.runs <= MAX_RUNS, "{run}");
+    let expected = "format = \"panorama-faults/1\"\nevent = [\n  { t_ms = 0, kind = \"failure\", \
+                    mode = \"ODO1\" },\n]\n";
+    assert_eq!((late.name, text.as_str()), ("ODO1 is seen 20 s late", expected));
+}
+
+#[test]
+fn what_breaks_no_requirement_is_not_made_small() {
+    let mission = mission("delivery");
+    let subject = Subject::new(&mission, Default::default()).unwrap();
+    let plan = cotama_sim::campaign::plan::Plan::default();
+    let shrunk = shrink(&subject, &BLIND.breaks, &plan);
+    assert_eq!((shrunk.plan, shrunk.minimal), (plan, true));
+}
+
+/// `cargo test --release -p cotama-sim --test campaigns -- --ignored --nocapture`.
+#[test]
+#[ignore = "minutes"]
+fn median_runs_to_find_each_defect() {
+    const SEEDS: u64 = 3;
+    const BUDGET: u64 = 2_000;
+    let mission = mission("delivery");
+    let mut text = format!(
+        "Runs until a defect is found: the median of {SEEDS} seeds, at most {BUDGET} runs each; -\n\
+         where fewer than half of them found it. Then the most faults, lines of TOML and runs of\n\
+         shrinking over all that was found.\n\n{:36}",
+        "defect"
+    );
+    STRATEGIES.iter().for_each(|it| write!(text, "{:>10}", it.name()).unwrap());
+    text += "  faults  lines  runs\n";
+    // Of each strategy and defect, the runs of each seed; a seed without a find counts its budget.
+    let mut all = vec![Vec::new(); STRATEGIES.len()];
+    for defect in defects() {
+        write!(text, "{:36}", defect.name).unwrap();
+        let mut most = [0; 3];
+        for (column, name) in STRATEGIES.into_iter().enumerate() {
+            let mut runs: Vec<u64> = (0..SEEDS)
+                .map(|seed| match found(&defect, &mission, name, seed, BUDGET) {
+                    None => u64::MAX,
+                    Some((run, shrunk)) => {
+                        let lines = compact(&shrunk.plan, &mission).lines().count() as u64;
+                        let these = [shrunk.plan.faults.len() as u64, lines, shrunk.runs];
+                        most = std::array::from_fn(|at| most[at].max(these[at]));
+                        run
+                    }
+                })
+                .collect();
+            runs.sort_unstable();
+            all[column].extend(runs.iter().map(|it| (*it).min(BUDGET) as f64));
+            match runs[SEEDS as usize / 2] {
+                u64::MAX => write!(text, "{:>10}", "-").unwrap(),
+                median => write!(text, "{median:>10}").unwrap(),
+            }
+        }
+        writeln!(text, "{:>8}{:>7}{:>6}", most[0], most[1], most[2]).unwrap();
+        println!("{}", text.lines().last().unwrap());
+    }
+    text += "\nRuns of uniform over those of another strategy: the geometric mean over defects and\n\
+             seeds, with its 95 % interval; a run over budget counts as the budget.\n\n";
+    for column in 1..STRATEGIES.len() {
+        let logs: Vec<f64> =
+            all[0].iter().zip(&all[column]).map(|(uniform, it)| (uniform / it).ln()).collect();
+        let it = cotama_sim::campaign::statistics::mean_interval(&logs, 0.95);
+        let name = STRATEGIES[column].name();
+        let [mean, low, high] = [it.estimate, it.low, it.high].map(f64::exp);
+        writeln!(text, "{name:10} {mean:.2} ({low:.2} to {high:.2})").unwrap();
+    }
+    println!("{text}");
+    cotama_golden::compare("tests/golden/defects.txt", &text);
+}
