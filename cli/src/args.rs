@@ -197,7 +197,7 @@ Examples:
     /// Runs a mission many times under drawn faults, and hands each failure back as a small file
     ///
     /// Plans of faults are drawn from the seed, run, and held against requirements. Of each failure
-    /// the smallest plan is looked for that still fails, and those with one cause are put together.
+    /// the smallest plan that still fails is looked for, and those with one cause are put together.
     /// Neither the number of threads nor the split into shards changes a byte of the results.
     #[command(after_long_help = campaign::CAMPAIGN_EXAMPLES)]
     Campaign(CampaignArgs),

@@ -159,8 +159,8 @@ impl<'m> Simulation<'m> {
         Ok(simulation)
     }
 
-    /// Keeps the plan of the start whatever becomes of the margins; hardware that fails and that the
-    /// plan needs ends the mission. What adaptation is compared with.
+    /// Keeps the plan of the start whatever becomes of the margins; hardware that fails and that it
+    /// needs ends the mission. What adaptation is compared with.
     #[must_use]
     pub fn without_adaptation(self) -> Self {
         Self { adapts: false, ..self }

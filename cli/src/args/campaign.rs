@@ -13,8 +13,8 @@ use cotama_sim::options::{Aim, Planner};
 use std::path::PathBuf;
 
 pub(super) const CAMPAIGN_EXAMPLES: &str = "\
-Requirements (--require, repeated): completed; not-failed; METRIC<=N with time (ms) or energy (mJ); \
-under supervisors in-time, brakes, stands-when-safe, requests<=N, exposed<=N (ms), `never \
+Requirements (--require, repeated) completed; not-failed; METRIC<=N with time (ms) or energy (mJ), \
+or under supervisors in-time, brakes, stands-when-safe, requests<=N, exposed<=N (ms), `never \
 NET.TRANSITION`. Usual: in-time, brakes and stands-when-safe, or not-failed without supervisors.
 
 Examples:

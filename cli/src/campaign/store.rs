@@ -1,4 +1,4 @@
-//! The folder of a campaign: `campaign.json` says what is run, `runs.jsonl` has a line for each run.
+//! The folder of a campaign: `campaign.json` says what is run, `runs.jsonl` has a line a run.
 //!
 //! Lines are appended block by block and never changed. A program that was killed leaves whole
 //! blocks and perhaps a torn one, which is dropped and run again.

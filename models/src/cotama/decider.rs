@@ -56,6 +56,7 @@ use returns::Returns;
 use settings::{Acting, Settings};
 
 mod findings;
+mod idle;
 mod pending;
 mod plans;
 mod restart;
@@ -306,33 +307,6 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Decide
             self.found = self.found.without(FailureModes::of(&[FailureMode::Opr1]));
         }
         round
-    }
-
-    /// Until when nothing comes of periods in which nothing is raised or lowered, nothing is said
-    /// and no margin falls below zero: none where something may come of the next one. Who simulates
-    /// such periods may pass over those that begin before, and says so by [`idle`](Self::idle).
-    pub fn idle_until(&self) -> Option<Millis> {
-        use local::State::{HandOver, Planning, Teleoperated, Teleprogrammed};
-        let settled = self.settings.stay(self.now, self.up) && self.returns.is_none();
-        if !settled || !self.untold.is_empty() || self.global.0 > self.objectives {
-            return None;
-        }
-        Some(Millis(match self.situation.local {
-            Planning => self.since.0.saturating_add(PATIENCE_WITH_PLANNER.0),
-            HandOver | Teleprogrammed | Teleoperated => {
-                self.since.0.max(self.stands_since.0).saturating_add(PATIENCE.0)
-            }
-            _ => u64::MAX,
-        }))
-    }
-
-    /// Periods up to the one that began now were passed over: see [`idle_until`](Self::idle_until).
-    pub fn idle(&mut self, now: Millis, body: Body) {
-        self.now = now;
-        self.settings.see(now, self.up);
-        if !body.stands {
-            self.stands_since = now;
-        }
     }
 
     /// What is to be done now.

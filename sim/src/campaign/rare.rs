@@ -1,6 +1,6 @@
 //! Rare events of a random process: importance splitting, and importance sampling.
 //!
-//! Plain sampling needs about a hundred hits for an estimate within a fifth, so ten million runs for
+//! Plain sampling needs about a hundred hits for an estimate within a fifth, thus ten million for
 //! a probability of 1e-5. Splitting climbs a ladder of levels towards the event and starts again
 //! from where it came to; its estimate has no bias, whatever the levels are.
 

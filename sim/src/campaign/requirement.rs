@@ -77,7 +77,7 @@ impl Metric {
 }
 
 /// The time in ms that the failures of a plan allow the robot to move without a module: each alone
-/// is detected, decided and answered within two rounds of 100 ms, and a second later it stands; they
+/// is detected, decided and answered within two rounds of 100 ms, and stands a second later; they
 /// may follow each other.
 pub fn allowed_ms(plan: &Plan) -> u64 {
     let one = |mode: FailureMode| u64::from(mode.rule().latency_ms).max(2_000) + 1_200;

@@ -1,4 +1,4 @@
-//! What can go wrong in a mission, how likely it is drawn, and when: what every strategy draws from.
+//! What can go wrong in a mission, how likely it is, and when: what every strategy draws from.
 
 use super::plan::{Fault, Plan, at, place};
 use crate::streams::Stream;

@@ -106,7 +106,7 @@ impl<'m> CampaignTest<'m> {
             let (outcome, text) =
                 (observed.outcome.name(), super::findings::compact(&plan, self.mission));
             panic!(
-                "`{name}` does not hold of run {run} (seed {}, {}): {outcome} after {} ms and {} mm\n\
+                "`{name}` does not hold of run {run} (seed {}, {}): {outcome}, {} ms, {} mm\n\
                  {text}",
                 self.seed,
                 self.strategy.name(),

@@ -249,27 +249,6 @@ impl<'m> Supervised<'m> {
         Ok(Self { mission, supervisors, planner: PLANNER, planted: Vec::new() })
     }
 
-    /// The embedded mission, or one with its objectives, under these supervisors: the nets of
-    /// [`delivery`](delivery::SYSTEM) with transitions that were changed, for example. They have
-    /// the places and events of those, in their order.
-    ///
-    /// # Errors
-    /// When the nets do not fit each other.
-    pub fn of_supervisors(
-        mission: &'m Mission,
-        system: System<'static>,
-    ) -> Result<Self, Unsupervised> {
-        let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
-        let supervisors = Supervisors::Given(system, Box::new(packed));
-        Ok(Self { mission, supervisors, planner: PLANNER, planted: Vec::new() })
-    }
-
-    /// With these defects.
-    #[must_use]
-    pub fn with_planted(self, planted: Vec<Planted>) -> Self {
-        Self { planted, ..self }
-    }
-
     /// Plans are made by this planner.
     #[must_use]
     pub fn with_planner(self, planner: Planner) -> Self {

@@ -18,8 +18,7 @@ use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, Situation, load, local,
-    recovering,
+    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, load, local, recovering,
 };
 use cotama_models::missions::Mission;
 use objective::Objective;
@@ -168,27 +167,6 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
     /// The same with the names of these supervisors, whose program it runs.
     pub(super) fn under(self, system: System<'static>) -> Self {
         Self { system, ..self }
-    }
-
-    /// Whether an observer can see a failure now.
-    fn is_observable(&self, mode: FailureMode, situation: Situation, moving: bool) -> bool {
-        let hides = |it: &Planted| match *it {
-            Planted::Unseen(unseen) => unseen == mode,
-            Planted::UnseenWhile(first, unseen) => {
-                unseen == mode && self.failures.iter().any(|it| it.mode == first && !it.over)
-            }
-            _ => false,
-        };
-        observable(mode, situation, moving) && !self.planted.iter().any(hides)
-    }
-
-    /// How long an observer takes to see a failure, in ms.
-    fn latency_ms(&self, mode: FailureMode) -> u64 {
-        let later = self.planted.iter().filter_map(|it| match *it {
-            Planted::Late(late, by) if late == mode => Some(by.0),
-            _ => None,
-        });
-        u64::from(mode.rule().latency_ms) + later.sum::<u64>()
     }
 
     /// One period; whether the mission is over.

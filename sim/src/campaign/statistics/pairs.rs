@@ -11,7 +11,7 @@ pub struct Difference {
     pub only_second: u64,
     /// The difference of the probabilities of success, second less first.
     pub success: Interval,
-    /// How likely so unequal a number of changes is, or a more unequal one, if both succeeded alike:
+    /// How likely so unequal a number of changes is, or a more unequal one, if both are alike:
     /// the exact test of `McNemar` (Psychometrika 12, 1947), two-sided.
     pub p_value: f64,
 }

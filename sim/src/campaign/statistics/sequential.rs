@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The sequential probability ratio test (Wald, Ann. Math. Stat. 16(2), 1945): is the probability of
+/// The sequential probability ratio test (Wald, Ann. Math. Stat. 16, 1945): is the probability of
 /// failure at most `low`, or at least `high`? Between both, either answer is right.
 ///
 /// ```

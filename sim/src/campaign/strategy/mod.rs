@@ -1,6 +1,6 @@
 //! Which plan comes next: strategies behind one door.
 //!
-//! Runs are numbered, and a [block](BLOCK) of runs is drawn by one [`Draws`]. What a strategy learns
+//! Runs are numbered, and a [block](BLOCK) of runs has one [`Draws`]. What a strategy learns
 //! stays in its block, so that blocks can be run in any order, on any thread or machine, and the
 //! plan of every run is a function of the seed and its number.
 

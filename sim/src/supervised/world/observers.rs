@@ -2,7 +2,7 @@
 
 use super::{CLOCKS, Failure, World};
 use crate::run::{Part, PlanCause};
-use crate::supervised::effect::raises;
+use crate::supervised::effect::{observable, raises};
 use crate::supervised::laptop::{Seen, jobs};
 use crate::supervised::plan::{Planning, Progress};
 use crate::supervised::{Decided, PERIOD, Planted};
@@ -10,7 +10,7 @@ use cotama_core::player::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
     Configuration, FailureMode, Finding, Flag, Flags, Module, Modules, NoPlanLeft, Perceived,
-    Plans, Why,
+    Plans, Situation, Why,
 };
 use cotama_models::missions::Mission;
 
@@ -50,6 +50,32 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             self.works = (broken, broken.relied_on());
         }
         self.works.1
+    }
+
+    /// Whether an observer can see a failure now.
+    pub(super) fn is_observable(
+        &self,
+        mode: FailureMode,
+        situation: Situation,
+        moving: bool,
+    ) -> bool {
+        let hides = |it: &Planted| match *it {
+            Planted::Unseen(unseen) => unseen == mode,
+            Planted::UnseenWhile(first, unseen) => {
+                unseen == mode && self.failures.iter().any(|it| it.mode == first && !it.over)
+            }
+            _ => false,
+        };
+        observable(mode, situation, moving) && !self.planted.iter().any(hides)
+    }
+
+    /// How long an observer takes to see a failure, in ms.
+    pub(super) fn latency_ms(&self, mode: FailureMode) -> u64 {
+        let later = self.planted.iter().filter_map(|it| match *it {
+            Planted::Late(late, by) if late == mode => Some(by.0),
+            _ => None,
+        });
+        u64::from(mode.rule().latency_ms) + later.sum::<u64>()
     }
 
     /// The failures that are seen from now on.
