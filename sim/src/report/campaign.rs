@@ -52,16 +52,18 @@ fn head(page: &mut String, header: &Header, name: &str, tally: &Tally) {
         let sentence = format!("{} {one} a requirement", grouped(tally.failing.into()));
         ("failed", "M16 8v10M16 22.5v.5", sentence)
     };
+    let faults = match header.faults {
+        (least, most) if least == most => count(most, "fault"),
+        (least, most) => format!("{least} to {most} faults"),
+    };
     let _ = write!(
         page,
         "<header><p class=\"kicker\">Report of a fault campaign</p>\n<h1>{name}</h1>\n\
          <div class=\"outcome {class}\"><svg viewBox=\"0 0 32 32\" aria-hidden=\"true\">\
          <circle cx=\"16\" cy=\"16\" r=\"15\"/><path d=\"{shape}\"/></svg>\
-         <p><strong>{sentence}</strong><span>of {}, {} to {} faults each, drawn by the strategy \
+         <p><strong>{sentence}</strong><span>of {}, {faults} each, drawn by the strategy \
          {}, seed {}.</span></p></div>\n</header>\n",
         count(tally.runs, "run"),
-        header.faults.0,
-        header.faults.1,
         escape(&header.strategy),
         header.seed
     );
@@ -82,14 +84,14 @@ fn bar(class: &str, it: Interval) -> String {
     )
 }
 
-/// A share in percent, with two digits at least.
+/// A share in percent, with as many digits as a small one needs.
 fn share(it: f64) -> String {
     let percent = 100.0 * it;
     if percent == 0.0 || percent >= 1.0 {
-        format!("{percent:.1} %")
-    } else {
-        format!("{percent:.2e} %")
+        return format!("{percent:.1} %");
     }
+    let digits = (1..12).find(|it| percent * 10_f64.powi(*it) >= 1.0).unwrap_or(12) as usize + 1;
+    format!("{percent:.digits$} %")
 }
 
 fn between(it: Interval) -> String {
