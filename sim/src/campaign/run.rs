@@ -59,7 +59,7 @@ impl Settings {
 /// ```
 /// use cotama_sim::campaign::run::Shard;
 /// let shard = Shard { index: 2, of: 3 };
-/// assert_eq!(shard.blocks(2_600).collect::<Vec<_>>(), [1, 4]);
+/// assert_eq!(shard.blocks(4_600).collect::<Vec<_>>(), [1, 4]);
 /// assert_eq!(Shard::ALL.blocks(1).collect::<Vec<_>>(), [0]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
