@@ -1,7 +1,7 @@
 //! `cotama campaign`: many missions under drawn faults, and what comes of them.
 
 use crate::answers::campaign::{
-    CampaignAnswer, DecisionRow, Estimate, FailureRow, Outcomes, PolicyRow, RequirementRow,
+    CampaignAnswer, DecisionRow, FailureRow, Measured, Outcomes, PolicyRow, RequirementRow,
 };
 use crate::args::{CampaignArgs, PolicyName};
 use crate::exit::{Exit, Failure};
@@ -83,7 +83,7 @@ pub(crate) fn campaign(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Fai
     }
     let decision = test.map(|it| decision(&it, args));
     let answer = finish(args, &header, &campaign, &tally, decision)?;
-    ended(args, answer, screen)
+    ended(args, &answer, screen)
 }
 
 /// What is drawn and asked.
@@ -125,11 +125,7 @@ fn fires(requirement: &Requirement) -> bool {
             .any(|it| it.name == net && it.net.transitions.iter().any(|it| it.name == transition))
 }
 
-fn ready<'m>(
-    loaded: &'m Loaded,
-    policy: PolicyName,
-    settings: Settings,
-) -> Result<Campaign<'m>, Failure> {
+fn ready(loaded: &Loaded, policy: PolicyName, settings: Settings) -> Result<Campaign<'_>, Failure> {
     let policy = policy.policy(loaded.mission.supervisor().is_some());
     let subject = Subject::new(&loaded.mission, policy)
         .map_err(|error| Failure::of(&loaded.source, error.to_string()))?;
@@ -176,7 +172,7 @@ fn finish(
     let estimates = campaign.estimates();
     let overall = cotama_sim::campaign::statistics::clopper_pearson;
     let estimate =
-        |hits: u64| estimates.then(|| Estimate::from(overall(hits, tally.runs, args.confidence)));
+        |hits: u64| estimates.then(|| Measured::from(overall(hits, tally.runs, args.confidence)));
     let rows = requirements.iter().map(|it| {
         let violated = tally.violated.get(&it.to_string()).copied().unwrap_or(0);
         let (requirement, text) = (it.to_string(), it.words());
@@ -243,18 +239,17 @@ fn write(
     Ok(())
 }
 
-fn ended(args: &CampaignArgs, answer: CampaignAnswer, screen: &Screen) -> Result<Exit, Failure> {
+fn ended(args: &CampaignArgs, answer: &CampaignAnswer, screen: &Screen) -> Result<Exit, Failure> {
     if args.json.json {
-        Screen::json(&answer)?;
+        Screen::json(answer)?;
     } else {
-        screen.print(&render::campaign::screen(&answer))?;
+        screen.print(&render::campaign::screen(answer))?;
     }
     Ok(match answer.decision.map(|it| it.verdict) {
         Some("at_most") => Exit::Success,
         Some("undecided") => Exit::Unknown,
-        Some(_) => Exit::Violated,
         None if answer.failing == 0 => Exit::Success,
-        None => Exit::Violated,
+        _ => Exit::Violated,
     })
 }
 
@@ -291,7 +286,7 @@ fn compared(
         .iter()
         .zip(&named)
         .map(|(it, (name, _))| {
-            let [duration_ms, energy_mj, operator_requests, replans] = it.means.map(Estimate::from);
+            let [duration_ms, energy_mj, operator_requests, replans] = it.means.map(Measured::from);
             PolicyRow {
                 policy: name,
                 outcomes: Outcomes::from(it.outcomes),
@@ -326,10 +321,10 @@ fn compared(
         policies: rows,
         report: None,
     };
-    ended(args, answer, screen)
+    ended(args, &answer, screen)
 }
 
-impl From<Interval> for Estimate {
+impl From<Interval> for Measured {
     fn from(it: Interval) -> Self {
         Self { estimate: it.estimate, low: it.low, high: it.high, confidence: it.confidence }
     }

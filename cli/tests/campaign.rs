@@ -2,6 +2,7 @@
 
 use crate::common::Folder;
 use crate::schemas::validate;
+use std::fmt::Write;
 
 const RUNS: &str = "2500";
 
@@ -95,7 +96,7 @@ fn what_does_not_fit_is_refused_and_nothing_is_changed() {
         let all: Vec<_> = ["campaign"].into_iter().chain(words.split(' ')).collect();
         let refused = folder.cotama(&all);
         assert_eq!(refused.code, Some(2), "{words}");
-        said += &format!("$ cotama campaign {words}\n{}\n", refused.stderr);
+        writeln!(said, "$ cotama campaign {words}\n{}", refused.stderr).unwrap();
     }
     cotama_golden::compare("tests/golden/bad_campaigns.txt", &said);
     assert!(folder.read("a/runs.jsonl") == before);

@@ -1,9 +1,13 @@
-//! Patrol missions per second on one core, without and with a trace in memory.
+//! Missions per second on one core: patrols without and with a trace in memory, and patrols and
+//! supervised deliveries under drawn faults, as a campaign runs them.
 //!
 //! `cargo bench -p cotama-sim --bench missions`; with any argument of its own it runs briefly.
 #![allow(clippy::unwrap_used, clippy::cast_precision_loss)]
 
 use cotama_models::missions::{Mission, embedded};
+use cotama_sim::campaign::space::{Rates, Space};
+use cotama_sim::campaign::strategy::{Strategy, Uniform};
+use cotama_sim::campaign::subject::{Policy, Subject};
 use cotama_sim::options::Options;
 use cotama_sim::setup::Simulation;
 use cotama_sim::trace::Record;
@@ -21,6 +25,19 @@ fn per_second(rounds: usize, times: u32, mut work: impl FnMut()) -> f64 {
         .collect();
     rates.sort_by(f64::total_cmp);
     rates[rounds / 2]
+}
+
+/// One to three faults a run, drawn uniformly.
+fn campaign(name: &str, rounds: usize, times: u32) {
+    let embedded = embedded::mission(name).unwrap();
+    let mission = Mission::parse(embedded.name, embedded.text).unwrap();
+    let subject = Subject::new(&mission, Policy::default()).unwrap();
+    let space = Space::of(&mission, Rates::Even, 1..=3);
+    let rate = per_second(rounds, 1, || {
+        let mut draws = Uniform.block(&space, 0, 0);
+        (0..times).for_each(|_| drop(black_box(subject.run(&draws.next()))));
+    });
+    println!("{name:9} drawn {:>9.0} missions/s", rate * f64::from(times));
 }
 
 fn main() {
@@ -43,4 +60,7 @@ fn main() {
     println!("without trace   {silent:>9.0} missions/s");
     println!("trace in memory {recorded:>9.0} missions/s");
     println!("made ready      {ready:>9.0} missions/s");
+    for name in ["patrol", "delivery"] {
+        campaign(name, rounds, times / 2);
+    }
 }

@@ -25,7 +25,7 @@ pub(crate) struct CampaignAnswer {
     pub(crate) failing: u64,
     /// The probability that a run breaks a requirement, of plans drawn as these were; none where
     /// they were not drawn independently.
-    pub(crate) failure_probability: Option<Estimate>,
+    pub(crate) failure_probability: Option<Measured>,
     /// The same for each requirement.
     pub(crate) requirements: Vec<RequirementRow>,
     /// Causes of failures, the most frequent first; none in a shard.
@@ -55,7 +55,7 @@ pub(crate) struct Outcomes {
 
 /// An estimate with its interval: exact (Clopper and Pearson) for probabilities.
 #[derive(Clone, Copy, Debug, JsonSchema, Serialize)]
-pub(crate) struct Estimate {
+pub(crate) struct Measured {
     pub(crate) estimate: f64,
     pub(crate) low: f64,
     pub(crate) high: f64,
@@ -72,7 +72,7 @@ pub(crate) struct RequirementRow {
     pub(crate) text: String,
     /// How many runs broke it.
     pub(crate) violated: u64,
-    pub(crate) probability: Option<Estimate>,
+    pub(crate) probability: Option<Measured>,
 }
 
 /// Failing runs with one cause.
@@ -112,13 +112,13 @@ pub(crate) struct PolicyRow {
     pub(crate) policy: &'static str,
     pub(crate) outcomes: Outcomes,
     /// The probability that a mission is completed.
-    pub(crate) success: Estimate,
+    pub(crate) success: Measured,
     /// How much more likely it is completed than with the first policy; none for the first.
-    pub(crate) success_difference: Option<Estimate>,
+    pub(crate) success_difference: Option<Measured>,
     /// How likely so large a difference is if there is none (`McNemar`'s exact test).
     pub(crate) p_value: Option<f64>,
-    pub(crate) duration_ms: Estimate,
-    pub(crate) energy_mj: Estimate,
-    pub(crate) operator_requests: Estimate,
-    pub(crate) replans: Estimate,
+    pub(crate) duration_ms: Measured,
+    pub(crate) energy_mj: Measured,
+    pub(crate) operator_requests: Measured,
+    pub(crate) replans: Measured,
 }

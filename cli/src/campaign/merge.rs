@@ -61,7 +61,7 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
         store.append(text.get(bytes..).unwrap_or_default())?;
     }
     let answer = finish(args, &whole, &campaign, &tally, None)?;
-    ended(args, answer, screen)
+    ended(args, &answer, screen)
 }
 
 /// The results of all shards in the order of their numbers, and the header of one of them.

@@ -1,10 +1,11 @@
 //! What a campaign comes to.
+#![allow(clippy::cast_precision_loss)] // shares of runs need no more than 52 bits
 
 use super::numbers::grouped;
 use super::style::{BAD, FAINT, GOOD, NAME, PLAIN};
 use super::table::{Cell, Table};
 use super::visible;
-use crate::answers::campaign::{CampaignAnswer, Estimate, PolicyRow};
+use crate::answers::campaign::{CampaignAnswer, Measured, PolicyRow};
 use std::fmt::Write;
 
 /// The screen of a campaign.
@@ -122,7 +123,7 @@ fn policies(answer: &CampaignAnswer) -> String {
     let words = ["", "completed", "safe", "failed", "against the first", "time", "energy", "asked"];
     let mut table = Table::new(vec![words.map(Cell::faint).to_vec()]);
     let row = |it: &PolicyRow| {
-        let plus = |it: Estimate| {
+        let plus = |it: Measured| {
             let half = (it.high - it.low) / 2.0;
             (it.estimate, half)
         };
@@ -166,7 +167,7 @@ pub(crate) fn percent(share: f64) -> String {
     }
 }
 
-fn interval(it: Estimate) -> String {
+fn interval(it: Measured) -> String {
     format!("({} to {})", percent(it.low), percent(it.high))
 }
 

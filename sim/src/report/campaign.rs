@@ -90,7 +90,8 @@ fn share(it: f64) -> String {
     if percent == 0.0 || percent >= 1.0 {
         return format!("{percent:.1} %");
     }
-    let digits = (1..12).find(|it| percent * 10_f64.powi(*it) >= 1.0).unwrap_or(12) as usize + 1;
+    let enough = |it: &u8| percent * 10_f64.powi(i32::from(*it)) >= 1.0;
+    let digits = usize::from((1..12).find(enough).unwrap_or(12)) + 1;
     format!("{percent:.digits$} %")
 }
 
