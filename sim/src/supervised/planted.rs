@@ -26,8 +26,8 @@ pub enum Planted {
 
 impl<'m> Supervised<'m> {
     /// The embedded mission, or one with its objectives, under these supervisors: the nets of
-    /// [`delivery`](delivery::SYSTEM) with transitions that were changed, for example. They have
-    /// the places and events of those, in their order.
+    /// [`delivery`](cotama_models::cotama::delivery::SYSTEM) with transitions that were changed,
+    /// for example. They have the places and events of those, in their order.
     ///
     /// # Errors
     /// When the nets do not fit each other.
