@@ -33,6 +33,9 @@ const BUILD: &str = "export CARGO_NET_OFFLINE=true CARGO_TARGET_DIR=$PWD/target 
 /// The page whose commands build crates.
 const BUILDS_CRATES: &str = "your-own.md";
 
+/// The page whose crates are begun beside the sources.
+const BESIDE_SOURCES: &str = "embed.md";
+
 fn pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
     let docs = fs::read_dir(root.join("docs")).unwrap().map(|it| it.unwrap().path());
@@ -134,8 +137,9 @@ fn every_page_says_what_the_program_does() {
     let folder = |path: &Path| {
         let page = path.file_name().unwrap().to_str().unwrap();
         let folder = Folder::new(&format!("book_{page}"));
-        // Crates are begun beside the sources.
-        std::os::unix::fs::symlink(&root, folder.path().join("cotama")).unwrap();
+        if page == BESIDE_SOURCES {
+            std::os::unix::fs::symlink(&root, folder.path().join("cotama")).unwrap();
+        }
         folder
     };
     let quick = pages().into_iter().filter(|it| !it.ends_with(BUILDS_CRATES));
