@@ -107,7 +107,7 @@ pub enum RestoreError {
     /// together, or bits are set where no place or clock is.
     Marking,
     /// It breaks a law of a component: the component, and the position of the law in
-    /// [`Net::laws`].
+    /// [`Net::laws`](crate::net::Net::laws).
     Law(u16, usize),
     /// A clock runs that cannot, or longer than it can; of this transition.
     Clock(Of<TransitionId>),
