@@ -2,8 +2,9 @@
 //! they run, and which sensors and algorithms to use in every part of a mission, so that time,
 //! energy and any other additive limit hold.
 //!
-//! `no_std`, no heap, no floating point, no unsafe code, no dependency: the same code plans on a
-//! workstation, in a simulator and on a microcontroller, and gives the same plan everywhere.
+//! `no_std`, no heap, no floating point, no unsafe code, by default no dependency: the same code
+//! plans on a workstation, in a simulator and on a microcontroller, and gives the same plan
+//! everywhere.
 //!
 //! | module | what it is |
 //! | --- | --- |

@@ -1,9 +1,9 @@
 //! Does on this machine what the images do on a chip.
 //!
 //! `host scenes TRACE` writes the trace of all scenes to a file, and a line for each to standard
-//! output. `host session SENT ANSWERED [exact]` holds a conversation with the robot behind its UART:
-//! a delivery over a noisy line with a hang of the control loop in the middle, and plans; it writes
-//! what it sent, for the chip, and what was answered, to compare.
+//! output. `host session SENT ANSWERED [exact]` holds a conversation with the robot behind its
+//! UART: a delivery over a noisy line with a hang of the control loop in the middle, and plans; it
+//! writes what it sent, for the chip, and what was answered, to compare.
 
 use cotama_core::units::Millis;
 use robot::link::Sender;

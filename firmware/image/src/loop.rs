@@ -1,5 +1,5 @@
-//! The robot's firmware: the control loop behind the UART, the state in flash, the watchdog, and the
-//! patrol planned by the rule of the paper.
+//! The robot's firmware: the control loop behind the UART, the state in flash, the watchdog, and
+//! the patrol planned by the rule of the paper.
 #![no_std]
 #![no_main]
 

@@ -1,5 +1,5 @@
-//! Arm's MPS2 with AN385 or AN386 (application notes of these names), as QEMU emulates it. Its flash
-//! is RAM that keeps its content while the board resets.
+//! Arm's MPS2 with AN385 or AN386 (application notes of these names), as QEMU emulates it. Its
+//! flash is RAM that keeps its content while the board resets.
 
 use crate::received::{listen, received};
 use crate::register::Register;

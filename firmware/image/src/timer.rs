@@ -49,7 +49,7 @@ pub fn every_tick(act: fn(u64)) {
 
 #[exception]
 fn SysTick() {
-    // One core, and no interrupt here is more urgent: load and store are enough, and M0 has no more.
+    // One core, and no interrupt here is more urgent: load and store are enough; M0 has no more.
     let now = TICKS.load(Ordering::Relaxed).wrapping_add(1);
     TICKS.store(now, Ordering::Relaxed);
     if let Some(act) = free(|token| EVERY_TICK.borrow(token).get()) {

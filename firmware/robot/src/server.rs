@@ -4,8 +4,10 @@
 //! | first byte | content | answer |
 //! | --- | --- | --- |
 //! | [`PERIOD`] | a [`Period`] | [`PERIOD`], the requests |
-//! | [`PLAN`] | first activity `u8`, rest `u32` (mm or ms), hardware `u32`, used ms and mJ `u32` each | [`PLAN`], first activity, an alternative for each activity left, ms, mJ and quality `u32` each; without all this when there is no plan |
+//! | [`PLAN`] | what is left: [`Asked`] | [`PLAN`], first activity, and a plan where there is one |
 //! | anything else | | [`UNKNOWN`] |
+//!
+//! A plan is an alternative for each activity left, and ms, mJ and quality, `u32` each.
 //!
 //! Before an answer to a frame before which some are missing stands a [`MISSING`] with how many.
 

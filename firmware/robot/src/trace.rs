@@ -8,13 +8,15 @@
 //! | `F` fired | time ms `u32`, net `u16`, transition `u16`, cause `u16` |
 //! | `T` told | time ms `u32`, net `u16`, event `u16` |
 //! | `D` diagnosed | time ms `u32`, cause `u16`, flags `u64`, kind `u8`, failure modes `u64` |
-//! | `R` requests | time ms `u32`, configuration `u8` (255 none), bits `u8`, speed mm/s `u32`, permille of speed and quality `u16` each |
-//! | `P` plan | first activity `u8`, an alternative `u8` for each, time ms `u64`, energy mJ `u64`, quality `u64` |
+//! | `R` requests | time ms `u32`, configuration `u8`, bits `u8`, mm/s `u32`, two permille `u16` |
+//! | `P` plan | first activity `u8`, an alternative `u8` each; ms, mJ and quality `u64` each |
 //! | `N` no plan | first activity `u8` |
 //! | `H` happening | time us `u64`, task `u8`, what `u8` |
 //! | `O` outcome | net `u8`, what `u8`, state `u8` |
 //! | `B` restored | what `u8`, number `u32` |
 //! | `L` frame | what `u8`, number `u32` |
+//!
+//! A configuration of 255 is none; permille are of speed and of quality.
 
 use cotama_core::net::{EventId, TransitionId};
 use cotama_core::system::Of;
