@@ -23,12 +23,16 @@ pub(super) mod sealed {
         const HALF: Self;
         /// No path, and further than any path.
         const FAR: Self;
-        /// Nearer than any path: of columns that are done.
+        /// Nearer than any path, of columns that are done; and less near than any column.
         const DONE: Self;
         /// The largest price and path, twice; a sum of four of these is nearer than `FAR`.
         const ROOM: Self;
         /// Twice the cost, which is missing if it is stored below `least`.
         fn twice(entry: Option<Cost>, least: i32) -> Option<Self>;
+        /// Twice what a cost is stored as: the cheaper, the more.
+        fn twice_stored(stored: i32) -> Self;
+        /// How far something is that is so near, and how near what is so far.
+        fn away(self) -> Self;
         /// The sum.
         fn plus(self, other: Self) -> Self;
         /// The difference.
@@ -54,6 +58,19 @@ pub(super) mod sealed {
                     let stored = Cost::upside_down(entry);
                     let cost = Cost::number(stored) as Self;
                     (stored >= least).then_some(cost.wrapping_add(cost))
+                }
+                #[inline]
+                fn twice_stored(stored: i32) -> Self {
+                    (stored as Self).wrapping_add(stored as Self)
+                }
+                #[inline]
+                fn away(self) -> Self {
+                    let nothing = Self::twice_stored(Cost::number(0));
+                    match self {
+                        Self::DONE => Self::FAR,
+                        Self::FAR => Self::DONE,
+                        it => nothing.wrapping_sub(it),
+                    }
                 }
                 #[inline]
                 fn plus(self, other: Self) -> Self {

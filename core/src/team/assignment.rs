@@ -10,7 +10,7 @@ use super::amount::Amount;
 use super::cost::{Cost, Costs};
 use super::memory::Memory;
 use super::proof::conflict;
-use super::scan::{Nearest, Reach, next_equal, reach, two_nearest};
+use super::scan::{Nearest, Reach, Row, cheapest, reach};
 use crate::allocation::{MemoryError, enough};
 
 /// Why there is no assignment.
@@ -144,9 +144,9 @@ impl<'w, N: Amount> Work<'w, N> {
         if *price > N::ZERO.minus(N::ROOM) { Ok(()) } else { Err(Unassigned::TooLarge) }
     }
 
-    /// The nearest two columns of a row at the current prices.
-    fn two_nearest(&self, row: usize) -> Nearest<N> {
-        two_nearest(self.costs.entries(row), self.costs.least(), self.memory.prices)
+    /// A row at the current prices.
+    fn row(&self, row: usize) -> Row<'_, N> {
+        Row::new(self.costs, row, self.memory.prices)
     }
 
     /// The reduction of columns: each costs what it costs its cheapest row, and that row has it
@@ -154,16 +154,13 @@ impl<'w, N: Amount> Work<'w, N> {
     /// each of these rows lowers the price of its column by what the second one is worse.
     fn reduce_columns(&mut self) -> Result<(), Unassigned> {
         let Memory { prices, before, done, .. } = &mut self.memory;
-        prices.fill(N::FAR);
+        done.fill(0); // what each column costs its cheapest row, as that is stored
         for row in 0..self.costs.rows() {
-            let entries = self.costs.entries(row).iter();
-            for (entry, (price, cheapest)) in entries.zip(prices.iter_mut().zip(before.iter_mut()))
-            {
-                let cost = N::twice(*entry, self.costs.least()).unwrap_or(N::FAR);
-                let less = cost < *price;
-                *cheapest = if less { row as u32 } else { *cheapest };
-                *price = if less { cost } else { *price };
-            }
+            cheapest(self.costs.entries(row), row as u32, done, before);
+        }
+        for (price, stored) in prices.iter_mut().zip(done.iter()) {
+            let cost = N::twice(Cost::from_stored(*stored), self.costs.least());
+            *price = cost.unwrap_or(N::FAR);
         }
         done.fill(0); // of how many columns a row is the cheapest
         for column in (0..self.costs.columns()).rev() {
@@ -186,8 +183,8 @@ impl<'w, N: Amount> Work<'w, N> {
             if self.memory.done.get(row) != Some(&1) {
                 continue;
             }
-            let nearest = self.two_nearest(row);
-            let other = if nearest.column == column { nearest.second } else { nearest.away };
+            let nearest = self.row(row).two_nearest();
+            let other = if nearest.column == Some(column) { nearest.second } else { nearest.away };
             if other != N::FAR {
                 self.reprice(column, |it| it.minus(other.whole()))?;
             }
@@ -208,7 +205,7 @@ impl<'w, N: Amount> Work<'w, N> {
                 while self.memory.column(open).is_none() {
                     let Some(left) = steps.checked_sub(1) else { return Ok(()) };
                     steps = left;
-                    let Nearest { away, mut column, second } = self.two_nearest(open);
+                    let Nearest { away, column, second } = self.row(open).two_nearest();
                     if away == N::FAR {
                         return Err(self.conflict(open, 0));
                     }
@@ -221,9 +218,10 @@ impl<'w, N: Amount> Work<'w, N> {
                         // To push somebody out without gain may go on for ever.
                         let Some(left) = level.checked_sub(1) else { break };
                         level = left;
-                        let (entries, least) = (self.costs.entries(open), self.costs.least());
-                        column = next_equal(entries, least, self.memory.prices, away, lost);
                     }
+                    // Of equal ones the first that is free, or the next one that is not.
+                    let behind = if free { usize::MAX } else { lost };
+                    let column = column.unwrap_or_else(|| self.row(open).next_equal(away, behind));
                     lost = column;
                     let pushed = self.memory.row(column);
                     let taken = if free { N::HALF } else { N::ZERO };
@@ -246,15 +244,9 @@ impl<'w, N: Amount> Work<'w, N> {
         // The row that is looked at, and what it costs to come to it.
         let (mut row, mut base, mut met) = (from, N::ZERO, 0_usize);
         let (end, length) = loop {
-            let by = Reach {
-                row: self.costs.entries(row as usize),
-                least: self.costs.least(),
-                prices: self.memory.prices,
-                base,
-                from: row,
-            };
-            let nearest = reach(&by, self.memory.distances, self.memory.before);
-            let (column, away) = (nearest.column, nearest.away);
+            let prices = Row::new(self.costs, row as usize, self.memory.prices);
+            let by = Reach { row: prices, base, from: row };
+            let (away, column) = reach(&by, self.memory.distances, self.memory.before);
             if away == N::FAR {
                 return Err(self.conflict(from as usize, met));
             }

@@ -10,7 +10,7 @@ use super::amount::Amount;
 use super::assignment::{Unassigned, Work};
 use super::cost::{Cost, Costs};
 use super::memory::Memory;
-use super::scan::{Reach, reach};
+use super::scan::{Reach, Row, reach};
 
 /// A bottleneck assignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -66,16 +66,10 @@ impl<N: Amount> Work<'_, N> {
         self.memory.distances.fill(N::FAR);
         let (mut row, mut met) = (from, 0_usize);
         let end = loop {
-            let by = Reach {
-                row: self.costs.entries(row as usize),
-                least: self.costs.least(),
-                prices: self.memory.prices,
-                base: N::ZERO,
-                from: row,
-            };
-            let nearest = reach(&by, self.memory.distances, self.memory.before);
-            let column = nearest.column;
-            if nearest.away == N::FAR {
+            let prices = Row::new(self.costs, row as usize, self.memory.prices);
+            let by = Reach { row: prices, base: N::ZERO, from: row };
+            let (away, column) = reach(&by, self.memory.distances, self.memory.before);
+            if away == N::FAR {
                 return Err(self.conflict(from as usize, met));
             }
             let before = self.memory.before.get(column).copied().unwrap_or(from);
@@ -86,7 +80,7 @@ impl<N: Amount> Work<'_, N> {
                 *largest = cost;
             }
             let Some(next) = self.memory.row(column) else { break column };
-            self.settle(column, met, nearest.away);
+            self.settle(column, met, away);
             (row, met) = (next as u32, met.wrapping_add(1));
         };
         if let Some(price) = self.memory.prices.get_mut(end) {

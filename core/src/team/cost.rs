@@ -46,6 +46,15 @@ impl Cost {
         Self::TOP.wrapping_sub(stored)
     }
 
+    /// What is stored as this; none for 0.
+    #[inline]
+    pub(super) const fn from_stored(stored: u32) -> Option<Self> {
+        match NonZeroI32::new(stored.cast_signed()) {
+            Some(it) => Some(Self(it)),
+            None => None,
+        }
+    }
+
     /// What an entry is stored as; 0 for what is missing.
     #[inline]
     pub(super) const fn upside_down(entry: Option<Self>) -> i32 {

@@ -1,7 +1,7 @@
 //! Costs, the assignment and its proof, and coalitions, against all solutions of small instances.
 
 use super::assignment::Work;
-use super::scan::{next_equal, two_nearest};
+use super::scan::Row;
 use super::*;
 use crate::proofs::few;
 
@@ -175,15 +175,17 @@ pub fn a_bottleneck_is_the_least() {
     }
 }
 
-/// The two nearest columns of a row are the nearest and how far the next one is, in blocks of eight
-/// as at their end.
+/// The two nearest columns of a row are the nearest and how far the next one is, looked at one by
+/// one.
 #[kani::proof]
 #[kani::unwind(11)]
 pub fn the_two_nearest_are_found() {
     let entry = |at: usize| if kani::any() { Cost::new(at as u32 % 3) } else { None };
     let row: [Option<Cost>; 10] = core::array::from_fn(entry);
     let prices: [i32; 10] = core::array::from_fn(|at| if at % 4 == 3 { -1 } else { 0 });
-    let nearest = two_nearest(&row, 1, &prices);
+    let Some(costs) = Costs::new(&row, 10) else { unreachable!() };
+    let scan = Row::new(&costs, 0, &prices);
+    let nearest = scan.two_nearest();
     let away = |at: usize| row[at].map_or(i32::MAX, |it| 2 * it.get() as i32 - prices[at]);
     let (mut first, mut place, mut second) = (i32::MAX, 0, i32::MAX);
     for at in 0..10 {
@@ -194,11 +196,37 @@ pub fn the_two_nearest_are_found() {
         }
     }
     assert!(nearest.away == first && nearest.second == second);
-    assert!(first == i32::MAX || nearest.column == place);
-    let next = next_equal(&row, 1, &prices, first, nearest.column);
-    assert!(away(next) == first && (next != nearest.column || second > first));
-    kani::cover!(place == 9, "behind the block");
+    assert!(nearest.column == (first < second).then_some(place));
+    let next = scan.next_equal(first, place);
+    assert!(away(next) == first && (next != place || second > first));
+    kani::cover!(place == 9, "the last one");
     kani::cover!(first == second && first < i32::MAX, "two as near");
+}
+
+/// So they are among many columns, which are looked at sixteen at a time: wherever the nearest, the
+/// next and a missing one are.
+#[kani::proof]
+#[kani::unwind(36)]
+pub fn the_two_nearest_of_many_are_found() {
+    let mut row = [if kani::any() { Cost::new(2) } else { None }; 35];
+    let [first, next, missing] = core::array::from_fn(|_| usize::from(few::<5>()) + 3);
+    let dearer = u32::from(kani::any::<bool>());
+    row[missing] = None;
+    row[next] = Cost::new(dearer);
+    row[first] = Cost::new(0);
+    let Some(costs) = Costs::new(&row, 35) else { unreachable!() };
+    let prices = [0; 35];
+    let scan = Row::new(&costs, 0, &prices);
+    let nearest = scan.two_nearest();
+    let second =
+        (0..35).filter(|it| *it != first).filter_map(|it| row[it]).min_by_key(|it| it.get());
+    let second = second.map_or(i32::MAX, |it| 2 * it.get() as i32);
+    assert!(nearest.away == 0 && nearest.second == second);
+    assert!(nearest.column == (second > 0).then_some(first));
+    let other = if second == 0 { next } else { first };
+    assert!(scan.next_equal(0, first) == other);
+    kani::cover!(first % 16 == next % 16 && first != next && dearer == 0, "in the same lane");
+    kani::cover!(first > 31 && next < 16, "behind the last sixteen");
 }
 
 /// The cheapest plan of a task is the cheapest for all ways to staff each plan, for sums, means and

@@ -1,29 +1,195 @@
-//! The two loops over a row in which an assignment spends its time, eight columns at a time.
+//! The loops over a row in which an assignment spends its time, sixteen columns at a time.
 //!
 //! Loops that only take minima become vector operations; so the place of the minimum is looked for
-//! afterwards, in the block of columns where it was met.
+//! afterwards, among the columns where it was met.
 
 use super::amount::Amount;
-use super::cost::Cost;
+use super::cost::{Cost, Costs};
 
 /// Columns that are looked at together.
-const LANES: usize = 8;
-/// Columns of a block.
-const BLOCK: usize = 8 * LANES;
+const LANES: usize = 16;
+/// Whether there are vectors; without them columns are looked at one by one, with the same result.
+const VECTORS: bool = cfg!(any(target_feature = "sse2", target_feature = "neon"));
+/// Columns of a block: a bit for each of its chunks.
+const BLOCK: usize = 32 * LANES;
 
-/// The nearest column of a row.
+/// A row at the prices of its columns; an entry counts if it is stored as `least` or more.
+#[derive(Clone, Copy)]
+pub(super) struct Row<'r, N> {
+    entries: &'r [Option<Cost>],
+    least: i32,
+    prices: &'r [N],
+    /// Whether an entry may be missing.
+    pub(super) lacks_any: bool,
+}
+
+/// The nearest columns of a row.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Nearest<N> {
-    /// How far it is; [`FAR`](super::amount::sealed::Arithmetic::FAR) where there is none.
+    /// How far the nearest is; [`FAR`](super::amount::sealed::Arithmetic::FAR) where there is none.
     pub(super) away: N,
-    pub(super) column: usize,
+    /// Which it is, unless the second one is as near.
+    pub(super) column: Option<usize>,
     /// How far the second one is.
     pub(super) second: N,
+}
+
+impl<'r, N: Amount> Row<'r, N> {
+    pub(super) fn new(costs: &Costs<'r>, row: usize, prices: &'r [N]) -> Self {
+        let (least, lacks_any) = (costs.least(), costs.lacks_any());
+        Self { entries: costs.entries(row), least, prices, lacks_any }
+    }
+
+    /// The nearest two columns.
+    #[inline]
+    pub(super) fn two_nearest(&self) -> Nearest<N> {
+        let (mut best, mut second, mut column, mut start) = (N::DONE, N::DONE, 0, 0_usize);
+        let prices = self.prices.get(..self.entries.len()).unwrap_or(&[]);
+        for (entries, prices) in self.entries.chunks(BLOCK).zip(prices.chunks(BLOCK)) {
+            let block = Row { entries, prices, ..*self };
+            let full = VECTORS && !self.lacks_any; // not to ask each entry makes vectors quicker
+            let (first, next, at) =
+                if full { block.two_of_block::<true>() } else { block.two_of_block::<false>() };
+            second = more(more(second, next), less(best, first));
+            column = if first > best { start.wrapping_add(at) } else { column };
+            best = more(best, first);
+            start = start.wrapping_add(BLOCK);
+        }
+        let (away, second) = (N::away(best), N::away(second));
+        Nearest { away, column: (away < second).then_some(column), second }
+    }
+
+    /// How near the nearest two columns are, and the place of the first unless they are equal.
+    #[inline(never)]
+    fn two_of_block<const FULL: bool>(&self) -> (N, N, usize) {
+        let prices = self.prices.get(..self.entries.len()).unwrap_or(&[]);
+        let ((rows, rest), (costs, prices)) = (chunks(self.entries), chunks(prices));
+        let (mut best, mut second, mut column) = (N::DONE, N::DONE, 0);
+        let mut at = rows.len().wrapping_mul(LANES);
+        for (entry, price) in rest.iter().zip(prices) {
+            let value = self.near::<FULL>(*entry, *price);
+            second = more(second, less(best, value));
+            column = if value > best { at } else { column };
+            best = more(best, value);
+            at = at.wrapping_add(1);
+        }
+        if rows.is_empty() {
+            return (best, second, column);
+        }
+        // The nearest of each sixteenth column.
+        let mut firsts = [N::DONE; LANES];
+        for (row, prices) in rows.iter().zip(costs) {
+            for lane in 0..LANES {
+                firsts[lane] = more(firsts[lane], self.near::<FULL>(row[lane], prices[lane]));
+            }
+        }
+        let first = most(firsts);
+        let met = lanes(&firsts, first);
+        if best >= first {
+            return (best, more(second, first), column);
+        }
+        if met.count_ones() > 1 {
+            return (first, first, 0);
+        }
+        // The second one is in the same lane, or the nearest of the others.
+        let lane = met.trailing_zeros() as usize % LANES;
+        second = more(best, most(firsts.map(|it| if it == first { N::DONE } else { it })));
+        let (mut met, mut bit) = (0_u32, 1_u32);
+        for (row, prices) in rows.iter().zip(costs) {
+            let value = self.near::<FULL>(row[lane], prices[lane]);
+            met |= if value == first { bit } else { 0 };
+            second = more(second, if value == first { N::DONE } else { value });
+            bit = bit.wrapping_shl(1);
+        }
+        second = if met.count_ones() > 1 { first } else { second };
+        (first, second, (met.trailing_zeros() as usize).wrapping_mul(LANES).wrapping_add(lane))
+    }
+
+    /// How near a column is: what it lacks is how far it is. Costs are stored upside down.
+    #[inline]
+    fn near<const FULL: bool>(&self, entry: Option<Cost>, price: N) -> N {
+        let stored = Cost::upside_down(entry);
+        if FULL || stored >= self.least { N::twice_stored(stored).plus(price) } else { N::DONE }
+    }
+
+    /// How near the columns of a chunk are.
+    #[inline]
+    fn nears(&self, entries: &[Option<Cost>; LANES], prices: &[N; LANES]) -> [N; LANES] {
+        let mut all = [N::DONE; LANES];
+        for lane in 0..LANES {
+            all[lane] = self.near::<false>(entries[lane], prices[lane]);
+        }
+        all
+    }
+
+    /// The first column from this one on that is so far away.
+    #[inline]
+    pub(super) fn equal(&self, away: N, from: usize) -> Option<usize> {
+        let near = N::away(away); // the way back is the same
+        let (entries, prices) = (self.entries.get(from..)?, self.prices.get(from..)?);
+        let ((rows, rest), (costs, prices)) = (chunks(entries), chunks(prices));
+        let mut start = from;
+        for (row, prices) in rows.iter().zip(costs) {
+            let met = lanes(&self.nears(row, prices), near);
+            if met != 0 {
+                return Some(start.wrapping_add(met.trailing_zeros() as usize));
+            }
+            start = start.wrapping_add(LANES);
+        }
+        let met = rest
+            .iter()
+            .zip(prices)
+            .map(|(entry, price)| self.near::<false>(*entry, *price) == near);
+        place(met).map(|it| start.wrapping_add(it))
+    }
+
+    /// The next column behind this one that is so far away, the first again after the last.
+    pub(super) fn next_equal(&self, away: N, behind: usize) -> usize {
+        let next = self.equal(away, behind.wrapping_add(1));
+        next.or_else(|| self.equal(away, 0)).unwrap_or(behind)
+    }
+}
+
+/// Chunks of columns, and the rest.
+#[inline]
+fn chunks<T>(columns: &[T]) -> (&[[T; LANES]], &[T]) {
+    if VECTORS { columns.as_chunks() } else { (&[], columns) }
+}
+
+#[inline]
+fn chunks_mut<T>(columns: &mut [T]) -> (&mut [[T; LANES]], &mut [T]) {
+    if VECTORS { columns.as_chunks_mut() } else { (&mut [], columns) }
+}
+
+/// In which lanes there is this value: a bit for each.
+#[inline]
+fn lanes<N: Amount>(values: &[N; LANES], value: N) -> u32 {
+    let (mut met, mut bit) = (0, 1_u32);
+    for it in values {
+        met |= if *it == value { bit } else { 0 };
+        bit = bit.wrapping_shl(1);
+    }
+    met
+}
+
+/// The most of all lanes.
+#[inline]
+fn most<N: Amount>(all: [N; LANES]) -> N {
+    let mut best = [N::DONE; 4];
+    for four in all.as_chunks::<4>().0 {
+        best.iter_mut().zip(four).for_each(|(best, it)| *best = more(*best, *it));
+    }
+    best.into_iter().fold(N::DONE, more)
 }
 
 #[inline]
 fn less<N: Amount>(a: N, b: N) -> N {
     if a < b { a } else { b }
+}
+
+#[inline]
+fn more<N: Amount>(a: N, b: N) -> N {
+    if a < b { b } else { a }
 }
 
 /// The place of the first that is true. Unlike `position` it counts without a check.
@@ -39,130 +205,90 @@ pub(super) fn place(all: impl Iterator<Item = bool>) -> Option<usize> {
     None
 }
 
+/// Keeps of each column what it costs its cheapest row so far, as that is stored, and which row is
+/// that, the first of equal ones.
 #[inline]
-fn more<N: Amount>(a: N, b: N) -> N {
-    if a < b { b } else { a }
-}
-
-/// The nearest two columns at these prices; of equal ones the first.
-#[inline]
-pub(super) fn two_nearest<N: Amount>(row: &[Option<Cost>], least: i32, prices: &[N]) -> Nearest<N> {
-    let away = |entry, price: N| N::twice(entry, least).map_or(N::FAR, |it| it.minus(price));
-    let (mut best, mut second, mut block, mut number) = (N::FAR, N::FAR, 0, 0_usize);
-    for (row, prices) in row.chunks(BLOCK).zip(prices.chunks(BLOCK)) {
-        let ((rows, row), (costs, prices)) =
-            (row.as_chunks::<LANES>(), prices.as_chunks::<LANES>());
-        let (mut first, mut next) = (N::FAR, N::FAR);
-        if !rows.is_empty() {
-            let (mut firsts, mut nexts) = ([N::FAR; LANES], [N::FAR; LANES]);
-            for (row, prices) in rows.iter().zip(costs) {
-                for lane in 0..LANES {
-                    let value = away(row[lane], prices[lane]);
-                    nexts[lane] = less(nexts[lane], more(firsts[lane], value));
-                    firsts[lane] = less(firsts[lane], value);
-                }
-            }
-            for lane in 0..LANES {
-                next = less(less(next, nexts[lane]), more(first, firsts[lane]));
-                first = less(first, firsts[lane]);
-            }
+pub(super) fn cheapest(row: &[Option<Cost>], from: u32, most: &mut [u32], rows: &mut [u32]) {
+    // Costs are stored upside down, and what is missing as the least of all.
+    let (entries, rest) = chunks(row);
+    let (mosts, most) = chunks_mut(most);
+    let (froms, rows) = chunks_mut(rows);
+    for (row, (mosts, froms)) in entries.iter().zip(mosts.iter_mut().zip(froms)) {
+        let (mut most, mut rows) = (*mosts, *froms);
+        for lane in 0..LANES {
+            let stored = Cost::upside_down(row[lane]);
+            let more = stored > most[lane].cast_signed();
+            rows[lane] = if more { from } else { rows[lane] };
+            most[lane] = if more { stored.cast_unsigned() } else { most[lane] };
         }
-        for (entry, price) in row.iter().zip(prices) {
-            let value = away(*entry, *price);
-            next = less(next, more(first, value));
-            first = less(first, value);
-        }
-        second = less(less(second, next), more(best, first));
-        if first < best {
-            (best, block) = (first, number);
-        }
-        number = number.wrapping_add(1);
+        (*mosts, *froms) = (most, rows);
     }
-    let from = block.wrapping_mul(BLOCK);
-    let met = row.iter().zip(prices).skip(from);
-    let at = place(met.map(|(entry, price)| away(*entry, *price) == best));
-    Nearest { away: best, column: from.wrapping_add(at.unwrap_or(0)), second }
-}
-
-/// The next column behind this one that is so far away, the first again after the last.
-pub(super) fn next_equal<N: Amount>(
-    row: &[Option<Cost>],
-    least: i32,
-    prices: &[N],
-    away: N,
-    behind: usize,
-) -> usize {
-    let value = |entry, price: N| N::twice(entry, least).map_or(N::FAR, |it| it.minus(price));
-    let equal = |it: (&Option<Cost>, &N)| value(*it.0, *it.1) == away;
-    let from = behind.wrapping_add(1);
-    let next = place(row.iter().zip(prices).skip(from).map(equal));
-    let next = next.map(|it| it.wrapping_add(from));
-    next.or_else(|| place(row.iter().zip(prices).map(equal))).unwrap_or(behind)
+    for (entry, (most, row)) in rest.iter().zip(most.iter_mut().zip(rows)) {
+        let stored = Cost::upside_down(*entry);
+        if stored > most.cast_signed() {
+            (*most, *row) = (stored.cast_unsigned(), from);
+        }
+    }
 }
 
 /// Paths to all columns that go on by a row: what comes before it is `base` long.
 pub(super) struct Reach<'r, N> {
-    pub(super) row: &'r [Option<Cost>],
-    pub(super) least: i32,
-    pub(super) prices: &'r [N],
+    pub(super) row: Row<'r, N>,
     pub(super) base: N,
     pub(super) from: u32,
 }
 
 /// Shortens the paths to columns that are nearer by this row, and finds the nearest column that is
-/// not done, the first of equal ones.
+/// not done, the first of equal ones: how far it is, and which it is.
 #[inline]
 pub(super) fn reach<N: Amount>(
     by: &Reach<'_, N>,
     distances: &mut [N],
     before: &mut [u32],
-) -> Nearest<N> {
-    let Reach { least, base, from, .. } = *by;
+) -> (N, usize) {
+    let Reach { row: Row { entries, least, prices, .. }, base, from } = *by;
+    let base = N::away(N::ZERO).plus(base);
     let value = move |entry, price: N| {
-        let cost = N::twice(entry, least);
-        cost.map_or(N::FAR, |it| it.plus(base).minus(price))
+        let stored = Cost::upside_down(entry);
+        let near = N::twice_stored(stored).plus(price);
+        if stored >= least { base.minus(near) } else { N::FAR }
     };
+    let (rows, rest) = chunks(entries);
+    let (costs, prices) = chunks(prices);
+    let (lengths, others) = chunks_mut(distances);
+    let (befores, before) = chunks_mut(before);
     // A column that is done is nearer than any path, so no path shortens it; less a half it is
     // further than all others.
-    let (mut best, mut block, mut number) = (N::FAR, 0, 0_usize);
-    let blocks = by.row.chunks(BLOCK).zip(by.prices.chunks(BLOCK));
-    let blocks = blocks.zip(distances.chunks_mut(BLOCK)).zip(before.chunks_mut(BLOCK));
-    for (((row, prices), distances), before) in blocks {
-        let (rows, row) = row.as_chunks::<LANES>();
-        let (costs, prices) = prices.as_chunks::<LANES>();
-        let (lengths, distances) = distances.as_chunks_mut::<LANES>();
-        let (befores, before) = before.as_chunks_mut::<LANES>();
-        let mut first = N::FAR;
-        if !rows.is_empty() {
-            let mut firsts = [N::FAR; LANES];
-            let chunks = rows.iter().zip(costs).zip(lengths).zip(befores);
-            for (((row, prices), distances), before) in chunks {
-                let (mut lengths, mut rows) = (*distances, *before);
-                for lane in 0..LANES {
-                    let value = value(row[lane], prices[lane]);
-                    rows[lane] = if value < lengths[lane] { from } else { rows[lane] };
-                    lengths[lane] = less(lengths[lane], value);
-                    firsts[lane] = less(firsts[lane], lengths[lane].minus(N::HALF));
-                }
-                (*distances, *before) = (lengths, rows);
-            }
-            first = firsts.into_iter().fold(N::FAR, less);
+    let mut firsts = [N::FAR; LANES];
+    let whole = rows.iter().zip(costs).zip(lengths).zip(befores);
+    for (((row, prices), distances), before) in whole {
+        let (mut lengths, mut rows) = (*distances, *before);
+        for lane in 0..LANES {
+            let value = value(row[lane], prices[lane]);
+            rows[lane] = if value < lengths[lane] { from } else { rows[lane] };
+            lengths[lane] = less(lengths[lane], value);
+            firsts[lane] = less(firsts[lane], lengths[lane].minus(N::HALF));
         }
-        let rest = row.iter().zip(prices).zip(distances.iter_mut().zip(before));
-        for ((entry, price), (distance, before)) in rest {
-            let value = value(*entry, *price);
-            if value < *distance {
-                (*distance, *before) = (value, from);
-            }
-            first = less(first, distance.minus(N::HALF));
-        }
-        if first < best {
-            (best, block) = (first, number);
-        }
-        number = number.wrapping_add(1);
+        (*distances, *before) = (lengths, rows);
     }
-    let start = block.wrapping_mul(BLOCK);
+    let mut best = firsts.into_iter().fold(N::FAR, less);
+    let rest = rest.iter().zip(prices).zip(others.iter_mut().zip(before));
+    for ((entry, price), (distance, before)) in rest {
+        let value = value(*entry, *price);
+        *before = if value < *distance { from } else { *before };
+        *distance = less(*distance, value);
+        best = less(best, distance.minus(N::HALF));
+    }
     let away = if best >= N::FAR.minus(N::HALF) { N::FAR } else { best.plus(N::HALF) };
-    let at = place(distances.iter().skip(start).map(|it| *it == away));
-    Nearest { away, column: start.wrapping_add(at.unwrap_or(0)), second: N::FAR }
+    let (whole, rest) = chunks(distances);
+    let mut start = 0_usize;
+    for chunk in whole {
+        let met = lanes(chunk, away);
+        if met != 0 {
+            return (away, start.wrapping_add(met.trailing_zeros() as usize));
+        }
+        start = start.wrapping_add(LANES);
+    }
+    let at = place(rest.iter().map(|it| *it == away));
+    (away, start.wrapping_add(at.unwrap_or(0)))
 }

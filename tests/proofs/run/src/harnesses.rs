@@ -92,7 +92,8 @@ fn core(all: &mut Vec<Listed>) {
         Exhaustive: a_table_under_a_limit_has_what_is_within
             an_assignment_is_the_least_and_is_proven shortest_paths_assign_the_least
             a_wide_assignment_is_the_least_and_is_proven a_proof_that_is_accepted_is_true
-            a_bottleneck_is_the_least the_two_nearest_are_found a_coalition_is_the_cheapest;
+            a_bottleneck_is_the_least the_two_nearest_are_found the_two_nearest_of_many_are_found
+            a_coalition_is_the_cheapest;
         Sampled: a_cost_is_its_number;
     });
     list!(all, cotama_core::player {
