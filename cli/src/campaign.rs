@@ -129,7 +129,7 @@ fn ready(loaded: &Loaded, policy: PolicyName, settings: Settings) -> Result<Camp
     let policy = policy.policy(loaded.mission.supervisor().is_some());
     let subject = Subject::new(&loaded.mission, policy)
         .map_err(|error| Failure::of(&loaded.source, error.to_string()))?;
-    Ok(Campaign::new(subject, settings))
+    Campaign::new(subject, settings).map_err(|error| Failure::of(&loaded.source, error.to_string()))
 }
 
 fn jobs(args: &CampaignArgs) -> usize {

@@ -23,7 +23,8 @@ pub(super) fn merge(args: &CampaignArgs, screen: &Screen) -> Result<Exit, Failur
     let policy = policy.ok_or_else(unknown)?.policy(mission.supervisor().is_some());
     let subject =
         Subject::new(&mission, policy).map_err(|error| Failure::new(error.to_string()))?;
-    let campaign = Campaign::new(subject, whole.settings().ok_or_else(unknown)?);
+    let campaign = Campaign::new(subject, whole.settings().ok_or_else(unknown)?)
+        .map_err(|error| Failure::new(error.to_string()))?;
     let mut tally = Tally::default();
     // Everything is read before anything is written.
     let mut text = String::new();

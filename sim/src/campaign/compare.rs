@@ -64,10 +64,10 @@ pub fn compare(
     let mut first: Vec<Row> = Vec::new();
     let mut found = Vec::new();
     for (name, policy) in policies {
-        let campaign = Campaign::new(Subject::new(mission, *policy)?, settings.clone());
+        let campaign = Campaign::new(Subject::new(mission, *policy)?, settings.clone())?;
         let (mut rows, mut outcomes) = (Vec::new(), [0; 3]);
         campaign.run(Shard::ALL, 0, jobs, &mut |lines| {
-            for it in lines {
+            for it in lines.into_iter().map(|it| it.observed) {
                 outcomes[it.outcome as usize] += 1;
                 let numbers = [it.time_ms, it.energy_mj, it.requests, it.replans];
                 rows.push((it.outcome == Outcome::Completed, numbers.map(|it| it as f64)));

@@ -1,10 +1,11 @@
 //! Failing runs made small and put together by their cause.
 
+use super::observed::{Observed, state_name};
 use super::plan::{Fault, Plan};
 use super::requirement::Requirement;
 use super::results::Tally;
 use super::shrink::shrink;
-use super::subject::{Observed, Subject, state_name};
+use super::subject::Subject;
 use cotama_models::missions::faults::{EventKind, Faults, Moment};
 use cotama_models::missions::{Definition, Mission};
 use std::fmt::Write;
@@ -147,6 +148,15 @@ fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
             let what = Plan { faults: vec![fault.clone()] }.named_signature(mission);
             lines.push(format!("{what} differs by {} ‰", it.permille));
         }
+    }
+    if let Some(it) = &run.witness {
+        lines.push(format!(
+            "at {}.{:03} s `{}` is broken, with {}",
+            it.at_ms / 1_000,
+            it.at_ms % 1_000,
+            it.requirement,
+            it.seen.join(", ")
+        ));
     }
     let metres = |mm: u64| format!("{}.{} m", mm / 1_000, mm / 100 % 10);
     let seconds = |ms: u64| format!("{}.{:03} s", ms / 1_000, ms % 1_000);

@@ -10,6 +10,7 @@
 
 pub mod compare;
 pub mod findings;
+pub mod observed;
 pub mod plan;
 pub mod rare;
 pub mod requirement;

@@ -1,7 +1,7 @@
 //! What must hold of every run, whatever fails.
 
+use super::observed::Observed;
 use super::plan::{Fault, Plan};
-use super::subject::Observed;
 use crate::run::Outcome;
 use cotama_models::cotama::FailureMode;
 use std::fmt;
@@ -14,7 +14,8 @@ pub const BRAKING_MM: u64 = 150;
 ///
 /// ```
 /// use cotama_sim::campaign::requirement::Requirement;
-/// for text in ["completed", "in-time", "energy<=8640000", "never gs.abort"] {
+/// let texts = ["completed", "in-time", "energy<=8640000", "never gs.abort", "AG !gs.Safe"];
+/// for text in texts {
 ///     assert_eq!(text.parse::<Requirement>().unwrap().to_string(), text);
 /// }
 /// let error = "time < 5".parse::<Requirement>().unwrap_err();
@@ -37,6 +38,16 @@ pub enum Requirement {
     AtMost(Metric, u64),
     /// A transition of the supervisors, as `gs.abort`, never fires.
     Never(String),
+    /// Every failure is seen within the latency of its row of the FMECA, while an observer of it is
+    /// at work.
+    SeenInTime,
+    /// No plan is made with modules that are known to be lost.
+    PlansWithWhatWorks,
+    /// Supervisors of the caller's do what those that are shipped do when they are told the same.
+    Conforms,
+    /// A property in the language of `cotama check` that a single run can break:
+    /// [`Monitor`](crate::supervised::Monitor). It ends the run that breaks it.
+    Always(String),
 }
 
 /// A number of a run.
@@ -102,6 +113,8 @@ impl Requirement {
             i64::try_from(left).unwrap_or(i64::MIN)
         };
         match self {
+            // What a broken property ended says nothing of its end.
+            Self::Completed | Self::NotFailed if run.witness.is_some() => 1,
             Self::Completed => i64::from(run.outcome == Outcome::Completed),
             Self::NotFailed => i64::from(run.outcome != Outcome::Failed),
             Self::StandsWhenSafe => i64::from(!run.moved_when_safe),
@@ -110,7 +123,15 @@ impl Requirement {
             Self::InTime => left(allowed_ms(plan), run.exposed_ms),
             Self::AtMost(metric, limit) => left(*limit, metric.of(run)),
             Self::Never(transition) => i64::from(run.fired.binary_search(transition).is_err()),
+            Self::SeenInTime => left(0, run.unseen_ms),
+            Self::PlansWithWhatWorks => i64::from(!run.planned_with_lost),
+            Self::Conforms => Self::unbroken(run, "conforms"),
+            Self::Always(text) => Self::unbroken(run, text),
         }
+    }
+
+    fn unbroken(run: &Observed, text: &str) -> i64 {
+        i64::from(run.witness.as_ref().is_none_or(|it| it.requirement != text))
     }
 
     /// Whether it speaks of supervisors.
@@ -121,6 +142,10 @@ impl Requirement {
                 | Self::Brakes
                 | Self::InTime
                 | Self::Never(_)
+                | Self::SeenInTime
+                | Self::PlansWithWhatWorks
+                | Self::Conforms
+                | Self::Always(_)
                 | Self::AtMost(Metric::Requests | Metric::Exposed, _)
         )
     }
@@ -149,16 +174,27 @@ impl Requirement {
                 format!("{what} {verb} at most {limit}{unit}")
             }
             Self::Never(transition) => format!("`{transition}` never fires"),
+            Self::SeenInTime => "every failure is seen within the latency of its row, while an \
+                                 observer of it is at work"
+                .into(),
+            Self::PlansWithWhatWorks => {
+                "no plan is made with modules that are known to be lost".into()
+            }
+            Self::Conforms => "the supervisors do what those that are shipped do".into(),
+            Self::Always(text) => format!("`{text}` holds at the end of every round"),
         }
     }
 }
 
-const PLAIN: [(&str, Requirement); 5] = [
+const PLAIN: [(&str, Requirement); 8] = [
     ("completed", Requirement::Completed),
     ("not-failed", Requirement::NotFailed),
     ("stands-when-safe", Requirement::StandsWhenSafe),
     ("brakes", Requirement::Brakes),
     ("in-time", Requirement::InTime),
+    ("seen-in-time", Requirement::SeenInTime),
+    ("plans-with-what-works", Requirement::PlansWithWhatWorks),
+    ("conforms", Requirement::Conforms),
 ];
 
 impl fmt::Display for Requirement {
@@ -166,6 +202,7 @@ impl fmt::Display for Requirement {
         match self {
             Self::AtMost(metric, limit) => write!(f, "{}<={limit}", metric.name()),
             Self::Never(transition) => write!(f, "never {transition}"),
+            Self::Always(text) => f.write_str(text),
             _ => {
                 let name = PLAIN.iter().find(|it| it.1 == *self).map_or("", |it| it.0);
                 f.write_str(name)
@@ -184,7 +221,7 @@ impl fmt::Display for NoRequirement {
         write!(
             f,
             "`{}` is no requirement; there are {}, METRIC<=NUMBER with time (ms), energy (mJ), \
-             requests or exposed (ms), and `never NET.TRANSITION`",
+             requests or exposed (ms), `never NET.TRANSITION`, and `AG` of what is marked",
             self.0.escape_debug(),
             names.join(", ")
         )
@@ -208,6 +245,9 @@ impl std::str::FromStr for Requirement {
             let parts = transition.split_once('.');
             let fits = parts.is_some_and(|(net, it)| name(net) && name(it));
             return if fits { Ok(Self::Never(transition.to_owned())) } else { Err(no()) };
+        }
+        if text.trim_start().starts_with("AG") {
+            return Ok(Self::Always(text.trim().to_owned()));
         }
         let (name, limit) = text.split_once("<=").ok_or_else(no)?;
         let metric = Metric::ALL.into_iter().find(|it| it.name() == name).ok_or_else(no)?;

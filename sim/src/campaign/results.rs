@@ -168,7 +168,7 @@ impl Tally {
         self.digest.add(text.as_bytes());
         self.digest.add(b"\n");
         self.runs += 1;
-        self.outcomes[match line.outcome {
+        self.outcomes[match line.observed.outcome {
             Outcome::Completed => 0,
             Outcome::Safe => 1,
             Outcome::Failed => 2,
@@ -183,7 +183,11 @@ impl Tally {
             *met += 1;
             *failing += u64::from(failed);
         }
-        for (sum, it) in self.sums.iter_mut().zip([line.time_ms, line.energy_mj, line.requests]) {
+        for (sum, it) in self.sums.iter_mut().zip([
+            line.observed.time_ms,
+            line.observed.energy_mj,
+            line.observed.requests,
+        ]) {
             *sum += u128::from(it);
         }
         for requirement in &line.violated {

@@ -1,11 +1,11 @@
 //! The runs of a campaign: what is asked for, what one run leaves, and the loop.
 
+use super::observed::{Observed, state_name};
 use super::plan::Plan;
 use super::requirement::Requirement;
 use super::space::{Rates, Space};
 use super::strategy::{BLOCK, Strategy, StrategyName};
-use super::subject::{Observed, Subject, state_name};
-use crate::run::Outcome;
+use super::subject::{Subject, Unready};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -87,20 +87,9 @@ impl Shard {
 pub struct Line {
     /// The number of the run, from 0.
     pub run: u64,
-    /// How it ended.
-    pub outcome: Outcome,
-    /// The time used, in ms.
-    pub time_ms: u64,
-    /// The energy used, in mJ.
-    pub energy_mj: u64,
-    /// How far the robot came, in mm.
-    pub x_mm: u64,
-    /// How often the operator was asked.
-    pub requests: u64,
-    /// How many plans there were after the first.
-    pub replans: u64,
-    /// The longest time that the robot moved without a module that it required, in ms.
-    pub exposed_ms: u64,
+    /// What was observed; what is not serialised of it is empty when a line was read.
+    #[serde(flatten)]
+    pub observed: Observed,
     /// What went wrong; under supervisors with the place of the local one then, as
     /// `SON2@Following`.
     pub faults: Vec<String>,
@@ -126,6 +115,9 @@ impl<'m> Campaign<'m> {
     /// A campaign with the space of its mission. A strategy that counts its plans runs no more than
     /// there are.
     ///
+    /// # Errors
+    /// When a requirement is no property of the mission's supervisors.
+    ///
     /// ```
     /// use cotama_models::missions::{Mission, embedded};
     /// use cotama_sim::campaign::run::{Campaign, Settings, Shard};
@@ -133,7 +125,8 @@ impl<'m> Campaign<'m> {
     /// let delivery = embedded::mission("delivery").unwrap();
     /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
     /// let subject = Subject::new(&mission, Policy::default()).unwrap();
-    /// let campaign = Campaign::new(subject, Settings { runs: 20, ..Settings::new(true) });
+    /// let settings = Settings { runs: 20, ..Settings::new(true) };
+    /// let campaign = Campaign::new(subject, settings).unwrap();
     /// let mut lines = Vec::new();
     /// campaign.run(Shard::ALL, 0, 1, &mut |block| {
     ///     lines.extend(block);
@@ -142,17 +135,21 @@ impl<'m> Campaign<'m> {
     /// assert_eq!(lines.len(), 20);
     /// assert!(lines.iter().all(|it| it.violated.is_empty()));
     /// ```
-    pub fn new(subject: Subject<'m>, settings: Settings) -> Self {
+    pub fn new(subject: Subject<'m>, settings: Settings) -> Result<Self, Unready> {
         let (least, most) = settings.faults;
         let space = Space::of(subject.mission(), settings.rates, least..=most);
         Self::within(subject, settings, space)
     }
 
     /// A campaign with a space of the caller's.
-    pub fn within(subject: Subject<'m>, settings: Settings, space: Space) -> Self {
+    ///
+    /// # Errors
+    /// As [`new`](Self::new).
+    pub fn within(subject: Subject<'m>, settings: Settings, space: Space) -> Result<Self, Unready> {
+        let subject = subject.watching(&settings.requirements)?;
         let strategy = settings.strategy.strategy(&space);
         let runs = strategy.total(&space).map_or(settings.runs, |it| it.min(settings.runs));
-        Self { subject, settings: Settings { runs, ..settings }, space, strategy }
+        Ok(Self { subject, settings: Settings { runs, ..settings }, space, strategy })
     }
 
     /// Whether the share of failures estimates a probability.
@@ -169,7 +166,7 @@ impl<'m> Campaign<'m> {
             let plan = draws.next();
             let observed = self.subject.run(&plan);
             draws.learn(&observed, self.distance(&plan, &observed));
-            self.line(run, &plan, &observed)
+            self.line(run, &plan, observed)
         });
         lines.collect()
     }
@@ -180,8 +177,8 @@ impl<'m> Campaign<'m> {
         distances.min().unwrap_or(i64::MAX)
     }
 
-    fn line(&self, run: u64, plan: &Plan, observed: &Observed) -> Line {
-        let broken = self.settings.requirements.iter().filter(|it| !it.holds(plan, observed));
+    fn line(&self, run: u64, plan: &Plan, observed: Observed) -> Line {
+        let broken = self.settings.requirements.iter().filter(|it| !it.holds(plan, &observed));
         let violated: Vec<_> = broken.map(ToString::to_string).collect();
         let mission = self.subject.mission();
         let faults = if self.subject.is_supervised() {
@@ -195,13 +192,7 @@ impl<'m> Campaign<'m> {
         };
         Line {
             run,
-            outcome: observed.outcome,
-            time_ms: observed.time_ms,
-            energy_mj: observed.energy_mj,
-            x_mm: observed.x_mm,
-            requests: observed.requests,
-            replans: observed.replans,
-            exposed_ms: observed.exposed_ms,
+            observed,
             faults,
             plan: (!violated.is_empty()).then(|| plan.to_toml(mission)),
             violated,

@@ -1,15 +1,16 @@
 //! What a campaign runs: a mission with everything ready, and what is observed of one run.
 
+use super::observed::{Observed, feature};
 use super::plan::Plan;
+use super::requirement::Requirement;
 use crate::options::{FaultChoice, Options, Planner};
 use crate::run::{NoPlan, Outcome};
 use crate::setup::{SetupError, Simulation};
-use crate::streams::fnv1a;
-use crate::supervised::{self, Motion, Script, Supervised, Unsupervised, effect};
+use crate::supervised::{Monitor, Script, Supervised, Unmonitored, Unsupervised};
 use cotama_core::monitor::Upward;
-use cotama_models::cotama::{Diagnosis, FailureMode, local};
+use cotama_core::units::{Millimetres, Millis};
 use cotama_models::missions::Mission;
-use cotama_models::missions::faults::{Faults, Moment};
+use cotama_models::missions::faults::Faults;
 use std::fmt;
 
 /// A mission made ready to be run many times with faults that are drawn.
@@ -31,8 +32,19 @@ pub struct Subject<'m> {
 #[derive(Clone, Debug)]
 enum Robot<'m> {
     Plain(Box<Simulation<'m>>),
-    Supervised(Box<Supervised<'m>>),
+    Supervised(Box<Supervised<'m>>, Watched),
 }
+
+/// What is looked at while a run goes on, and after.
+#[derive(Clone, Debug, Default)]
+struct Watched {
+    monitors: Vec<Monitor>,
+    /// For how long the robot must stand when it is safe.
+    after: Millis,
+}
+
+/// For how long a robot that is safe is watched: whether it moves again.
+pub const AFTER: Millis = Millis(60_000);
 
 /// Who plans.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,7 +59,7 @@ pub struct Policy {
 }
 
 /// Why a mission cannot be the subject of a campaign.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Unready {
     /// It cannot be set up.
     Setup(SetupError),
@@ -57,6 +69,10 @@ pub enum Unready {
     NoPlan(NoPlan),
     /// The policy is for missions without supervisors.
     Policy,
+    /// A requirement is no property that can be watched: its text, and why.
+    Property(String, Unmonitored),
+    /// A requirement is about supervisors, and the mission has none: its text.
+    Plain(String),
 }
 
 impl fmt::Display for Unready {
@@ -68,43 +84,17 @@ impl fmt::Display for Unready {
             Self::Policy => {
                 f.write_str("upward and rigid policies are for missions without supervisors")
             }
+            Self::Property(text, why) => write!(f, "`{}`: {why}", text.escape_debug()),
+            Self::Plain(text) => write!(
+                f,
+                "`{}` is about supervisors, and the mission has none",
+                text.escape_debug()
+            ),
         }
     }
 }
 
 impl std::error::Error for Unready {}
-
-/// What is observed of one run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Observed {
-    /// How it ended.
-    pub outcome: Outcome,
-    /// The time used, in ms, rounded half up.
-    pub time_ms: u64,
-    /// The energy used, in mJ, rounded half up.
-    pub energy_mj: u64,
-    /// How far the robot came, in mm.
-    pub x_mm: u64,
-    /// How often the operator was asked.
-    pub requests: u64,
-    /// How many plans there were after the first.
-    pub replans: u64,
-    /// The longest time in ms that the robot moved without a module that it required.
-    pub exposed_ms: u64,
-    /// The longest way in mm that it went on after the permit to move was gone.
-    pub braked_mm: u64,
-    /// Whether it moved after it was safe.
-    pub moved_when_safe: bool,
-    /// Whether a motor ran away, so that it could not brake as it was told.
-    pub ran_away: bool,
-    /// What failed, and where the local supervisor was then: rows of the FMECA by state.
-    pub met: Vec<(FailureMode, local::State)>,
-    /// What the run came through: hashes of transitions, of diagnoses, of decisions, of plans; each
-    /// once, sorted.
-    pub features: Vec<u64>,
-    /// The supervisors' transitions that fired, as `ls.l5`, each once, sorted.
-    pub fired: Vec<String>,
-}
 
 impl<'m> Subject<'m> {
     /// Makes a mission ready.
@@ -122,7 +112,7 @@ impl<'m> Subject<'m> {
                 None => supervised,
             };
             supervised.run(&Script::default()).map_err(Unready::NoPlan)?;
-            Robot::Supervised(Box::new(supervised))
+            Robot::Supervised(Box::new(supervised), Watched::default())
         } else {
             let limits = mission.limits;
             let upward = Upward {
@@ -146,7 +136,49 @@ impl<'m> Subject<'m> {
 
     /// A supervised mission whose supervisors or planner were chosen by the caller.
     pub fn of(mission: &'m Mission, supervised: Supervised<'m>) -> Self {
-        Self { mission, robot: Robot::Supervised(Box::new(supervised)) }
+        Self { mission, robot: Robot::Supervised(Box::new(supervised), Watched::default()) }
+    }
+
+    /// The same, watched for these requirements: properties end the run that breaks them, and a
+    /// robot that is safe is watched for [`AFTER`] more.
+    ///
+    /// # Errors
+    /// When one of them is no property of the mission's supervisors, or none that can be watched.
+    ///
+    /// ```
+    /// use cotama_models::missions::{Mission, embedded};
+    /// use cotama_sim::campaign::{plan::Plan, subject::{Policy, Subject}};
+    /// let delivery = embedded::mission("delivery").unwrap();
+    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// let subject = Subject::new(&mission, Policy::default()).unwrap();
+    /// let asked = ["AG !gs.DriveB".parse().unwrap()];
+    /// let run = subject.watching(&asked).unwrap().run(&Plan::default());
+    /// let witness = run.witness.unwrap();
+    /// assert_eq!(witness.requirement, "AG !gs.DriveB");
+    /// assert_eq!((witness.at_ms, witness.seen), (183_400, vec!["gs.g3".to_owned()]));
+    /// ```
+    pub fn watching(self, requirements: &[Requirement]) -> Result<Self, Unready> {
+        let about = |it: &&Requirement| it.needs_supervisors();
+        let (supervised, watched) = match (self.robot, requirements.iter().find(about)) {
+            (Robot::Plain(_), Some(it)) => return Err(Unready::Plain(it.to_string())),
+            (robot @ Robot::Plain(_), None) => return Ok(Self { robot, ..self }),
+            (Robot::Supervised(supervised, watched), _) => (supervised, watched),
+        };
+        let properties = requirements.iter().filter_map(|it| match it {
+            Requirement::Always(text) => Some(text),
+            _ => None,
+        });
+        let monitor = |text: &String| {
+            supervised.monitor(text).map_err(|error| Unready::Property(text.clone(), error))
+        };
+        let monitors = properties.map(monitor).collect::<Result<Vec<_>, _>>()?;
+        let supervised = supervised.with_monitors(monitors.clone());
+        let conforms = requirements.contains(&Requirement::Conforms);
+        let supervised = if conforms { supervised.compared() } else { supervised };
+        let stands = requirements.contains(&Requirement::StandsWhenSafe);
+        let after = if stands { AFTER } else { watched.after };
+        let robot = Robot::Supervised(Box::new(supervised), Watched { monitors, after });
+        Ok(Self { robot, ..self })
     }
 
     /// The mission.
@@ -156,17 +188,20 @@ impl<'m> Subject<'m> {
 
     /// Whether supervisors decide.
     pub const fn is_supervised(&self) -> bool {
-        matches!(self.robot, Robot::Supervised(_))
+        matches!(self.robot, Robot::Supervised(..))
     }
 
     /// One run; a function of the plan alone.
     pub fn run(&self, plan: &Plan) -> Observed {
         match &self.robot {
             Robot::Plain(simulation) => plain(simulation, plan),
-            Robot::Supervised(it) => {
+            Robot::Supervised(it, watched) => {
                 // There is a plan at the start: that does not depend on what fails later.
-                it.run(&Script::from(plan))
-                    .map_or_else(|_| Observed::nothing(), |it| Observed::of(&it))
+                let run = it.run_and_watch(&Script::from(plan), watched.after);
+                let Ok((run, way)) = run else { return Observed::nothing() };
+                let observed = Observed::of(&run, &watched.monitors);
+                let moved = run.outcome == Outcome::Safe && way > Millimetres(0);
+                Observed { moved_when_safe: observed.moved_when_safe || moved, ..observed }
             }
         }
     }
@@ -190,102 +225,5 @@ fn plain(simulation: &Simulation<'_>, plan: &Plan) -> Observed {
         replans: run.replans,
         features,
         ..Observed::nothing()
-    }
-}
-
-impl Observed {
-    /// Of a run that never began.
-    const fn nothing() -> Self {
-        Self {
-            outcome: Outcome::Failed,
-            time_ms: 0,
-            energy_mj: 0,
-            x_mm: 0,
-            requests: 0,
-            replans: 0,
-            exposed_ms: 0,
-            braked_mm: 0,
-            moved_when_safe: false,
-            ran_away: false,
-            met: Vec::new(),
-            features: Vec::new(),
-            fired: Vec::new(),
-        }
-    }
-
-    /// Of a run under supervisors.
-    pub fn of(run: &supervised::Run) -> Self {
-        let mut features = vec![feature("outcome", &[run.outcome as u64])];
-        let mut fired: Vec<(&str, &str)> =
-            run.fired.iter().map(|it| (it.net, it.transition.as_str())).collect();
-        // Which transition of a net follows which.
-        for net in ["gs", "ls", "cs", "pf", "to"] {
-            let mut before = 0;
-            for it in run.fired.iter().filter(|it| it.net == net) {
-                let this = fnv1a(it.transition.as_bytes());
-                features.push(feature(net, &[before, this]));
-                before = this;
-            }
-        }
-        fired.sort_unstable();
-        fired.dedup();
-        for it in &run.conduct {
-            let found = match it.detected {
-                None => 0,
-                Some((_, Diagnosis::None)) => 1,
-                Some((_, Diagnosis::Unexplained)) => 2,
-                Some((_, Diagnosis::Ambiguous(_))) => 3,
-                Some((_, Diagnosis::Unique(mode))) => 4 + u64::from(mode != it.mode),
-            };
-            let decided = it.decided.map_or(9, |it| it.1 as u64);
-            features.push(feature("failure", &[it.mode as u64, it.during as u64]));
-            features.push(feature("found", &[it.mode as u64, found, decided]));
-            features.push(feature("exposed", &[it.mode as u64, it.exposed.0.ilog2_or_zero()]));
-        }
-        features.sort_unstable();
-        features.dedup();
-        let runs_away = |it: &supervised::Conduct| effect(it.mode).motion == Motion::Runaway;
-        Self {
-            outcome: run.outcome,
-            time_ms: run.used[0],
-            energy_mj: run.used[1],
-            x_mm: run.x.0,
-            requests: run.operator_requests,
-            replans: run.plans.len().saturating_sub(1) as u64,
-            exposed_ms: run.exposed.0,
-            braked_mm: run.braked.0,
-            moved_when_safe: run.moved_when_safe,
-            ran_away: run.conduct.iter().any(runs_away),
-            met: run.conduct.iter().map(|it| (it.mode, it.during)).collect(),
-            features,
-            fired: fired.into_iter().map(|(net, it)| format!("{net}.{it}")).collect(),
-        }
-    }
-}
-
-/// The name of a state in results: that of the net.
-pub fn state_name(state: local::State) -> &'static str {
-    match state {
-        local::State::Idle => "Idle",
-        local::State::End => "End",
-        other => Moment::state_name(other).unwrap_or("Idle"),
-    }
-}
-
-fn feature(kind: &str, numbers: &[u64]) -> u64 {
-    numbers.iter().fold(fnv1a(kind.as_bytes()), |hash, it| {
-        (hash ^ it.wrapping_mul(0x9e37_79b9_7f4a_7c15))
-            .rotate_left(23)
-            .wrapping_mul(0x0100_0000_01b3)
-    })
-}
-
-trait Log {
-    fn ilog2_or_zero(self) -> u64;
-}
-
-impl Log for u64 {
-    fn ilog2_or_zero(self) -> u64 {
-        self.checked_ilog2().map_or(0, |it| u64::from(it) + 1)
     }
 }

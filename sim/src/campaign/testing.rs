@@ -1,10 +1,11 @@
 //! A campaign as a test: a requirement of a user's own, a budget, and on failure the shrunk
 //! scenario.
 
+use super::observed::Observed;
 use super::plan::Plan;
 use super::space::{Rates, Space};
 use super::strategy::{BLOCK, StrategyName};
-use super::subject::{Observed, Policy, Subject};
+use super::subject::{Policy, Subject};
 use cotama_models::missions::Mission;
 
 /// A test over drawn faults. It panics with the smallest plan that it can find.

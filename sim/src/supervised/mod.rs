@@ -13,6 +13,7 @@
 
 mod effect;
 mod laptop;
+mod monitor;
 pub mod operator;
 mod plan;
 mod planted;
@@ -25,6 +26,7 @@ mod world;
 pub use cotama_models::cotama::Judged;
 pub use effect::{Effect, Ends, Motion, effect};
 pub(crate) use effect::{observable, raises};
+pub use monitor::{Monitor, Unmonitored, Violation};
 pub use operator::Answers;
 pub use planted::Planted;
 pub use script::{Injection, Script, When};
@@ -157,6 +159,16 @@ pub struct Run {
     pub braked: Millimetres,
     /// Whether it moved after it was safe: never, or a supervisor is wrong.
     pub moved_when_safe: bool,
+    /// The longest time that an observer at work left a failure unseen beyond the latency of its
+    /// row.
+    pub unseen: Millis,
+    /// Whether a plan was made with modules that were known not to be available.
+    pub planned_with_lost: bool,
+    /// The property that it broke, which ended it.
+    pub violated: Option<Violation>,
+    /// When, and where, the supervisors did something else than those that are shipped: looked for
+    /// by [`Supervised::compared`] only. It ends the run.
+    pub departed: Option<(Millis, String)>,
 }
 
 /// A supervised mission, ready to be run.
@@ -178,6 +190,8 @@ pub struct Supervised<'m> {
     supervisors: Supervisors,
     planner: Planner,
     planted: Vec<Planted>,
+    monitors: Vec<Monitor>,
+    compared: bool,
 }
 
 /// The decisional level, packed.
@@ -246,7 +260,44 @@ impl<'m> Supervised<'m> {
             let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
             Supervisors::Made(made.clone(), Box::new(packed))
         };
-        Ok(Self { mission, supervisors, planner: PLANNER, planted: Vec::new() })
+        Ok(Self::with(mission, supervisors))
+    }
+
+    fn with(mission: &'m Mission, supervisors: Supervisors) -> Self {
+        let (planted, monitors) = (Vec::new(), Vec::new());
+        Self { mission, supervisors, planner: PLANNER, planted, monitors, compared: false }
+    }
+
+    /// A property of its supervisors, to be watched: see [`Monitor`].
+    ///
+    /// # Errors
+    /// When the text is no property of these supervisors, or none that can be watched.
+    pub fn monitor(&self, text: &str) -> Result<Monitor, Unmonitored> {
+        match &self.supervisors {
+            Supervisors::Delivery => Monitor::new(text, &delivery::SYSTEM),
+            Supervisors::Recovering => Monitor::new(text, &recovering::SYSTEM),
+            Supervisors::Given(system, _) => Monitor::new(text, system),
+            Supervisors::Made(net, _) => {
+                let view = net.view();
+                let net = view.net();
+                let components = components(self.mission, &net);
+                Monitor::new(text, &System { components: &components, ..shipped(self.mission) })
+            }
+        }
+    }
+
+    /// A run ends where it breaks one of these.
+    #[must_use]
+    pub fn with_monitors(self, monitors: Vec<Monitor>) -> Self {
+        Self { monitors, ..self }
+    }
+
+    /// Supervisors of the caller's ([`of_supervisors`](Self::of_supervisors)) are held against those
+    /// that are shipped, which are told the same: a run ends where their markings differ.
+    #[must_use]
+    pub fn compared(self) -> Self {
+        let compared = matches!(self.supervisors, Supervisors::Given(..));
+        Self { compared, ..self }
     }
 
     /// Plans are made by this planner.
@@ -316,21 +367,21 @@ impl<'m> Supervised<'m> {
         after: Millis,
         recorder: &mut R,
     ) -> Result<(Run, Millimetres), NoPlan> {
-        let (mission, planner, planted) = (self.mission, self.planner, &self.planted);
+        let (mission, planner) = (self.mission, self.planner);
         match &self.supervisors {
             Supervisors::Delivery => {
                 let world = World::start(mission, global::NET, delivery::Program, script, planner)?;
-                Ok(finish(world.with(planted), period, after, recorder))
+                Ok(finish(world.with(self), period, after, recorder))
             }
             Supervisors::Given(system, packed) => {
                 let (global, program) = (*system.components[0].net, packed.load(system));
                 let world = World::start(mission, global, program, script, planner)?;
-                Ok(finish(world.under(*system).with(planted), period, after, recorder))
+                Ok(finish(world.under(*system).with(self), period, after, recorder))
             }
             Supervisors::Recovering => {
                 let world =
                     World::start(mission, global::NET, recovering::Program, script, planner)?;
-                Ok(finish(world.with(planted), period, after, recorder))
+                Ok(finish(world.with(self), period, after, recorder))
             }
             Supervisors::Made(net, packed) => {
                 let view = net.view();
@@ -339,7 +390,7 @@ impl<'m> Supervised<'m> {
                 let system = System { components: &components, ..shipped(mission) };
                 let program = packed.load(&system);
                 let world = World::start(mission, net, program, script, planner)?;
-                Ok(finish(world.with(planted), period, after, recorder))
+                Ok(finish(world.with(self), period, after, recorder))
             }
         }
     }

@@ -126,6 +126,13 @@ impl<'m> Planning<'m> {
         Ok(())
     }
 
+    /// Whether what is left of the plan in force needs no other modules than these.
+    pub(super) fn needs_no_more(&self, at: Progress, available: Modules) -> bool {
+        let units = self.units(available);
+        let left = self.activities.iter().zip(&self.choice).skip(at.activity);
+        { left }.all(|(it, &id)| units.covers(it.alternatives[usize::from(id)].needs))
+    }
+
     /// What is left of the plan in force takes, in ms and mJ.
     pub(super) fn rest(&self, at: Progress) -> [u64; 2] {
         let mut sum = [0; 2];

@@ -2,7 +2,7 @@
 //! of the allocator, of the simulated robot. Those of the supervisors are nets changed by hand:
 //! [`Supervised::of_supervisors`].
 
-use super::{PLANNER, Supervised, Supervisors, Unsupervised};
+use super::{Supervised, Supervisors, Unsupervised};
 use cotama_core::player::Packed;
 use cotama_core::system::System;
 use cotama_core::units::Millis;
@@ -37,7 +37,7 @@ impl<'m> Supervised<'m> {
     ) -> Result<Self, Unsupervised> {
         let packed = Packed::of(&system).map_err(Unsupervised::Unfit)?;
         let supervisors = Supervisors::Given(system, Box::new(packed));
-        Ok(Self { mission, supervisors, planner: PLANNER, planted: Vec::new() })
+        Ok(Self::with(mission, supervisors))
     }
 
     /// With these defects.

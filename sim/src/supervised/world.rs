@@ -7,10 +7,11 @@
 
 use super::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect, observable};
 use super::laptop::{Disturbances, Laptop, Seen, jobs};
+use super::monitor::Watching;
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
-use super::{Conduct, Injection, Planted, Run, Script, When, shipped};
+use super::{Conduct, Injection, Planted, Run, Script, Supervised, When, shipped};
 use crate::options::Planner;
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
 use cotama_core::net::Net;
@@ -18,7 +19,8 @@ use cotama_core::player::Program;
 use cotama_core::system::System;
 use cotama_core::units::{Millimetres, MillimetresPerSecond, Millis};
 use cotama_models::cotama::{
-    Configuration, Decider, FailureMode, Flags, Health, Module, Modules, load, local, recovering,
+    Configuration, Decider, DecisionalLevel, FailureMode, Flags, Health, Module, Modules, load,
+    local, recovering,
 };
 use cotama_models::missions::Mission;
 use objective::Objective;
@@ -47,6 +49,8 @@ struct Failure {
     until: Option<When>,
     /// For how long its observer has been able to see it.
     seen: Millis,
+    /// For how long an observer at work should have been.
+    shown: Millis,
     since: Millis,
     over: bool,
     /// Its flags have gone back.
@@ -97,6 +101,9 @@ pub(super) struct World<'m, P, const W: usize, const S: usize> {
     /// Nothing happened in the last period: see `passing`.
     calm: bool,
     planted: &'m [Planted],
+    watching: Watching<'m>,
+    /// The shipped supervisors, which are told the same.
+    shipped: Option<DecisionalLevel>,
 }
 
 impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, W, S> {
@@ -153,15 +160,23 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 oldest_pose: Millis(0),
                 braked: Millimetres(0),
                 moved_when_safe: false,
+                unseen: Millis(0),
+                planned_with_lost: false,
+                violated: None,
+                departed: None,
             },
             calm: false,
             planted: &[],
+            watching: Watching::new(&[]),
+            shipped: None,
         })
     }
 
-    /// The same with these defects.
-    pub(super) fn with(self, planted: &'m [Planted]) -> Self {
-        Self { planted, ..self }
+    /// The same with the defects and monitors of a mission that is ready.
+    pub(super) fn with(self, ready: &'m Supervised<'_>) -> Self {
+        let (planted, watching) = (&ready.planted[..], Watching::new(&ready.monitors));
+        let shipped = ready.compared.then(DecisionalLevel::default);
+        Self { planted, watching, shipped, ..self }
     }
 
     /// The same with the names of these supervisors, whose program it runs.
@@ -184,6 +199,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         self.calm &= self.decider.requests().adjusted == adjusted;
         self.now.0 += PERIOD.0;
         let end = match self.objective() {
+            _ if self.run.violated.is_some() || self.run.departed.is_some() => {
+                Some(Outcome::Failed)
+            }
             Objective::Done => Some(self.accomplished()),
             // The micro-controller has stopped it: safe by itself.
             _ if !self.thinks() && self.robot.speed().0 == 0 => Some(Outcome::Safe),
@@ -202,6 +220,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         let (from, until) = (self.robot.x(), Millis(self.now.0.saturating_add(time.0)));
         while self.now < until {
             self.period();
+            if self.rests() {
+                break;
+            }
         }
         Millimetres(self.robot.x().0 - from.0)
     }
@@ -253,6 +274,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 part,
                 until,
                 seen: Millis(0),
+                shown: Millis(0),
                 since: now,
                 over: false,
                 lowered: false,

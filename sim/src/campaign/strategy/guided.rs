@@ -2,9 +2,9 @@
 
 use super::uniform::of_run;
 use super::{Draws, Strategy};
+use crate::campaign::observed::Observed;
 use crate::campaign::plan::{Fault, Plan};
 use crate::campaign::space::Space;
-use crate::campaign::subject::Observed;
 use crate::streams::{Stream, Streams};
 use crate::supervised::When;
 use cotama_core::units::{Millimetres, Millis};

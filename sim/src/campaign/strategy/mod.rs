@@ -14,9 +14,9 @@ pub use exhaustive::Exhaustive;
 pub use guided::Guided;
 pub use uniform::{Swarm, Uniform};
 
+use super::observed::Observed;
 use super::plan::Plan;
 use super::space::Space;
-use super::subject::Observed;
 use std::fmt;
 
 /// How many runs are drawn by one [`Draws`].

@@ -34,6 +34,7 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             planning: &mut self.planning,
             at,
             with_lost: self.planted.contains(&Planted::PlansWithLost),
+            planned_with_lost: &mut self.run.planned_with_lost,
         };
         if let Some(finding) = self.decider.perceive(self.now, perceived, &mut rest) {
             // What the scheduler sees again goes back to what it was before.
@@ -50,6 +51,20 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             self.works = (broken, broken.relied_on());
         }
         self.works.1
+    }
+
+    /// Whether an observer at work should see a failure now, whatever is wrong with observers.
+    pub(super) fn is_shown(&self, it: &Failure, situation: Situation, moving: bool) -> bool {
+        observable(it.mode, situation, moving)
+            && !raises(it.mode, self.decider.observing()).is_empty()
+    }
+
+    /// A failure that is not seen was shown for longer.
+    pub(super) fn show(&mut self, number: usize, time: Millis) {
+        let it = &mut self.failures[number];
+        it.shown.0 += time.0;
+        let late = it.shown.0.saturating_sub(u64::from(it.mode.rule().latency_ms).max(PERIOD.0));
+        self.run.unseen = self.run.unseen.max(Millis(late));
     }
 
     /// Whether an observer can see a failure now.
@@ -88,6 +103,9 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 seen.push(number);
             }
             let is_open = !failure.over && found.is_none();
+            if is_open && self.is_shown(&failure, situation, moving) {
+                self.show(number, PERIOD);
+            }
             if !is_open || !self.is_observable(failure.mode, situation, moving) {
                 continue;
             }
@@ -163,6 +181,7 @@ struct Rest<'w, 'm> {
     drives: bool,
     /// A defect that was planted.
     with_lost: bool,
+    planned_with_lost: &'w mut bool,
 }
 
 impl Plans for Rest<'_, '_> {
@@ -184,8 +203,10 @@ impl Plans for Rest<'_, '_> {
             Why::Returned { modules, broken } => part(modules, broken).map(PlanCause::Back),
         };
         let Some(cause) = cause else { return Ok(false) };
-        let available = if self.with_lost { Modules::ALL } else { available };
-        let planned = self.planning.plan(cause, self.at, available);
+        let used = if self.with_lost { Modules::ALL } else { available };
+        let planned = self.planning.plan(cause, self.at, used);
+        *self.planned_with_lost |=
+            planned.is_ok() && !self.planning.needs_no_more(self.at, available);
         planned.map(|()| true).map_err(|_| NoPlanLeft)
     }
 

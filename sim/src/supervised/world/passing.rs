@@ -32,6 +32,9 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         for number in 0..self.failures.len() {
             let it = self.failures[number];
             let is_open = !it.over && self.run.conduct[number].detected.is_none();
+            if is_open && self.is_shown(&it, situation, moving) {
+                self.show(number, time);
+            }
             if is_open && self.is_observable(it.mode, situation, moving) {
                 self.failures[number].seen.0 += time.0;
             }
@@ -43,11 +46,28 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         self.decider.idle(last, Body { at_goal: false, stands: !moving });
     }
 
+    /// Whether a robot whose mission is over stands, and nothing can change that: every further
+    /// period is as the last one.
+    pub(in crate::supervised) fn rests(&self) -> bool {
+        let changes = |it: &Failure| {
+            let later = changes(it).into_iter().flatten().any(|at| at >= self.now);
+            !it.over && (it.until.is_some() || later)
+        };
+        self.calm
+            && !self.mission.recovery
+            && self.robot.speed().0 == 0
+            && self.waiting.is_empty()
+            && self.decider.listens()
+            && !self.failures.iter().any(changes)
+            && self.periods_unseen() == u64::MAX
+    }
+
     /// How many periods nothing can happen in; none where something may at once.
     fn idle_periods(&self) -> Option<u64> {
         let objective = self.objective();
         let (now, robot) = (self.now, &self.robot);
         let mut until = self.decider.idle_until()?.0.min(LONGEST.0 - PERIOD.0);
+        until = until.min(self.watching.late_at().map_or(u64::MAX, |it| it.0));
         match objective {
             Objective::Drives(_) => {}
             Objective::Stands(it) => {

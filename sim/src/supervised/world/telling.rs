@@ -4,13 +4,14 @@ use super::objective::Objective;
 use super::{CLOCKS, World};
 use crate::supervised::effect::{Ends, effect};
 use crate::supervised::operator::View;
-use crate::supervised::{Decided, Fired, PLANNING};
+use crate::supervised::{Decided, Fired, PLANNING, Violation};
 use cotama_core::net::{EventId, PlaceId, TransitionId};
-use cotama_core::player::{Firing, Names, Observer, Program};
-use cotama_core::system::Of;
+use cotama_core::player::{Firing, Names, Observer, Player, Program};
+use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Body, Cause, Configuration, FailureMode, Loss, Module, Report, Situation, Word, local,
+    Body, Cause, Configuration, FailureMode, Loss, Module, Report, Situation, Told, Word, delivery,
+    local,
 };
 use cotama_models::missions::Does;
 
@@ -36,11 +37,34 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             self.note(it);
         }
         self.arrive_at_places(before);
+        self.watch(round.told);
         // Told in one round, decided in the next, answered in the one after: then modules in fault
         // go on.
         self.quiet = if self.decider.listens() { self.quiet + 1 } else { 0 };
         if self.quiet >= ANSWERED {
             self.laptop.answered();
+        }
+    }
+
+    /// Monitors look at what has come of a round.
+    fn watch(&mut self, told: Option<Told>) {
+        let (now, player) = (self.now, self.decider.level().player());
+        if let Some(monitor) = self.watching.look(now, player)
+            && self.run.violated.is_none()
+        {
+            let this_round = self.run.fired.iter().filter(|it| it.at == now);
+            let fired = this_round.map(|it| format!("{}.{}", it.net, it.transition)).collect();
+            self.run.violated = Some(Violation { at: now, monitor, fired });
+        }
+        let Some(shipped) = &mut self.shipped else { return };
+        let _ = shipped.round(now, &mut ());
+        if let Some(told) = told {
+            let _ = shipped.tell(now, told, Cause(0), &mut ());
+        }
+        if self.run.departed.is_none()
+            && let Some(place) = departs(&self.system, player, shipped.player())
+        {
+            self.run.departed = Some((now, place));
         }
     }
 
@@ -190,6 +214,33 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             at_goal: self.body().at_goal,
         }
     }
+}
+
+/// The first place or mailbox in which two players of a system hold different tokens.
+fn departs<P, Q, const W: usize, const V: usize, const S: usize, const R: usize>(
+    system: &System<'_>,
+    one: &Player<P, W, CLOCKS, S, Cause>,
+    other: &Player<Q, V, { delivery::SIZE.clocks }, R, Cause>,
+) -> Option<String>
+where
+    P: Program<W, CLOCKS, S>,
+    Q: Program<V, { delivery::SIZE.clocks }, R>,
+{
+    for (it, component) in system.components.iter().zip(0..) {
+        for (place, id) in it.net.places.iter().zip(0..) {
+            let of = Of { component, id: PlaceId(id) };
+            if one.tokens(of) != other.tokens(of) {
+                return Some(format!("{}.{}", it.name, place.name));
+            }
+        }
+        for (event, id) in it.net.events.iter().zip(0..) {
+            let of = Of { component, id: EventId(id) };
+            if one.waiting(&of) != other.waiting(&of) {
+                return Some(format!("{}.{}.waiting", it.name, event.name));
+            }
+        }
+    }
+    None
 }
 
 /// What is seen of the supervisors, with the cause that it goes back to.

@@ -1,0 +1,193 @@
+//! What is observed of one run.
+
+use crate::run::Outcome;
+use crate::streams::fnv1a;
+use crate::supervised::{self, Monitor, Motion, effect};
+use cotama_models::cotama::{Diagnosis, FailureMode, local};
+use cotama_models::missions::faults::Moment;
+use serde::{Deserialize, Serialize};
+
+/// What is observed of one run. What is serialised is what a [`Line`](super::run::Line) of the
+/// results holds.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::{plan::Plan, subject::{Policy, Subject}};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let run = Subject::new(&mission, Policy::default()).unwrap().run(&Plan::default());
+/// assert_eq!((run.outcome.name(), run.requests, run.exposed_ms), ("completed", 0, 0));
+/// assert!(run.fired.contains(&"ls.l3".to_owned()));
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Observed {
+    /// How it ended.
+    pub outcome: Outcome,
+    /// The time used, in ms, rounded half up.
+    pub time_ms: u64,
+    /// The energy used, in mJ, rounded half up.
+    pub energy_mj: u64,
+    /// How far the robot came, in mm.
+    pub x_mm: u64,
+    /// How often the operator was asked.
+    pub requests: u64,
+    /// How many plans there were after the first.
+    pub replans: u64,
+    /// The longest time in ms that the robot moved without a module that it required.
+    pub exposed_ms: u64,
+    /// The longest way in mm that it went on after the permit to move was gone.
+    #[serde(skip)]
+    pub braked_mm: u64,
+    /// Whether it moved after it was safe.
+    #[serde(skip)]
+    pub moved_when_safe: bool,
+    /// The longest time in ms that an observer at work left a failure unseen beyond its latency.
+    #[serde(skip)]
+    pub unseen_ms: u64,
+    /// Whether a plan was made with modules that were known to be lost.
+    #[serde(skip)]
+    pub planned_with_lost: bool,
+    /// Whether a motor ran away, so that it could not brake as it was told.
+    #[serde(skip)]
+    pub ran_away: bool,
+    /// What failed, and where the local supervisor was then: rows of the FMECA by state.
+    #[serde(skip)]
+    pub met: Vec<(FailureMode, local::State)>,
+    /// What the run came through: hashes of transitions, of diagnoses, of decisions, of plans; each
+    /// once, sorted.
+    #[serde(skip)]
+    pub features: Vec<u64>,
+    /// The supervisors' transitions that fired, as `ls.l5`, each once, sorted.
+    #[serde(skip)]
+    pub fired: Vec<String>,
+    /// The requirement that was broken while the run went on, which ended it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub witness: Option<Witness>,
+}
+
+/// What broke a requirement while a run went on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Witness {
+    /// The requirement, as a text.
+    pub requirement: String,
+    /// When, in ms.
+    pub at_ms: u64,
+    /// What the supervisors did in that round, as `ls.l5`; or where they departed from what is
+    /// shipped.
+    pub seen: Vec<String>,
+}
+
+impl Observed {
+    /// Of a run that never began.
+    pub(super) const fn nothing() -> Self {
+        Self {
+            outcome: Outcome::Failed,
+            time_ms: 0,
+            energy_mj: 0,
+            x_mm: 0,
+            requests: 0,
+            replans: 0,
+            exposed_ms: 0,
+            braked_mm: 0,
+            moved_when_safe: false,
+            unseen_ms: 0,
+            planned_with_lost: false,
+            ran_away: false,
+            met: Vec::new(),
+            features: Vec::new(),
+            fired: Vec::new(),
+            witness: None,
+        }
+    }
+
+    /// Of a run under supervisors that were watched by these monitors.
+    pub fn of(run: &supervised::Run, monitors: &[Monitor]) -> Self {
+        let mut features = vec![feature("outcome", &[run.outcome as u64])];
+        let mut fired: Vec<(&str, &str)> =
+            run.fired.iter().map(|it| (it.net, it.transition.as_str())).collect();
+        // Which transition of a net follows which.
+        for net in ["gs", "ls", "cs", "pf", "to"] {
+            let mut before = 0;
+            for it in run.fired.iter().filter(|it| it.net == net) {
+                let this = fnv1a(it.transition.as_bytes());
+                features.push(feature(net, &[before, this]));
+                before = this;
+            }
+        }
+        fired.sort_unstable();
+        fired.dedup();
+        for it in &run.conduct {
+            let found = match it.detected {
+                None => 0,
+                Some((_, Diagnosis::None)) => 1,
+                Some((_, Diagnosis::Unexplained)) => 2,
+                Some((_, Diagnosis::Ambiguous(_))) => 3,
+                Some((_, Diagnosis::Unique(mode))) => 4 + u64::from(mode != it.mode),
+            };
+            let decided = it.decided.map_or(9, |it| it.1 as u64);
+            features.push(feature("failure", &[it.mode as u64, it.during as u64]));
+            features.push(feature("found", &[it.mode as u64, found, decided]));
+            features.push(feature("exposed", &[it.mode as u64, it.exposed.0.ilog2_or_zero()]));
+        }
+        features.sort_unstable();
+        features.dedup();
+        let runs_away = |it: &supervised::Conduct| effect(it.mode).motion == Motion::Runaway;
+        Self {
+            outcome: run.outcome,
+            time_ms: run.used[0],
+            energy_mj: run.used[1],
+            x_mm: run.x.0,
+            requests: run.operator_requests,
+            replans: run.plans.len().saturating_sub(1) as u64,
+            exposed_ms: run.exposed.0,
+            braked_mm: run.braked.0,
+            moved_when_safe: run.moved_when_safe,
+            unseen_ms: run.unseen.0,
+            planned_with_lost: run.planned_with_lost,
+            ran_away: run.conduct.iter().any(runs_away),
+            met: run.conduct.iter().map(|it| (it.mode, it.during)).collect(),
+            features,
+            fired: fired.into_iter().map(|(net, it)| format!("{net}.{it}")).collect(),
+            witness: Witness::of(run, monitors),
+        }
+    }
+}
+
+impl Witness {
+    fn of(run: &supervised::Run, monitors: &[Monitor]) -> Option<Self> {
+        if let Some(it) = &run.violated {
+            let requirement = monitors.get(it.monitor).map_or("", Monitor::text).to_owned();
+            return Some(Self { requirement, at_ms: it.at.0, seen: it.fired.clone() });
+        }
+        let (at, place) = run.departed.as_ref()?;
+        let requirement = super::requirement::Requirement::Conforms.to_string();
+        Some(Self { requirement, at_ms: at.0, seen: vec![place.clone()] })
+    }
+}
+
+/// The name of a state in results: that of the net.
+pub fn state_name(state: local::State) -> &'static str {
+    match state {
+        local::State::Idle => "Idle",
+        local::State::End => "End",
+        other => Moment::state_name(other).unwrap_or("Idle"),
+    }
+}
+
+pub(super) fn feature(kind: &str, numbers: &[u64]) -> u64 {
+    numbers.iter().fold(fnv1a(kind.as_bytes()), |hash, it| {
+        (hash ^ it.wrapping_mul(0x9e37_79b9_7f4a_7c15))
+            .rotate_left(23)
+            .wrapping_mul(0x0100_0000_01b3)
+    })
+}
+
+trait Log {
+    fn ilog2_or_zero(self) -> u64;
+}
+
+impl Log for u64 {
+    fn ilog2_or_zero(self) -> u64 {
+        self.checked_ilog2().map_or(0, |it| u64::from(it) + 1)
+    }
+}
