@@ -8,6 +8,10 @@
 mod defects;
 #[path = "campaigns/measured.rs"]
 mod measured;
+#[path = "campaigns/own.rs"]
+mod own;
+#[path = "campaigns/policies.rs"]
+mod policies;
 #[path = "campaigns/statistics.rs"]
 mod statistics;
 

@@ -25,6 +25,8 @@ pub(super) type Taken<'t> = dyn FnMut(&Line, &str) -> bool + 't;
 pub(super) struct Store {
     path: PathBuf,
     file: File,
+    /// Where the whole blocks end.
+    end: u64,
 }
 
 impl Store {
@@ -75,11 +77,20 @@ impl Store {
         }
         file.set_len(end).map_err(|error| wrong(&error))?;
         file.seek(SeekFrom::Start(end)).map_err(|error| wrong(&error))?;
-        Ok((Self { path, file }, blocks))
+        Ok((Self { path, file, end }, blocks))
     }
 
     /// Adds the lines of a block.
+    ///
+    /// Two programs that run the same campaign write the same bytes to the same places: the later
+    /// one of them sees that the file has grown, and stops before it writes.
     pub(super) fn append(&mut self, text: &str) -> Result<(), Failure> {
+        if self.file.metadata().is_ok_and(|it| it.len() != self.end) {
+            let message = "another program writes the results of this campaign";
+            return Err(Failure::of(self.path.display().to_string(), message)
+                .help("let it end, or give each its own folder or shard"));
+        }
+        self.end += text.len() as u64;
         let written = self.file.write_all(text.as_bytes());
         let written = written.and_then(|()| self.file.flush());
         written.map_err(|error| {

@@ -151,7 +151,7 @@ fn story(mission: &Mission, plan: &Plan, run: &Observed) -> Vec<String> {
     }
     if let Some(it) = &run.witness {
         lines.push(format!(
-            "at {}.{:03} s `{}` is broken, with {}",
+            "at {}.{:03} s `{}` is broken; last there was {}",
             it.at_ms / 1_000,
             it.at_ms % 1_000,
             it.requirement,

@@ -72,8 +72,8 @@ pub struct Witness {
     pub requirement: String,
     /// When, in ms.
     pub at_ms: u64,
-    /// What the supervisors did in that round, as `ls.l5`; or where they departed from what is
-    /// shipped.
+    /// What the supervisors did last, in one round, as `ls.l5`; or the place in which they departed
+    /// from what is shipped.
     pub seen: Vec<String>,
 }
 

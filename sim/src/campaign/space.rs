@@ -2,11 +2,11 @@
 
 use super::plan::{Fault, Plan, at, place};
 use crate::streams::Stream;
-use crate::supervised::When;
+use crate::supervised::{Answers, PERIOD, Script, Supervised, When};
 use cotama_core::units::{Millimetres, Millis};
 use cotama_models::cotama::{FailureMode, Module, local};
 use cotama_models::missions::Mission;
-use cotama_models::missions::faults::{Event, EventKind, Moment, PowerError};
+use cotama_models::missions::faults::{Answer, Event, EventKind, Moment, PowerError};
 
 /// What can go wrong in a mission.
 ///
@@ -33,6 +33,8 @@ pub struct Space {
     pub time_ms: u64,
     /// Whether supervisors decide: then a moment can be a time, or a place of the local one.
     pub supervised: bool,
+    /// When supervisors act if nothing fails, in ms, each once, in order.
+    pub acts_ms: Vec<u64>,
 }
 
 /// A kind of fault and how likely it is.
@@ -95,6 +97,15 @@ const STATES: [local::State; 5] = [
     local::State::Teleprogrammed,
     local::State::Teleoperated,
 ];
+/// What the operator may say.
+const ANSWERS: [Answer; 6] = [
+    Answer::Teleoperate,
+    Answer::Teleprogram,
+    Answer::Waypoints,
+    Answer::Path,
+    Answer::Goal,
+    Answer::GiveUp,
+];
 /// A mean time between failures of 10 million hours has weight 1.
 const LONGEST_MTBF_MH: u64 = 10_000_000_000;
 
@@ -118,9 +129,13 @@ impl Space {
             let kinds = [Kind::Obstacle, Kind::Odometry].into_iter().chain(hardware).chain(zones);
             kinds.map(|kind| Weighted { kind, weight: 1 }).collect()
         };
+        let undisturbed = || Supervised::new(mission).ok()?.run(&Script::default()).ok();
+        let fired = undisturbed().map_or_else(Vec::new, |it| it.fired);
+        let mut acts_ms: Vec<u64> = fired.iter().map(|it| it.at.0).collect();
+        acts_ms.dedup();
         let (path_mm, limit) = (mission.path_length.0, mission.limits[0]);
         let (least, most) = (*faults.start(), (*faults.end()).max(*faults.start()));
-        Self { kinds, least, most, path_mm, time_ms: (limit / 2).max(1), supervised }
+        Self { kinds, least, most, path_mm, time_ms: (limit / 2).max(1), supervised, acts_ms }
     }
 
     /// Draws a plan of these kinds.
@@ -186,6 +201,25 @@ impl Space {
                 When::During(state, Millis(stream.below(20_000)))
             }
         }
+    }
+
+    /// A moment from which on a failure is seen in one of four rounds: that in which a supervisor
+    /// acts if nothing fails, or the three before. None where no supervisor acts.
+    pub fn race(&self, mode: FailureMode, stream: &mut Stream) -> Option<When> {
+        let count = self.acts_ms.len() as u64;
+        let act = *self.acts_ms.get(stream.below(count.max(1)) as usize)?;
+        // It is seen in the last period of its latency.
+        let latency = u64::from(mode.rule().latency_ms).saturating_sub(PERIOD.0);
+        Some(at(act.saturating_sub(latency + PERIOD.0 * stream.below(4))))
+    }
+
+    /// An operator who does not answer as he usually does: one or two answers, after up to 20 s
+    /// (assumed), from some place on.
+    pub fn answers(&self, stream: &mut Stream) -> Fault {
+        let x = Millimetres(stream.below(self.path_mm + 1) * stream.below(2));
+        let answer = |stream: &mut Stream| ANSWERS[stream.below(ANSWERS.len() as u64) as usize];
+        let answers = (0..=stream.below(2)).map(|_| answer(stream)).collect();
+        Fault::Operator(Answers { x, answers, delay: Millis(1_000 * stream.below(21)) })
     }
 
     /// Draws an end for what begins at a moment.

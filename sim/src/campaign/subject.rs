@@ -4,11 +4,11 @@ use super::observed::{Observed, feature};
 use super::plan::Plan;
 use super::requirement::Requirement;
 use crate::options::{FaultChoice, Options, Planner};
-use crate::run::{NoPlan, Outcome};
+use crate::run::NoPlan;
 use crate::setup::{SetupError, Simulation};
 use crate::supervised::{Monitor, Script, Supervised, Unmonitored, Unsupervised};
 use cotama_core::monitor::Upward;
-use cotama_core::units::{Millimetres, Millis};
+use cotama_core::units::Millis;
 use cotama_models::missions::Mission;
 use cotama_models::missions::faults::Faults;
 use std::fmt;
@@ -198,10 +198,10 @@ impl<'m> Subject<'m> {
             Robot::Supervised(it, watched) => {
                 // There is a plan at the start: that does not depend on what fails later.
                 let run = it.run_and_watch(&Script::from(plan), watched.after);
-                let Ok((run, way)) = run else { return Observed::nothing() };
-                let observed = Observed::of(&run, &watched.monitors);
-                let moved = run.outcome == Outcome::Safe && way > Millimetres(0);
-                Observed { moved_when_safe: observed.moved_when_safe || moved, ..observed }
+                run.map_or_else(
+                    |_| Observed::nothing(),
+                    |(run, _)| Observed::of(&run, &watched.monitors),
+                )
             }
         }
     }

@@ -3,6 +3,7 @@
 
 use super::observed::Observed;
 use super::plan::Plan;
+use super::requirement::Requirement;
 use super::space::{Rates, Space};
 use super::strategy::{BLOCK, StrategyName};
 use super::subject::{Policy, Subject};
@@ -71,10 +72,14 @@ impl<'m> CampaignTest<'m> {
     /// # Panics
     /// When the mission cannot be run.
     pub fn find(&self, holds: impl Fn(&Plan, &Observed) -> bool) -> Option<(u64, Plan, Observed)> {
-        let subject = match Subject::new(self.mission, self.policy) {
-            Ok(subject) => subject,
-            Err(error) => panic!("the mission cannot be run: {error}"),
-        };
+        self.search(&self.subject(), &holds)
+    }
+
+    fn search(
+        &self,
+        subject: &Subject<'_>,
+        holds: &dyn Fn(&Plan, &Observed) -> bool,
+    ) -> Option<(u64, Plan, Observed)> {
         let space = Space::of(self.mission, Rates::Even, self.faults.0..=self.faults.1);
         let strategy = self.strategy.strategy(&space);
         let mut first = 0;
@@ -97,23 +102,64 @@ impl<'m> CampaignTest<'m> {
         None
     }
 
+    /// Panics with the smallest plan found that breaks a requirement of
+    /// [`Requirement`](super::requirement::Requirement)'s language, a property of the supervisors
+    /// among them, as [`check`](Self::check) does; what broke a property stands above the plan.
+    ///
+    /// ```should_panic
+    /// use cotama_models::missions::{Mission, embedded};
+    /// use cotama_sim::campaign::testing::CampaignTest;
+    /// let delivery = embedded::mission("delivery").unwrap();
+    /// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+    /// // The operator takes longer than that to answer.
+    /// CampaignTest::new(&mission).requires("AG (ls.HandOver -> AF<=5s !ls.HandOver)");
+    /// ```
+    ///
+    /// # Panics
+    /// When a run breaks it, when it is no requirement of this mission, or when the mission cannot
+    /// be run.
+    pub fn requires(&self, requirement: &str) {
+        let asked: Requirement = match requirement.parse() {
+            Ok(asked) => asked,
+            Err(error) => panic!("{error}"),
+        };
+        let subject = match self.subject().watching(std::slice::from_ref(&asked)) {
+            Ok(subject) => subject,
+            Err(error) => panic!("{error}"),
+        };
+        if let Some(found) = self.search(&subject, &|plan, run| asked.holds(plan, run)) {
+            self.fail(requirement, found);
+        }
+    }
+
+    fn subject(&self) -> Subject<'m> {
+        match Subject::new(self.mission, self.policy) {
+            Ok(subject) => subject,
+            Err(error) => panic!("the mission cannot be run: {error}"),
+        }
+    }
+
     /// Panics with the smallest plan found that breaks the requirement, as a scenario that `cotama
     /// run MISSION --faults FILE` replays.
     ///
     /// # Panics
     /// When a run breaks it, or the mission cannot be run.
     pub fn check(&self, name: &str, holds: impl Fn(&Plan, &Observed) -> bool) {
-        if let Some((run, plan, observed)) = self.find(holds) {
-            let (outcome, text) =
-                (observed.outcome.name(), super::findings::compact(&plan, self.mission));
-            panic!(
-                "`{name}` does not hold of run {run} (seed {}, {}): {outcome}, {} ms, {} mm\n\
-                 {text}",
-                self.seed,
-                self.strategy.name(),
-                observed.time_ms,
-                observed.x_mm
-            );
+        if let Some(found) = self.find(holds) {
+            self.fail(name, found);
         }
+    }
+
+    fn fail(&self, name: &str, (run, plan, observed): (u64, Plan, Observed)) -> ! {
+        let text = super::findings::compact(&plan, self.mission);
+        let (outcome, strategy, seed) = (observed.outcome.name(), self.strategy.name(), self.seed);
+        let witness = observed.witness.map_or_else(String::new, |it| {
+            format!("# broken after {} ms; last there was {}\n", it.at_ms, it.seen.join(", "))
+        });
+        panic!(
+            "`{name}` does not hold of run {run} (seed {seed}, {strategy}): {outcome}, {} ms, {} \
+             mm\n{witness}{text}",
+            observed.time_ms, observed.x_mm
+        );
     }
 }

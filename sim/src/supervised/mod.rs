@@ -157,7 +157,8 @@ pub struct Run {
     pub oldest_pose: Millis,
     /// The longest way that it went on after the permit to move was gone.
     pub braked: Millimetres,
-    /// Whether it moved after it was safe: never, or a supervisor is wrong.
+    /// Whether it moved after the global supervisor had made it safe, for as long as it was watched:
+    /// never, or something is wrong.
     pub moved_when_safe: bool,
     /// The longest time that an observer at work left a failure unseen beyond the latency of its
     /// row.
@@ -437,6 +438,9 @@ fn finish<P: Program<W, CLOCKS, S> + Clone, const W: usize, const S: usize, R: R
         world.record(&mut recorded, period, recorder);
         world.record_end(&mut recorded, recorder);
     }
-    let way = if after > Millis(0) { world.clone().way_in(after) } else { Millimetres(0) };
-    (world.into_run(), way)
+    let before = (Millimetres(0), false);
+    let (way, moved) = if after > Millis(0) { world.clone().way_in(after) } else { before };
+    let mut run = world.into_run();
+    run.moved_when_safe |= moved;
+    (run, way)
 }

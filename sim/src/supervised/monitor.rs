@@ -91,7 +91,7 @@ pub struct Violation {
     pub at: Millis,
     /// Which of the run's monitors, from 0.
     pub monitor: usize,
-    /// What fired in that round, as `ls.l5`, in its order.
+    /// What fired last, in one round, as `ls.l5`, in its order.
     pub fired: Vec<String>,
 }
 

@@ -215,8 +215,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         end.is_some()
     }
 
-    /// How far the robot goes in this time.
-    pub(super) fn way_in(mut self, time: Millis) -> Millimetres {
+    /// How far the robot goes in this time, and whether it moved though it was safe.
+    pub(super) fn way_in(mut self, time: Millis) -> (Millimetres, bool) {
         let (from, until) = (self.robot.x(), Millis(self.now.0.saturating_add(time.0)));
         while self.now < until {
             self.period();
@@ -224,7 +224,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 break;
             }
         }
-        Millimetres(self.robot.x().0 - from.0)
+        (Millimetres(self.robot.x().0 - from.0), self.run.moved_when_safe)
     }
 
     /// The run, when it is over.
@@ -264,7 +264,9 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         for failure in &mut self.failures {
             let past = |time: Millis| now.0 >= failure.since.0 + time.0;
             let by_itself = matches!(effect(failure.mode).ends, Ends::After(time) if past(time));
-            failure.over |= by_itself || failure.until.is_some_and(due);
+            // A laptop that comes back has no mission any more.
+            let returns = effect(failure.mode).motion != Motion::Mindless;
+            failure.over |= returns && (by_itself || failure.until.is_some_and(due));
         }
         self.calm &= fail.is_empty();
         for Injection { mode, part, until, .. } in fail {

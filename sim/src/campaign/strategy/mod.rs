@@ -7,11 +7,13 @@
 mod covering;
 mod exhaustive;
 mod guided;
+mod races;
 mod uniform;
 
 pub use covering::Covering;
 pub use exhaustive::Exhaustive;
 pub use guided::Guided;
+pub use races::Races;
 pub use uniform::{Swarm, Uniform};
 
 use super::observed::Observed;
@@ -53,7 +55,8 @@ pub trait Draws {
 /// ```
 /// use cotama_sim::campaign::strategy::StrategyName;
 /// let names = StrategyName::ALL.map(StrategyName::name);
-/// assert_eq!(names, ["uniform", "swarm", "pairwise", "three-way", "guided", "exhaustive"]);
+/// assert_eq!(names[..4], ["uniform", "swarm", "pairwise", "three-way"]);
+/// assert_eq!(names[4..], ["guided", "races", "exhaustive"]);
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StrategyName {
@@ -67,18 +70,21 @@ pub enum StrategyName {
     ThreeWay,
     /// [`Guided`].
     Guided,
+    /// [`Races`].
+    Races,
     /// [`Exhaustive`].
     Exhaustive,
 }
 
 impl StrategyName {
     /// All.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Uniform,
         Self::Swarm,
         Self::Pairwise,
         Self::ThreeWay,
         Self::Guided,
+        Self::Races,
         Self::Exhaustive,
     ];
 
@@ -90,6 +96,7 @@ impl StrategyName {
             Self::Pairwise => "pairwise",
             Self::ThreeWay => "three-way",
             Self::Guided => "guided",
+            Self::Races => "races",
             Self::Exhaustive => "exhaustive",
         }
     }
@@ -102,6 +109,7 @@ impl StrategyName {
             Self::Pairwise => Box::new(Covering::new(space, 2)),
             Self::ThreeWay => Box::new(Covering::new(space, 3)),
             Self::Guided => Box::new(Guided),
+            Self::Races => Box::new(Races),
             Self::Exhaustive => Box::new(Exhaustive),
         }
     }

@@ -52,8 +52,10 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         if let Some(monitor) = self.watching.look(now, player)
             && self.run.violated.is_none()
         {
-            let this_round = self.run.fired.iter().filter(|it| it.at == now);
-            let fired = this_round.map(|it| format!("{}.{}", it.net, it.transition)).collect();
+            // What is late is late because nothing fired: then what fired last stands for it.
+            let last = self.run.fired.last().map(|it| it.at);
+            let then = self.run.fired.iter().filter(|it| Some(it.at) == last);
+            let fired = then.map(|it| format!("{}.{}", it.net, it.transition)).collect();
             self.run.violated = Some(Violation { at: now, monitor, fired });
         }
         let Some(shipped) = &mut self.shipped else { return };

@@ -1,0 +1,57 @@
+//! Plans whose failures are seen just when a supervisor acts.
+
+use super::uniform::of_run;
+use super::{Draws, Strategy};
+use crate::campaign::plan::{Fault, Plan};
+use crate::campaign::space::Space;
+use crate::streams::{Stream, Streams};
+
+/// Races: what goes wrong between two events that nearly come together has few moments to be drawn
+/// at. Most failures are drawn so that their observers see them in one of the rounds before the
+/// supervisors act in a run in which nothing fails, and some plans have an operator with answers of
+/// his own: boundary values (Myers, The Art of Software Testing, 1979) in time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Races;
+
+impl Strategy for Races {
+    fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's> {
+        Box::new(Racing { space, streams: Streams::new(seed), run: first })
+    }
+}
+
+struct Racing<'s> {
+    space: &'s Space,
+    streams: Streams,
+    run: u64,
+}
+
+impl Draws for Racing<'_> {
+    fn next(&mut self) -> Plan {
+        let mut stream = of_run(self.streams, self.run);
+        self.run += 1;
+        let mut plan = self.space.draw(&mut stream, &self.space.kinds);
+        for it in &mut plan.faults {
+            if stream.below(4) > 0 {
+                race(it, self.space, &mut stream);
+            }
+        }
+        answer(&mut plan, self.space, &mut stream);
+        plan
+    }
+}
+
+/// The failure is seen about when a supervisor acts.
+pub(super) fn race(fault: &mut Fault, space: &Space, stream: &mut Stream) {
+    if let Fault::Failure { when, mode, until, .. } = fault
+        && let Some(race) = space.race(*mode, stream)
+    {
+        (*when, *until) = (race, None);
+    }
+}
+
+/// One plan in three has an operator with answers of his own, where there are supervisors.
+pub(super) fn answer(plan: &mut Plan, space: &Space, stream: &mut Stream) {
+    if space.supervised && stream.below(3) == 0 {
+        plan.faults.push(space.answers(stream));
+    }
+}
