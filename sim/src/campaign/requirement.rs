@@ -181,7 +181,7 @@ impl Requirement {
                 "no plan is made with modules that are known to be lost".into()
             }
             Self::Conforms => "the supervisors do what those that are shipped do".into(),
-            Self::Always(text) => format!("`{text}` holds at the end of every round"),
+            Self::Always(_) => "it holds of the supervisors at the end of every round".into(),
         }
     }
 }

@@ -97,15 +97,16 @@ const STATES: [local::State; 5] = [
     local::State::Teleprogrammed,
     local::State::Teleoperated,
 ];
-/// What the operator may say.
+/// What the operator may say, first what he may say to a request.
 const ANSWERS: [Answer; 6] = [
     Answer::Teleoperate,
     Answer::Teleprogram,
+    Answer::GiveUp,
     Answer::Waypoints,
     Answer::Path,
     Answer::Goal,
-    Answer::GiveUp,
 ];
+const TO_A_REQUEST: u64 = 3;
 /// A mean time between failures of 10 million hours has weight 1.
 const LONGEST_MTBF_MH: u64 = 10_000_000_000;
 
@@ -213,12 +214,14 @@ impl Space {
         Some(at(act.saturating_sub(latency + PERIOD.0 * stream.below(4))))
     }
 
-    /// An operator who does not answer as he usually does: one or two answers, after up to 20 s
-    /// (assumed), from some place on.
+    /// An operator who does not answer as he usually does: what can be said to a request, and
+    /// sometimes something more, each after up to 20 s (assumed), from some place on.
     pub fn answers(&self, stream: &mut Stream) -> Fault {
         let x = Millimetres(stream.below(self.path_mm + 1) * stream.below(2));
         let answer = |stream: &mut Stream| ANSWERS[stream.below(ANSWERS.len() as u64) as usize];
-        let answers = (0..=stream.below(2)).map(|_| answer(stream)).collect();
+        let first = ANSWERS[stream.below(TO_A_REQUEST) as usize];
+        let more = stream.below(2);
+        let answers = std::iter::once(first).chain((0..more).map(|_| answer(stream))).collect();
         Fault::Operator(Answers { x, answers, delay: Millis(1_000 * stream.below(21)) })
     }
 

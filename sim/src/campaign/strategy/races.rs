@@ -49,9 +49,11 @@ pub(super) fn race(fault: &mut Fault, space: &Space, stream: &mut Stream) {
     }
 }
 
-/// One plan in three has an operator with answers of his own, where there are supervisors.
+/// One plan in three has an operator with answers of his own, where there are supervisors: as one of
+/// its faults.
 pub(super) fn answer(plan: &mut Plan, space: &Space, stream: &mut Stream) {
     if space.supervised && stream.below(3) == 0 {
+        plan.faults.truncate(space.most.saturating_sub(1) as usize);
         plan.faults.push(space.answers(stream));
     }
 }
