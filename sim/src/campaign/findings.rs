@@ -26,6 +26,27 @@ pub struct Cluster {
 }
 
 /// Failing runs by their causes.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::findings::Findings;
+/// use cotama_sim::campaign::results::Tally;
+/// use cotama_sim::campaign::run::{Campaign, Settings};
+/// use cotama_sim::campaign::subject::{Policy, Subject};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let requirements = vec!["requests<=1".parse().unwrap()];
+/// let settings = Settings { runs: 40, requirements, ..Settings::new(true) };
+/// let subject = Subject::new(&mission, Policy::default()).unwrap();
+/// let campaign = Campaign::new(subject, settings).unwrap();
+/// let mut tally = Tally::default();
+/// for line in campaign.block(0) {
+///     tally.add(&line, &serde_json::to_string(&line).unwrap());
+/// }
+/// let found = Findings::of(&campaign.subject, &campaign.settings.requirements, &tally, 1);
+/// assert_eq!(found.clusters.len(), 1);
+/// assert!(found.clusters[0].scenario.starts_with("# Breaks `requests<=1`"));
+/// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Findings {
     /// The most frequent first.

@@ -65,7 +65,21 @@ pub struct Observed {
     pub witness: Option<Witness>,
 }
 
+/// The requirement that supervisors of the caller's do what those that are shipped do.
+pub(super) const CONFORMS: &str = "conforms";
+
 /// What broke a requirement while a run went on.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::{plan::Plan, subject::{Policy, Subject}};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let subject = Subject::new(&mission, Policy::default()).unwrap();
+/// let subject = subject.watching(&["AG !ls.End".parse().unwrap()]).unwrap();
+/// let witness = subject.run(&Plan::default()).witness.unwrap();
+/// assert!(witness.seen.contains(&"ls.l3".to_owned()), "{witness:?}");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Witness {
     /// The requirement, as a text.
@@ -160,8 +174,7 @@ impl Witness {
             return Some(Self { requirement, at_ms: it.at.0, seen: it.fired.clone() });
         }
         let (at, place) = run.departed.as_ref()?;
-        let requirement = super::requirement::Requirement::Conforms.to_string();
-        Some(Self { requirement, at_ms: at.0, seen: vec![place.clone()] })
+        Some(Self { requirement: CONFORMS.to_owned(), at_ms: at.0, seen: vec![place.clone()] })
     }
 }
 

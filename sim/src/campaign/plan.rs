@@ -36,6 +36,16 @@ pub struct Plan {
 }
 
 /// One thing that goes wrong.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::{FailureMode, local};
+/// use cotama_sim::campaign::plan::Fault;
+/// use cotama_sim::supervised::When;
+/// // Five seconds after the operator is asked for the first time, his link is gone.
+/// let when = When::During(local::State::HandOver, Millis(5_000));
+/// assert_eq!(Fault::failure(when, FailureMode::Com1).name(), "COM1");
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// A row of the FMECA, in a supervised mission.

@@ -1,6 +1,6 @@
 //! What must hold of every run, whatever fails.
 
-use super::observed::Observed;
+use super::observed::{CONFORMS, Observed};
 use super::plan::{Fault, Plan};
 use crate::run::Outcome;
 use cotama_models::cotama::FailureMode;
@@ -51,6 +51,12 @@ pub enum Requirement {
 }
 
 /// A number of a run.
+///
+/// ```
+/// use cotama_sim::campaign::requirement::{Metric, Requirement};
+/// let asked: Requirement = "requests<=2".parse().unwrap();
+/// assert_eq!(asked, Requirement::AtMost(Metric::Requests, 2));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Metric {
     /// The time used, in ms.
@@ -90,6 +96,16 @@ impl Metric {
 /// The time in ms that the failures of a plan allow the robot to move without a module: each alone
 /// is detected, decided and answered within two rounds of 100 ms, and stands a second later; they
 /// may follow each other.
+///
+/// ```
+/// use cotama_core::units::Millis;
+/// use cotama_models::cotama::FailureMode::{Rt1, Son2};
+/// use cotama_sim::campaign::{plan::{Fault, Plan}, requirement::allowed_ms};
+/// use cotama_sim::supervised::When;
+/// let faults = [Rt1, Son2].map(|mode| Fault::failure(When::At(Millis(0)), mode)).to_vec();
+/// assert_eq!(allowed_ms(&Plan { faults: faults[..1].to_vec() }), 3_200);
+/// assert!(allowed_ms(&Plan { faults }) > 3_200);
+/// ```
 pub fn allowed_ms(plan: &Plan) -> u64 {
     let one = |mode: FailureMode| u64::from(mode.rule().latency_ms).max(2_000) + 1_200;
     let failures = plan.faults.iter().filter_map(|it| match it {
@@ -125,7 +141,7 @@ impl Requirement {
             Self::Never(transition) => i64::from(run.fired.binary_search(transition).is_err()),
             Self::SeenInTime => left(0, run.unseen_ms),
             Self::PlansWithWhatWorks => i64::from(!run.planned_with_lost),
-            Self::Conforms => Self::unbroken(run, "conforms"),
+            Self::Conforms => Self::unbroken(run, CONFORMS),
             Self::Always(text) => Self::unbroken(run, text),
         }
     }
@@ -194,7 +210,7 @@ const PLAIN: [(&str, Requirement); 8] = [
     ("in-time", Requirement::InTime),
     ("seen-in-time", Requirement::SeenInTime),
     ("plans-with-what-works", Requirement::PlansWithWhatWorks),
-    ("conforms", Requirement::Conforms),
+    (CONFORMS, Requirement::Conforms),
 ];
 
 impl fmt::Display for Requirement {

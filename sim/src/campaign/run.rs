@@ -19,6 +19,15 @@ pub const MAX_RUNS: u64 = 1_000_000_000;
 pub const MAX_FAULTS: u64 = 8;
 
 /// What a campaign draws and asks: with the mission, all that its results depend on.
+///
+/// ```
+/// use cotama_sim::campaign::run::Settings;
+/// use cotama_sim::campaign::strategy::StrategyName;
+/// let strategy = StrategyName::Guided;
+/// let settings = Settings { runs: 5_000, strategy, ..Settings::new(true) };
+/// let asked: Vec<_> = settings.requirements.iter().map(ToString::to_string).collect();
+/// assert_eq!(asked, ["in-time", "brakes", "stands-when-safe"]);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Settings {
     /// How many missions are run, at most [`MAX_RUNS`].
@@ -83,6 +92,15 @@ impl Shard {
 }
 
 /// What one run leaves: a line of the results.
+///
+/// ```
+/// use cotama_sim::campaign::run::Line;
+/// let text = r#"{"run":7,"outcome":"safe","time_ms":5,"energy_mj":7,"x_mm":9,"requests":1,"#;
+/// let text = format!(r#"{text}"replans":0,"exposed_ms":0,"faults":[],"violated":[]}}"#);
+/// let line: Line = serde_json::from_str(&text).unwrap();
+/// assert_eq!((line.run, line.observed.requests), (7, 1));
+/// assert_eq!(serde_json::to_string(&line).unwrap(), text);
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Line {
     /// The number of the run, from 0.
@@ -101,6 +119,20 @@ pub struct Line {
 }
 
 /// A campaign, ready to run.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::run::{Campaign, Settings};
+/// use cotama_sim::campaign::subject::{Policy, Subject};
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let requirements = vec!["completed".parse().unwrap()];
+/// let settings = Settings { requirements, ..Settings::new(false) };
+/// let subject = Subject::new(&mission, Policy::default()).unwrap();
+/// let campaign = Campaign::new(subject, settings).unwrap();
+/// let failing = campaign.block(0).iter().filter(|it| !it.violated.is_empty()).count();
+/// assert_eq!((campaign.block(0).len(), failing), (1_000, 357));
+/// ```
 #[derive(Debug)]
 pub struct Campaign<'m> {
     /// What is run.

@@ -38,6 +38,19 @@ pub struct Space {
 }
 
 /// A kind of fault and how likely it is.
+///
+/// ```
+/// use cotama_models::cotama::FailureMode;
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::space::{Kind, Rates, Space, Weighted};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// // Nothing but sonars fails, one of them three times as often as the other.
+/// let of = |mode, weight| Weighted { kind: Kind::Failure(mode), weight };
+/// let kinds = vec![of(FailureMode::Son1, 3), of(FailureMode::Son2, 1)];
+/// let space = Space { kinds, ..Space::of(&mission, Rates::Even, 1..=2) };
+/// assert_eq!(space.kinds[0].weight, 3);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Weighted {
     /// What.
@@ -70,6 +83,19 @@ pub enum Kind {
 }
 
 /// How kinds of faults are weighted.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::space::{Rates, Space};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let weights = |rates| {
+///     let space = Space::of(&mission, rates, 1..=1);
+///     space.kinds.iter().map(|it| it.weight).collect::<std::collections::BTreeSet<_>>()
+/// };
+/// assert_eq!(weights(Rates::Even).len(), 1);
+/// assert!(weights(Rates::Fmeca).len() > 5);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Rates {
     /// Each kind is as likely as each other: what searches well.

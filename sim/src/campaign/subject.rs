@@ -47,6 +47,19 @@ struct Watched {
 pub const AFTER: Millis = Millis(60_000);
 
 /// Who plans.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::plan::Plan;
+/// use cotama_sim::campaign::subject::{Policy, Subject};
+/// use cotama_sim::run::Outcome;
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let plan = Plan::from(&mission.run.faults);
+/// let ends = |policy| Subject::new(&mission, policy).unwrap().run(&plan).outcome;
+/// assert_eq!(ends(Policy::default()), Outcome::Completed);
+/// assert_ne!(ends(Policy { rigid: true, ..Policy::default() }), Outcome::Completed);
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policy {
     /// The allocator; that of the kind of mission if none: the rule of PANORAMA, and under
@@ -155,7 +168,7 @@ impl<'m> Subject<'m> {
     /// let run = subject.watching(&asked).unwrap().run(&Plan::default());
     /// let witness = run.witness.unwrap();
     /// assert_eq!(witness.requirement, "AG !gs.DriveB");
-    /// assert_eq!((witness.at_ms, witness.seen), (183_400, vec!["gs.g3".to_owned()]));
+    /// assert_eq!((witness.at_ms, witness.seen), (166_200, vec!["gs.g3".to_owned()]));
     /// ```
     pub fn watching(self, requirements: &[Requirement]) -> Result<Self, Unready> {
         let about = |it: &&Requirement| it.needs_supervisors();

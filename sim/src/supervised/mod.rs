@@ -11,6 +11,7 @@
 //! assert_eq!((run.outcome, run.operator_requests), (Outcome::Completed, 0));
 //! ```
 
+mod conduct;
 mod effect;
 mod laptop;
 mod monitor;
@@ -23,6 +24,7 @@ pub mod story;
 mod summary;
 mod world;
 
+pub use conduct::{Conduct, Decided, Fired};
 pub use cotama_models::cotama::Judged;
 pub use effect::{Effect, Ends, Motion, effect};
 pub(crate) use effect::{observable, raises};
@@ -40,87 +42,9 @@ use cotama_core::net::owned::OwnedNet;
 use cotama_core::player::{Packed, Program};
 use cotama_core::system::{Component, System, SystemDefect};
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::{
-    Cause, Class, Configuration, Diagnosis, FailureMode, Flags, Told, delivery, global, local,
-    recovering,
-};
+use cotama_models::cotama::{Configuration, Told, delivery, global, recovering};
 use cotama_models::missions::{Does, Mission};
 use world::{CLOCKS, World};
-
-/// A transition of a supervisor that fired.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fired {
-    /// When.
-    pub at: Millis,
-    /// The net, as `ls`.
-    pub net: &'static str,
-    /// The transition, as `l5`.
-    pub transition: String,
-    /// What it goes back to: 0, or the number of a failure in [`Run::conduct`], from 1.
-    pub cause: Cause,
-}
-
-/// What became of a failure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Conduct {
-    /// What failed.
-    pub mode: FailureMode,
-    /// When.
-    pub injected: Millis,
-    /// Where the robot was then.
-    pub x: Millimetres,
-    /// Where the local supervisor was then.
-    pub during: local::State,
-    /// When its flags were raised, and what they were taken for.
-    pub detected: Option<(Millis, Diagnosis)>,
-    /// The flags, with those of other failures that were seen in the same period.
-    pub flags: Flags,
-    /// How it was judged when it was detected.
-    pub judged: Option<Judged>,
-    /// When the contextual supervisor had decided, and what.
-    pub decided: Option<(Millis, Decided)>,
-    /// When a supervisor first acted on it.
-    pub answered: Option<Millis>,
-    /// For how long, in all, the robot moved while its configuration required a module that this
-    /// failure breaks.
-    pub exposed: Millis,
-}
-
-/// What the contextual supervisor made of a report.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Decided {
-    /// It is recorded.
-    Record,
-    /// An adapter changes parameters or modules.
-    Adapter,
-    /// The local supervisor asks the operator.
-    Local,
-    /// The global supervisor ends the mission.
-    Global,
-}
-
-impl Decided {
-    /// Its name: that of the class of the decision.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Record => Class::Record.name(),
-            Self::Adapter => Class::Adapter.name(),
-            Self::Local => Class::Local.name(),
-            Self::Global => Class::Global.name(),
-        }
-    }
-}
-
-impl From<&str> for Decided {
-    /// From the output of [`contextual`](cotama_models::cotama::contextual).
-    fn from(output: &str) -> Self {
-        match output {
-            "global_event" => Self::Global,
-            "local_event" => Self::Local,
-            _ => Self::Adapter,
-        }
-    }
-}
 
 /// What a supervised run comes to.
 #[derive(Clone, Debug, PartialEq)]
@@ -157,8 +81,8 @@ pub struct Run {
     pub oldest_pose: Millis,
     /// The longest way that it went on after the permit to move was gone.
     pub braked: Millimetres,
-    /// Whether it moved after the global supervisor had made it safe, for as long as it was watched:
-    /// never, or something is wrong.
+    /// Whether it moved after the global supervisor had made it safe, for as long as it was
+    /// watched: never, or something is wrong.
     pub moved_when_safe: bool,
     /// The longest time that an observer at work left a failure unseen beyond the latency of its
     /// row.
@@ -293,8 +217,8 @@ impl<'m> Supervised<'m> {
         Self { monitors, ..self }
     }
 
-    /// Supervisors of the caller's ([`of_supervisors`](Self::of_supervisors)) are held against those
-    /// that are shipped, which are told the same: a run ends where their markings differ.
+    /// Supervisors of the caller's ([`of_supervisors`](Self::of_supervisors)) are held against
+    /// those that are shipped, which are told the same: a run ends where their markings differ.
     #[must_use]
     pub fn compared(self) -> Self {
         let compared = matches!(self.supervisors, Supervisors::Given(..));

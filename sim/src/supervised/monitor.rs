@@ -4,7 +4,6 @@
 //! a run can break at some time. That is `AG` of something about one marking, and `AG (asked ->
 //! AF<=500ms done)`, an answer in time; and several of these, joined by `&`.
 
-use crate::supervised::world::CLOCKS;
 use cotama_core::net::owned::{OwnedNet, OwnedPlace};
 use cotama_core::net::{EventId, PlaceId, Role};
 use cotama_core::player::{Player, Program};
@@ -62,10 +61,23 @@ enum Slot {
 }
 
 /// Why a text is no [`Monitor`].
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::supervised::{Supervised, Unmonitored};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let supervised = Supervised::new(&mission).unwrap();
+/// let refused = |text| supervised.monitor(text).unwrap_err();
+/// // Whether something can happen is no question to one run.
+/// assert_eq!(refused("AG EF gs.Done"), Unmonitored::NotOnLine);
+/// let help = "there is no place `gs.Don`\n  help: did you mean `gs.Done`?";
+/// assert!(refused("AG !gs.Don").to_string().ends_with(help));
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub enum Unmonitored {
     /// It cannot be read, or names what is not there.
-    Unreadable(PropertyError),
+    Unreadable(Box<PropertyError>),
     /// A single run does not break it at some time.
     NotOnLine,
 }
@@ -99,7 +111,8 @@ impl Monitor {
     /// A property of these supervisors.
     pub(super) fn new(text: &str, system: &System<'_>) -> Result<Self, Unmonitored> {
         let (names, slots) = places(system);
-        let property = property::parse(text, &names).map_err(Unmonitored::Unreadable)?;
+        let property =
+            property::parse(text, &names).map_err(|error| Unmonitored::Unreadable(error.into()))?;
         let Question::Formula(formula) = property.question else {
             return Err(Unmonitored::NotOnLine);
         };
@@ -183,12 +196,14 @@ fn always_parts(formula: &Formula) -> Option<Vec<Part>> {
 }
 
 /// The marking of supervisors, by the names of a monitor.
-struct Seen<'s, P, const W: usize, const S: usize> {
-    player: &'s Player<P, W, CLOCKS, S, Cause>,
+struct Seen<'s, P, const W: usize, const C: usize, const S: usize> {
+    player: &'s Player<P, W, C, S, Cause>,
     slots: &'s [Slot],
 }
 
-impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> Marking for Seen<'_, P, W, S> {
+impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize> Marking
+    for Seen<'_, P, W, C, S>
+{
     fn tokens(&self, place: PlaceId) -> u64 {
         match self.slots.get(place.0 as usize) {
             Some(Slot::Place(it)) => u64::from(self.player.tokens(*it)),
@@ -213,10 +228,10 @@ impl<'m> Watching<'m> {
     }
 
     /// A round has ended: the first monitor that is broken, if one is.
-    pub(super) fn look<P: Program<W, CLOCKS, S>, const W: usize, const S: usize>(
+    pub(super) fn look<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize>(
         &mut self,
         now: Millis,
-        player: &Player<P, W, CLOCKS, S, Cause>,
+        player: &Player<P, W, C, S, Cause>,
     ) -> Option<usize> {
         let mut since = self.since.iter_mut();
         let mut broken = None;

@@ -10,6 +10,20 @@ use cotama_models::cotama::FailureMode;
 use cotama_models::missions::Mission;
 
 /// A defect.
+///
+/// ```
+/// use cotama_core::units::{Millimetres, Millis};
+/// use cotama_models::cotama::FailureMode::Son2;
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::supervised::{Injection, Planted, Script, Supervised, When};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let injections = vec![Injection::new(When::Place(Millimetres(5_000)), Son2)];
+/// let script = Script { injections, ..Script::default() };
+/// let late = Planted::Late(Son2, Millis(20_000));
+/// let blind = Supervised::new(&mission).unwrap().with_planted(vec![late]);
+/// assert_eq!(blind.run(&script).unwrap().unseen, Millis(20_000));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Planted {
     /// No observer sees this failure.

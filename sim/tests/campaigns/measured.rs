@@ -99,6 +99,13 @@ fn the_shipped_system_breaks_no_property_that_defects_do() {
 }
 
 #[test]
+fn the_page_shows_the_table_of_defects() {
+    let (page, table) =
+        (include_str!("../../../docs/campaigns.md"), include_str!("../golden/defects.txt"));
+    assert!(page.contains(table), "docs/campaigns.md does not show\n{table}");
+}
+
+#[test]
 fn what_breaks_no_requirement_is_not_made_small() {
     let mission = mission("delivery");
     let subject = Subject::new(&mission, Default::default()).unwrap();
@@ -111,7 +118,7 @@ fn what_breaks_no_requirement_is_not_made_small() {
 fn broken(requirement: &Requirement) -> String {
     let Requirement::Always(text) = requirement else { return requirement.to_string() };
     let listed = REQUIREMENTS.iter().find(|it| it.asked.is_some_and(|it| it.text == text));
-    listed.map_or_else(|| text.clone(), |it| it.id.to_owned())
+    listed.map_or("a property", |it| it.id).to_owned()
 }
 
 /// `cargo test --release -p cotama-sim --test campaigns -- --ignored --nocapture`.
@@ -153,8 +160,8 @@ fn median_runs_to_find_each_defect() {
                 median => write!(text, "{median:>10}").unwrap(),
             }
         }
-        let [faults, lines, runs] = most;
-        writeln!(text, "{faults:>8}{lines:>7}{runs:>6}  {}", broken(&defect.breaks)).unwrap();
+        let ([faults, lines, runs], broken) = (most, broken(&defect.breaks));
+        writeln!(text, "{faults:>8}{lines:>7}{runs:>6}  {broken}").unwrap();
         println!("{}", text.lines().last().unwrap());
     }
     text += "\nRuns of uniform over those of another strategy: the geometric mean over defects and\n\

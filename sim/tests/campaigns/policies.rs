@@ -56,7 +56,7 @@ fn differences(text: &mut String, all: &[Compared]) {
 }
 
 fn rows(text: &mut String, name: &str, all: &[Compared]) {
-    write!(text, "| {name} | completed, % | safe | past a limit | time, s | energy, J | asked |\n")
+    writeln!(text, "| {name} | completed, % | safe | past a limit | time, s | energy, J | asked |")
         .unwrap();
     *text += "| --- | --- | --- | --- | --- | --- | --- |\n";
     for it in all {

@@ -24,7 +24,31 @@ use std::fmt;
 /// How many runs are drawn by one [`Draws`].
 pub const BLOCK: u64 = 1_000;
 
-/// Draws the plans of a campaign.
+/// Draws the plans of a campaign; one of your own is asked for its blocks as those here are.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::plan::Plan;
+/// use cotama_sim::campaign::space::{Rates, Space};
+/// use cotama_sim::campaign::strategy::{Draws, Strategy};
+/// /// Nothing ever fails.
+/// #[derive(Debug)]
+/// struct Calm;
+/// impl Draws for Calm {
+///     fn next(&mut self) -> Plan {
+///         Plan::default()
+///     }
+/// }
+/// impl Strategy for Calm {
+///     fn block<'s>(&'s self, _: &'s Space, _: u64, _: u64) -> Box<dyn Draws + 's> {
+///         Box::new(Calm)
+///     }
+/// }
+/// let patrol = embedded::mission("patrol").unwrap();
+/// let mission = Mission::parse(patrol.name, patrol.text).unwrap();
+/// let space = Space::of(&mission, Rates::Even, 1..=3);
+/// assert_eq!(Calm.block(&space, 0, 0).next(), Plan::default());
+/// ```
 pub trait Strategy: fmt::Debug + Send + Sync {
     /// Draws the runs from `first` on, at most [`BLOCK`] of them, of the campaign with this seed.
     fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's>;

@@ -6,7 +6,21 @@ use crate::campaign::plan::{Fault, Plan};
 use crate::campaign::space::Space;
 use crate::streams::{Stream, Streams};
 
-/// Races: what goes wrong between two events that nearly come together has few moments to be drawn
+/// Races.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::campaign::space::{Rates, Space};
+/// use cotama_sim::campaign::strategy::{Races, Strategy};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let space = Space::of(&mission, Rates::Even, 1..=3);
+/// assert!(space.acts_ms.contains(&166_200)); // the object is received
+/// let plan = Races.block(&space, 0, 0).next();
+/// assert!((1..=3).contains(&plan.faults.len()));
+/// ```
+///
+/// What goes wrong between two events that nearly come together has few moments to be drawn
 /// at. Most failures are drawn so that their observers see them in one of the rounds before the
 /// supervisors act in a run in which nothing fails, and some plans have an operator with answers of
 /// his own: boundary values (Myers, The Art of Software Testing, 1979) in time.
@@ -49,8 +63,8 @@ pub(super) fn race(fault: &mut Fault, space: &Space, stream: &mut Stream) {
     }
 }
 
-/// One plan in three has an operator with answers of his own, where there are supervisors: as one of
-/// its faults.
+/// One plan in three has an operator with answers of his own, where there are supervisors: as one
+/// of its faults.
 pub(super) fn answer(plan: &mut Plan, space: &Space, stream: &mut Stream) {
     if space.supervised && stream.below(3) == 0 {
         plan.faults.truncate(space.most.saturating_sub(1) as usize);
