@@ -194,3 +194,24 @@ impl Lines {
         Failure::of(place, message).help(help)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cotama_sim::campaign::run::{Settings, Shard};
+    use std::fs;
+
+    #[test]
+    fn the_later_of_two_programs_stops_before_it_writes() {
+        let folder = std::env::temp_dir().join(format!("cotama-two-{}", std::process::id()));
+        let header = Header::new(("own", ""), &Settings::new(false), "usual", Shard::ALL);
+        let open = || Store::open(&folder, &header, &mut |_, _| false).unwrap().0;
+        let (mut first, mut later) = (open(), open());
+        assert!(first.append("a block\n").is_ok());
+        assert!(later.append("b\n").is_err());
+        assert!(first.append("another\n").is_ok());
+        let runs = fs::read_to_string(folder.join("runs.jsonl")).unwrap();
+        fs::remove_dir_all(&folder).unwrap();
+        assert_eq!(runs, "a block\nanother\n");
+    }
+}

@@ -86,6 +86,8 @@ pub enum Unready {
     Property(String, Unmonitored),
     /// A requirement is about supervisors, and the mission has none: its text.
     Plain(String),
+    /// Supervisors that are shipped are to be held against themselves.
+    Shipped,
 }
 
 impl fmt::Display for Unready {
@@ -98,6 +100,9 @@ impl fmt::Display for Unready {
                 f.write_str("upward and rigid policies are for missions without supervisors")
             }
             Self::Property(text, why) => write!(f, "`{}`: {why}", text.escape_debug()),
+            Self::Shipped => {
+                f.write_str("`conforms` is for supervisors of your own: these are the shipped ones")
+            }
             Self::Plain(text) => write!(
                 f,
                 "`{}` is about supervisors, and the mission has none",
@@ -187,7 +192,11 @@ impl<'m> Subject<'m> {
         let monitors = properties.map(monitor).collect::<Result<Vec<_>, _>>()?;
         let supervised = supervised.with_monitors(monitors.clone());
         let conforms = requirements.contains(&Requirement::Conforms);
-        let supervised = if conforms { supervised.compared() } else { supervised };
+        let supervised = match conforms.then(|| supervised.clone().compared()) {
+            Some(None) => return Err(Unready::Shipped),
+            Some(Some(compared)) => compared,
+            None => supervised,
+        };
         let stands = requirements.contains(&Requirement::StandsWhenSafe);
         let after = if stands { AFTER } else { watched.after };
         let robot = Robot::Supervised(Box::new(supervised), Watched { monitors, after });

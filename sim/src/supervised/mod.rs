@@ -219,10 +219,11 @@ impl<'m> Supervised<'m> {
 
     /// Supervisors of the caller's ([`of_supervisors`](Self::of_supervisors)) are held against
     /// those that are shipped, which are told the same: a run ends where their markings differ.
+    /// None of supervisors that are shipped.
     #[must_use]
-    pub fn compared(self) -> Self {
-        let compared = matches!(self.supervisors, Supervisors::Given(..));
-        Self { compared, ..self }
+    pub fn compared(self) -> Option<Self> {
+        let given = matches!(self.supervisors, Supervisors::Given(..));
+        given.then_some(Self { compared: true, ..self })
     }
 
     /// Plans are made by this planner.

@@ -97,6 +97,17 @@ impl fmt::Display for Unmonitored {
 impl std::error::Error for Unmonitored {}
 
 /// A property that a run broke: its witness.
+///
+/// ```
+/// use cotama_models::missions::{Mission, embedded};
+/// use cotama_sim::supervised::{Script, Supervised};
+/// let delivery = embedded::mission("delivery").unwrap();
+/// let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+/// let supervised = Supervised::new(&mission).unwrap();
+/// let never = supervised.monitor("AG !gs.Deliver").unwrap();
+/// let run = supervised.with_monitors(vec![never]).run(&Script::default()).unwrap();
+/// assert!(run.violated.unwrap().fired.contains(&"gs.g4".to_owned()));
+/// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Violation {
     /// When.

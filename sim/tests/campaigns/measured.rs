@@ -2,7 +2,7 @@
 
 use super::defects::{BLIND, Defect, defects};
 use super::mission;
-use cotama_models::cotama::REQUIREMENTS;
+use cotama_models::cotama::{REQUIREMENTS, delivery};
 use cotama_models::missions::Mission;
 use cotama_sim::campaign::findings::compact;
 use cotama_sim::campaign::requirement::Requirement;
@@ -10,6 +10,7 @@ use cotama_sim::campaign::shrink::{MAX_RUNS, Shrunk, shrink};
 use cotama_sim::campaign::space::{Rates, Space};
 use cotama_sim::campaign::strategy::{BLOCK, StrategyName};
 use cotama_sim::campaign::subject::Subject;
+use cotama_sim::supervised::Supervised;
 use std::fmt::Write;
 
 const STRATEGIES: [StrategyName; 5] = [
@@ -20,6 +21,12 @@ const STRATEGIES: [StrategyName; 5] = [
     StrategyName::Races,
 ];
 
+/// The supervisors that are shipped, as some that a caller gives.
+fn shipped(mission: &Mission) -> Subject<'_> {
+    let supervised = Supervised::of_supervisors(mission, delivery::SYSTEM).unwrap();
+    Subject::of(mission, supervised)
+}
+
 /// The run, from 1, that finds the defect first, and its plan made small.
 fn found(
     defect: &Defect,
@@ -29,8 +36,7 @@ fn found(
     budget: u64,
 ) -> Option<(u64, Shrunk)> {
     let subject = defect.subject(mission);
-    let sound = Subject::new(mission, Default::default()).unwrap();
-    let sound = sound.watching(std::slice::from_ref(&defect.breaks)).unwrap();
+    let sound = shipped(mission).watching(std::slice::from_ref(&defect.breaks)).unwrap();
     let space = Space::of(mission, Rates::Even, 1..=3);
     let strategy = name.strategy(&space);
     for first in (0..budget).step_by(BLOCK as usize) {
@@ -84,7 +90,7 @@ fn the_shipped_system_breaks_no_property_that_defects_do() {
     let about_all = |it: &Requirement| !matches!(it, Requirement::InTime);
     let asked: Vec<_> = asked.into_iter().filter(about_all).collect();
     assert_eq!(asked.len(), 11);
-    let subject = Subject::new(&mission, Default::default()).unwrap().watching(&asked).unwrap();
+    let subject = shipped(&mission).watching(&asked).unwrap();
     let space = Space::of(&mission, Rates::Even, 1..=3);
     for name in [StrategyName::Uniform, StrategyName::Races] {
         let strategy = name.strategy(&space);
