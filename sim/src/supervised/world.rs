@@ -221,7 +221,7 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
         let (from, until) = (self.robot.x(), Millis(self.now.0.saturating_add(time.0)));
         while self.now < until {
             self.period();
-            if self.rests() {
+            if self.rests(until) {
                 break;
             }
         }

@@ -46,20 +46,31 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
         self.decider.idle(last, Body { at_goal: false, stands: !moving });
     }
 
-    /// Whether a robot whose mission is over stands, and nothing can change that: every further
-    /// period is as the last one.
-    pub(in crate::supervised) fn rests(&self) -> bool {
-        let changes = |it: &Failure| {
-            let later = changes(it).into_iter().flatten().any(|at| at >= self.now);
-            !it.over && (it.until.is_some() || later)
+    /// Whether a robot whose mission is over stands, and nothing changes that before this time:
+    /// until then every further period is as the last one.
+    pub(in crate::supervised) fn rests(&self, until: Millis) -> bool {
+        let due = |when: When| match when {
+            When::At(at) => at,
+            // It stands in front of it, or it would have been due.
+            When::Place(_) => Millis(u64::MAX),
+            When::During(state, after) => {
+                let reached = self.first.iter().find(|it| it.0 == state);
+                Millis(reached.map_or(u64::MAX, |it| it.1.0.saturating_add(after.0)))
+            }
         };
-        self.calm
+        let under_way = self
+            .failures
+            .iter()
+            .filter(|it| !it.over && effect(it.mode).motion != Motion::Mindless);
+        let changing = under_way.flat_map(|it| {
+            let later = changes(it).into_iter().flatten().filter(|at| *at >= self.now);
+            it.until.map(due).into_iter().chain(later)
+        });
+        let calm = self.calm && self.decider.listens() && self.periods_unseen() == u64::MAX;
+        (calm || !self.thinks())
             && !self.mission.recovery
             && self.robot.speed().0 == 0
-            && self.waiting.is_empty()
-            && self.decider.listens()
-            && !self.failures.iter().any(changes)
-            && self.periods_unseen() == u64::MAX
+            && self.waiting.iter().map(|it| due(it.when)).chain(changing).all(|it| it >= until)
     }
 
     /// How many periods nothing can happen in; none where something may at once.
@@ -188,4 +199,48 @@ fn changes(it: &Failure) -> [Option<Millis>; 2] {
     };
     let silent = matches!(effect(it.mode).motion, Motion::Silent);
     [ends, silent.then_some(Millis(it.since.0 + FIRMWARE_WATCHDOG.0))]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::supervised::{Injection, PLANNER, Script};
+    use cotama_models::cotama::{FailureMode, Module, delivery, global};
+    use cotama_models::missions::{Mission, embedded};
+
+    /// Whatever failed first, and with a motor that runs away after the end.
+    #[test]
+    fn a_robot_that_rests_would_not_have_moved() {
+        let delivery = embedded::mission("delivery").unwrap();
+        let mission = Mission::parse(delivery.name, delivery.text).unwrap();
+        let mut rested = 0;
+        for &mode in FailureMode::ALL {
+            for (part, until, later) in [
+                (Module::Smz, None, 900_000),
+                (Module::Sch, Some(When::At(Millis(60_000))), 60_000),
+                (Module::Sch, Some(When::During(local::State::Following, Millis(50_000))), 400_000),
+            ] {
+                let first = Injection::new(When::Place(Millimetres(5_000)), mode);
+                let runaway = Injection::new(When::At(Millis(later)), FailureMode::Mot4);
+                let injections = vec![Injection { part, until, ..first }, runaway];
+                let script = Script { injections, ..Script::default() };
+                let program = delivery::Program;
+                let mut world =
+                    World::start(&mission, global::NET, program, &script, PLANNER).unwrap();
+                while !world.period() {
+                    world.pass_over();
+                }
+                let mut each = world.clone();
+                let until = Millis(world.now.0 + 60_000);
+                while each.now < until {
+                    each.period();
+                    rested += usize::from(each.rests(until));
+                }
+                let moved = Millimetres(each.robot.x().0 - world.robot.x().0);
+                let expected = (moved, each.run.moved_when_safe);
+                assert_eq!(world.way_in(Millis(60_000)), expected, "{}", mode.name());
+            }
+        }
+        assert!(rested > 10_000, "{rested}");
+    }
 }
