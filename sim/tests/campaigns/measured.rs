@@ -177,7 +177,7 @@ fn median_runs_to_find_each_defect() {
     let races: Vec<bool> = defects().iter().map(|it| is_race(it.name)).collect();
     assert_eq!(races.iter().filter(|it| **it).count(), 3);
     let log = |runs: &[f64]| runs.iter().map(|it| it.ln()).sum::<f64>() / SEEDS as f64;
-    for column in 1..STRATEGIES.len() {
+    for (column, name) in STRATEGIES.into_iter().enumerate().skip(1) {
         let ratio = |of_all: bool| {
             let of = |column: usize| all[column].chunks(SEEDS as usize);
             let pairs = of(0).zip(of(column)).zip(&races);
@@ -187,8 +187,7 @@ fn median_runs_to_find_each_defect() {
             let [mean, low, high] = [it.estimate, it.low, it.high].map(f64::exp);
             format!("{mean:.2} ({low:.2} to {high:.2})")
         };
-        let name = STRATEGIES[column].name();
-        writeln!(text, "{name:10} {}   {}", ratio(true), ratio(false)).unwrap();
+        writeln!(text, "{:10} {}   {}", name.name(), ratio(true), ratio(false)).unwrap();
     }
     println!("{text}");
     cotama_golden::compare("tests/golden/defects.txt", &text);
