@@ -76,7 +76,9 @@ fn broken() -> Vec<(&'static str, Vec<u8>, &'static str)> {
 #[test]
 fn every_command_refuses_every_broken_file_at_its_place() {
     let folder = Folder::new("broken_pnml");
-    for (name, bytes, place) in broken() {
+    let broken = broken();
+    assert_eq!(broken.len(), 27);
+    for (name, bytes, place) in broken {
         let file = format!("{name}.pnml");
         folder.write(&file, bytes);
         for command in [

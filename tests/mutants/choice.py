@@ -7,15 +7,31 @@ VARIABLE = "COTAMA_DEFECT"
 MODULE = f"""
 mod defect {{
     extern crate std;
-    static CHOSEN: std::sync::OnceLock<u32> = std::sync::OnceLock::new();
-    /// Whether this defect was chosen.
+    use std::sync::atomic::{{AtomicU32, Ordering::Relaxed}};
+    static CHOSEN: AtomicU32 = AtomicU32::new(u32::MAX);
+    /// The defect that was chosen; 0 is none.
     #[inline]
-    pub(crate) fn on(number: u32) -> bool {{
-        *CHOSEN.get_or_init(|| {{
-            std::env::var("{VARIABLE}").ok().and_then(|it| it.parse().ok()).unwrap_or(0)
-        }}) == number
+    pub(crate) fn chosen() -> u32 {{
+        match CHOSEN.load(Relaxed) {{ u32::MAX => choose(), number => number }}
+    }}
+    #[cold]
+    fn choose() -> u32 {{
+        let number = std::env::var("{VARIABLE}").ok().and_then(|it| it.parse().ok()).unwrap_or(0);
+        CHOSEN.store(number, Relaxed);
+        number
     }}
 }}
+"""
+# Where a constant calls a function, the compiler computes without a defect and the program with it.
+# No stable Rust tells the two apart: the crates that have this are built with `RUSTC_BOOTSTRAP`.
+FEATURES = "#![allow(internal_features)]\n#![feature(core_intrinsics, const_eval_select)]\n"
+CONST_MODULE = MODULE.replace("pub(crate) fn chosen()", "fn at_run_time()").rstrip()[:-1] + """
+    const fn none() -> u32 { 0 }
+    #[inline]
+    pub(crate) const fn chosen() -> u32 {
+        core::intrinsics::const_eval_select((), none, at_run_time)
+    }
+}
 """
 
 TOKEN = re.compile(
@@ -69,9 +85,10 @@ def seeded(text, defect, begin=0):
     return text[:at] + new + text[at + len(old) :]
 
 
-def with_choice(text, defects):
+def with_choice(text, defects, constant=False):
     """The text of a file with all these defects, each chosen at run time. Those that are outside of
-    functions are marked as alone, and left out."""
+    functions are marked as alone, and left out. A `const fn` is one no longer, but when `constant`.
+    """
     of_function = {}
     bodies = functions(text)
     for defect in defects:
@@ -85,11 +102,11 @@ def with_choice(text, defects):
             defect.alone = True
     for (const, _, start, end), those in sorted(of_function.items(), key=lambda it: -it[0][2]):
         body = text[start:end]
-        choice = "{\n"
+        choice = "{ match crate::defect::chosen() {\n"
         for defect in those:
-            choice += f"if crate::defect::on({defect.number})\n{seeded(body, defect, start)}\nelse "
-        text = text[:start] + choice + body + "\n}" + text[end:]
-        if const is not None:
+            choice += f"{defect.number} =>\n{seeded(body, defect, start)}\n"
+        text = text[:start] + choice + "_ => " + body + "\n}}" + text[end:]
+        if const is not None and not constant:
             text = text[:const] + "     " + text[const + 5 :]
     return text
 
@@ -136,11 +153,11 @@ def at_line(text, line, defects):
     for const, _, start, end in functions(text):
         choices = [
             (start + it.start(), int(it.group(1)))
-            for it in re.finditer(r"if crate::defect::on\((\d+)\)\n", text[start:end])
+            for it in re.finditer(r"^(\d+) =>\n", text[start:end], re.M)
         ]
         if not choices or not start <= at < end:
             continue
-        ends = [it for it, _ in choices[1:]] + [text.rindex("\nelse {", start, end)]
+        ends = [it for it, _ in choices[1:]] + [text.rindex("\n_ => {", start, end)]
         for (begin, number), stop in zip(choices, ends):
             if begin <= at < stop and number in numbers:
                 return [numbers[number]]

@@ -2,24 +2,38 @@
 """Runs mutants that `cargo mutants` generates as `run.py` runs seeded defects: built together, each
 chosen at run time, so that a thousand of them need one build.
 
-    tests/mutants/generated.py CRATE GLOB[,GLOB...] EVERY PROGRAM[,PROGRAM...] [TEST...]
+    tests/mutants/generated.py NAME            the sample of generated/NAME.txt, written there
+    tests/mutants/generated.py NAME --missed   again those that were missed, after tests were added
+    tests/mutants/generated.py --table         writes generated/README.md anew
 
-Of the mutants in those files of a crate every EVERY-th is taken, in the order of cargo-mutants;
-each PROGRAM is a test program that may kill them (`core/lib`), of it the tests whose names contain
-one of TEST. The rest of the suite is not run, so a mutant that survives here may be killed by it.
-What the compiler refuses is counted as unviable; that includes what a constant calls, which could
-be built alone.
+The head of a list says what is run:
+
+    crate: core
+    files: core/src/**/*.rs
+    but: **/proofs.rs                    files left out
+    sample: 600 19                       how many are drawn, with which seed; all without this line
+    program: tests/stories players       who may kill, in this order; tests whose names hold a word
+
+The rest of the suite is not run, so a mutant that survives here may be killed by it. A run that
+computes for five times as long as without a mutant and five seconds more is ended, and kills the
+mutant. Needs cargo-mutants, which lists them.
 """
 import json
 import os
+import random
+import resource
 import subprocess
 import sys
+import time
 
 sys.dont_write_bytecode = True
-from lists import ROOT, Defect, SUITES
+from choice import CONST_MODULE, FEATURES, blamed, with_choice
+from lists import LISTS, ROOT, Defect, SUITES
+from samples import COUNTS, List, table
 import run as runs
 
-SECONDS = 60
+# With them the tests are built.
+FEATURES_OF = {"cotama-core": ["--features", "alloc"]}
 
 
 def offset(text, place):
@@ -28,67 +42,142 @@ def offset(text, place):
     return sum(len(it) + 1 for it in lines[: place["line"] - 1]) + place["column"] - 1
 
 
-def listed(crate, globs, every):
-    package = SUITES[crate][0][0]
+def listed(sample):
+    """All mutants of the list's files in the order of cargo-mutants."""
+    package = SUITES[sample.crate][0][0]
     command = ["cargo", "mutants", "--list", "--json", "-p", package]
-    for glob in globs.split(","):
-        command += ["-f", glob]
-    found = json.loads(subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout)
-    sample = found[::every]
-    print(f"{len(sample)} of {len(found)} mutants", flush=True)
+    for files in sample.files:
+        command += ["-f", files]
+    for files in sample.but:
+        command += ["-e", files]
+    out = subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.PIPE).stdout
     defects = []
-    for number, it in enumerate(sample, 1):
-        defect = Defect(crate, it["span"]["start"]["line"], it["name"].split(": ", 1)[1])
+    for it in json.loads(out):
         text = (ROOT / it["file"]).read_text()
+        defect = Defect(sample.crate, it["span"]["start"]["line"], it["name"].split(": ", 1)[1])
         begin, end = (offset(text, it["span"][name]) for name in ("start", "end"))
-        defect.file, defect.at, defect.number = it["file"], begin, number
+        defect.file, defect.at = it["file"], begin
         defect.old, defect.new = text[begin:end].split("\n"), it["replacement"].split("\n")
+        defect.source = text.split("\n")[defect.line - 1].strip()
         defects.append(defect)
     return defects
 
 
-def main():
-    crate, globs, every, programs, *names = sys.argv[1:]
-    os.environ.update({"LC_ALL": "C", "CARGO_TERM_COLOR": "never", "COTAMA_SKIP_PUBLIC": "1"})
-    os.environ.pop("UPDATE_GOLDEN", None)
-    asked = programs.split(",")
-    defects = listed(crate, globs, int(every))
+def seed(defects):
+    """Writes the copy with all mutants that can be chosen."""
+    files, changed = {}, {}
     for defect in defects:
-        # Constants, and what else stands outside of functions, cannot be chosen.
-        defect.suite = (SUITES[crate][0], asked)
+        if not defect.alone:
+            files.setdefault(defect.file, []).append(defect)
+    for name, those in files.items():
+        changed[name] = with_choice((ROOT / name).read_text(), those, constant=True)
+    for crate in {it.file.split("/")[0] for it in defects}:
+        name = f"{crate}/src/lib.rs"
+        text = changed.get(name) or (ROOT / name).read_text()
+        changed[name] = FEATURES + text + CONST_MODULE
+    runs.copy_workspace(changed)
+    for name, text in changed.items():
+        runs.write(runs.COPY / name, text)
+
+
+def check(package):
+    """The compiler's errors in a library."""
+    command = ["cargo", "check", "--offline", "--lib", "--message-format=json", "-p", package]
+    command += FEATURES_OF.get(package, [])
+    environment = dict(
+        os.environ, CARGO_TARGET_DIR=str(runs.WORK / "check"), RUSTFLAGS="--cap-lints allow"
+    )
+    run = subprocess.run(command, cwd=runs.COPY, env=environment, capture_output=True, text=True)
+    messages = [json.loads(it) for it in run.stdout.splitlines()]
+    found = [it["message"] for it in messages if it["reason"] == "compiler-message"]
+    errors = [it for it in found if it["level"] == "error"]
+    if run.returncode and not errors:
+        sys.exit(run.stderr)
+    return errors
+
+
+def viable(sample, defects):
+    """Marks as alone what cannot be built with the others."""
     while True:
-        runs.seed(defects)
-        built, errors = runs.build(defects)
+        seed(defects)
+        errors = check(SUITES[sample.crate][0][0])
         if not errors:
-            break
-        guilty = runs.blamed(errors, defects, runs.COPY)
+            return
+        guilty = [it for it in blamed(errors, defects, runs.COPY) if not it.alone]
         if not guilty:
             sys.exit("\n".join(it["rendered"] for it in errors))
         for defect in guilty:
             defect.alone = True
         print(f"{len(guilty)} are not built", flush=True)
+
+
+def spent():
+    """Seconds of computing of the programs that have run."""
+    return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
+
+
+def main():
+    if "--table" in sys.argv:
+        return table()
+    name = sys.argv[1]
+    sample = List(name)
+    os.environ.update({"LC_ALL": "C", "CARGO_TERM_COLOR": "never", "COTAMA_SKIP_PUBLIC": "1"})
+    os.environ["RUSTC_BOOTSTRAP"] = "cotama_core,cotama_models,cotama_verification,cotama_sim"
+    os.environ.pop("UPDATE_GOLDEN", None)
+    found = listed(sample)
+    defects = found
+    if sample.taken:
+        # A larger sample of the same seed has all of the smaller one.
+        drawn = random.Random(sample.seed).sample(range(len(found)), len(found))[: sample.taken]
+        defects = [found[it] for it in sorted(drawn)]
+    again = "--missed" in sys.argv
+    if again:
+        defects = [it for it in defects if sample.known(it)]
+    packages = sorted({it for crate in sample.crates() & SUITES.keys() for it in SUITES[crate][0]})
+    for number, defect in enumerate(defects, 1):
+        defect.number, defect.suite = number, (packages, [it for it, _ in sample.programs])
+    print(f"{len(defects)} of {len(found)} mutants", flush=True)
+    begin = time.monotonic()
+    viable(sample, defects)
+    print(f"checked after {time.monotonic() - begin:.0f} s", flush=True)
+    built, errors = runs.build(defects)
+    if errors:
+        sys.exit("\n".join(it["rendered"] for it in errors))
+    print(f"built after {time.monotonic() - begin:.0f} s", flush=True)
     runner = runs.Runner(built)
-
-    def first(number, seconds):
-        """The first test that fails in any of the programs."""
-        tried = (runner.first_failure(built[it], number, names, seconds) for it in asked)
-        return next((it for it in tried if it), None)
-
-    if failure := first(0, 1800):
-        sys.exit(f"without a mutant, {failure} fails")
-    told = {"caught": 0, "missed": 0, "timeout": 0, "unviable": 0}
+    limits = []
+    for program, names in sample.programs:
+        start = spent()
+        if failure := runner.first_failure(built[program], 0, names, 1800):
+            sys.exit(f"without a mutant, {program} {failure} fails")
+        limits.append(round(5 + 5 * (spent() - start)))
+    print(f"seconds at most: {limits}", flush=True)
+    counts = dict.fromkeys(COUNTS, 0)
+    missed, killers = [], {}
     for defect in defects:
         if defect.alone:
-            told["unviable"] += 1
+            counts["not built"] += 1
             continue
-        failure = first(defect.number, SECONDS)
-        how = "timeout" if failure == "time" else "caught" if failure else "missed"
-        told[how] += 1
-        if how != "caught":
-            print(f"{how}: {defect.file}:{defect.line}: {defect.what}", flush=True)
-    print(", ".join(f"{number} {how}" for how, number in told.items()))
-    viable = len(defects) - told["unviable"]
-    print(f"{100 * (viable - told['missed']) / max(viable, 1):.1f} % of {viable} viable")
+        failure = None
+        # Who killed the one before in this file is asked first.
+        order = sorted(range(len(limits)), key=lambda it: it != killers.get(defect.file))
+        for asked in order:
+            program, names = sample.programs[asked]
+            limit = limits[asked]
+            failure = runner.first_failure(
+                built[program], defect.number, names, 10 * limit, limit
+            )
+            if failure:
+                killers[defect.file] = asked
+                break
+        how = "too long" if failure == "time" else "caught" if failure else "missed"
+        counts[how] += 1
+        said = f"{program} {failure}" if failure else "missed"
+        print(f"{defect.file}:{defect.line}: {defect.what}: {said}", flush=True)
+        if not failure:
+            missed.append(defect)
+    print(f"done after {time.monotonic() - begin:.0f} s", flush=True)
+    sample.write(len(found), counts, missed, again)
 
 
 if __name__ == "__main__":

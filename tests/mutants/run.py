@@ -114,13 +114,16 @@ class Runner:
         self.programs = programs
         self.seconds = {}
 
-    def first_failure(self, program, number, arguments, limit):
-        """The first test that fails, `time`, `a crash`, or None when all pass."""
+    def first_failure(self, program, number, arguments, limit, computing=None):
+        """The first test that fails, `time`, `a crash`, or None when all pass; `limit` is in
+        seconds on the clock, `computing` in those of the processor."""
         path, folder = program
 
         def alone():
             os.setsid()
             resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+            if computing:
+                resource.setrlimit(resource.RLIMIT_CPU, (computing, computing + 5))
 
         skipped = [it for name in SKIPPED for it in ("--skip", name)]
         environment = {**os.environ, VARIABLE: str(number), "RUST_BACKTRACE": "0"}
@@ -157,7 +160,7 @@ class Runner:
             return "no such test"
         if found is not None or status == 0:
             return found
-        return "time" if late.is_set() else "a crash"
+        return "time" if late.is_set() or status == -signal.SIGXCPU else "a crash"
 
     def suite(self, defect):
         """The programs that may kill a defect, quick ones first."""

@@ -333,6 +333,7 @@ fn broken_files_say_what_is_wrong_where_and_what_to_do() {
             file(&format!("<arc source=\"{0}\" target=\"\u{202e}{0}\"/>", "long".repeat(30))),
         ),
     ];
+    assert_eq!(cases.len(), 110);
     let mut said = String::new();
     for (name, bytes) in cases {
         writeln!(said, "{}\n", refusal(name, bytes)).unwrap();

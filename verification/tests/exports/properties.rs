@@ -11,13 +11,21 @@ use serde_json::Value;
 use std::collections::BTreeMap;
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 2_000,
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn json_gives_back_the_net(net in net()) {
         prop_assert_eq!(net.view().net().defect(), None);
         prop_assert_eq!(json::read(&json::write(&net.view().net())), Ok(net));
     }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn a_net_with_unknown_ids_is_written_and_refused_when_read(
