@@ -13,10 +13,13 @@ The head of a list says what is run:
     but: **/proofs.rs                    files left out
     sample: 600 19                       how many are drawn, with which seed; all without this line
     program: tests/stories players       who may kill, in this order; tests whose names hold a word
+    compiled: tests/refused              instead: each is built alone, and must break the build of
+                                         the crate's tests or this program
 
-The rest of the suite is not run, so a mutant that survives here may be killed by it. A run that
-computes for five times as long as without a mutant and five seconds more is ended, and kills the
-mutant. Needs cargo-mutants, which lists them.
+They are run in the order in which they are drawn: when the file `defects/stop` appears in the
+target directory, a run ends with a smaller sample. The rest of the suite is not run, so a mutant
+that survives here may be killed by it. A run that computes for five times as long as without a
+mutant and five seconds more is ended, and kills the mutant. Needs cargo-mutants, which lists them.
 """
 import json
 import os
@@ -27,11 +30,13 @@ import sys
 import time
 
 sys.dont_write_bytecode = True
-from choice import CONST_MODULE, FEATURES, blamed, with_choice
-from lists import LISTS, ROOT, Defect, SUITES
+from choice import CONST_MODULE, FEATURES, blamed, seeded, with_choice
+from lists import ROOT, SUITES, Defect
 from samples import COUNTS, List, table
 import run as runs
 
+# Where this file appears, a run ends with the mutants that it has run.
+STOP = runs.WORK / "stop"
 # With them the tests are built.
 FEATURES_OF = {"cotama-core": ["--features", "alloc"]}
 
@@ -80,9 +85,9 @@ def seed(defects):
         runs.write(runs.COPY / name, text)
 
 
-def check(package):
-    """The compiler's errors in a library."""
-    command = ["cargo", "check", "--offline", "--lib", "--message-format=json", "-p", package]
+def check(package, targets="--lib"):
+    """The compiler's errors in a library, or in its tests."""
+    command = ["cargo", "check", "--offline", targets, "--message-format=json", "-p", package]
     command += FEATURES_OF.get(package, [])
     environment = dict(
         os.environ, CARGO_TARGET_DIR=str(runs.WORK / "check"), RUSTFLAGS="--cap-lints allow"
@@ -111,6 +116,49 @@ def viable(sample, defects):
         print(f"{len(guilty)} are not built", flush=True)
 
 
+def alone(sample, defects, counts, missed):
+    """What the compiler runs: each is built by itself, without a choice."""
+    package = SUITES[sample.crate][0][0]
+    for defect in defects:
+        defect.suite = (SUITES[sample.crate][0], [sample.compiled])
+    library = f"{sample.crate}/src/lib.rs"
+    # Nobody is to be warned of what the mutant does not use.
+    quiet = "#![allow(warnings, clippy::all, clippy::pedantic, clippy::nursery)]\n"
+
+    def write(defect):
+        runs.copy_workspace({library})
+        texts = {library: (ROOT / library).read_text()}
+        if defect:
+            texts[defect.file] = seeded((ROOT / defect.file).read_text(), defect)
+        texts[library] = quiet + texts[library]
+        for name, text in texts.items():
+            runs.write(runs.COPY / name, text)
+
+    write(None)
+    built, errors = runs.build(defects)
+    if errors:
+        sys.exit("\n".join(it["rendered"] for it in errors))
+    runner = runs.Runner(built)
+    if failure := runner.first_failure(built[sample.compiled], 0, [], 1800):
+        sys.exit(f"without a mutant, {sample.compiled} {failure} fails")
+    for defect in defects:
+        write(defect)
+        how = "caught"
+        said = "the compiler"
+        errors = check(package)
+        # A constant of the library that panics is no mistake of the mutant's syntax or types.
+        if any((it.get("code") or {}).get("code") != "E0080" for it in errors):
+            how, said = "not built", errors[0]["message"].split("\n")[0]
+        elif not errors and not check(package, "--tests"):
+            failure = runner.first_failure(built[sample.compiled], 0, [], 300)
+            how = "too long" if failure == "time" else "caught" if failure else "missed"
+            said = f"{sample.compiled} {failure}"
+        counts[how] += 1
+        print(f"{defect.file}:{defect.line}: {defect.what}: {how}: {said}", flush=True)
+        if how == "missed":
+            missed.append(defect)
+
+
 def spent():
     """Seconds of computing of the programs that have run."""
     return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
@@ -128,8 +176,8 @@ def main():
     defects = found
     if sample.taken:
         # A larger sample of the same seed has all of the smaller one.
-        drawn = random.Random(sample.seed).sample(range(len(found)), len(found))[: sample.taken]
-        defects = [found[it] for it in sorted(drawn)]
+        drawn = random.Random(sample.seed).sample(range(len(found)), len(found))
+        defects = [found[it] for it in drawn[: sample.taken]]
     again = "--missed" in sys.argv
     if again:
         defects = [it for it in defects if sample.known(it)]
@@ -138,6 +186,10 @@ def main():
         defect.number, defect.suite = number, (packages, [it for it, _ in sample.programs])
     print(f"{len(defects)} of {len(found)} mutants", flush=True)
     begin = time.monotonic()
+    if sample.compiled:
+        counts, missed = dict.fromkeys(COUNTS, 0), []
+        alone(sample, defects, counts, missed)
+        return sample.write(len(found), counts, missed, again)
     viable(sample, defects)
     print(f"checked after {time.monotonic() - begin:.0f} s", flush=True)
     built, errors = runs.build(defects)
@@ -154,10 +206,15 @@ def main():
     print(f"seconds at most: {limits}", flush=True)
     counts = dict.fromkeys(COUNTS, 0)
     missed, killers = [], {}
-    for defect in defects:
+    for run, defect in enumerate(defects):
         if defect.alone:
             counts["not built"] += 1
             continue
+        if STOP.exists() and sample.taken and not again:
+            # So many are a sample as well: they are run in the order in which they are drawn.
+            STOP.unlink()
+            sample.shorten(run)
+            break
         failure = None
         # Who killed the one before in this file is asked first.
         order = sorted(range(len(limits)), key=lambda it: it != killers.get(defect.file))

@@ -6,7 +6,7 @@ from lists import LISTS, folded
 
 FOLDER = LISTS / "generated"
 COUNTS = ["caught", "too long", "missed", "not built"]
-HEAD = ["crate", "files", "but", "sample", "program"]
+HEAD = ["crate", "files", "but", "sample", "program", "compiled"]
 
 
 class Missed:
@@ -27,6 +27,7 @@ class List:
         self.name, self.path = name, FOLDER / f"{name}.txt"
         self.head, self.files, self.but, self.programs, self.missed = [], [], [], [], []
         self.crate, self.taken, self.seed, self.all, self.counts = "", 0, 0, 0, {}
+        self.compiled = ""
         for number, line in enumerate(self.path.read_text().splitlines(), 1):
             key, _, value = line.partition(": ")
             if key in HEAD:
@@ -40,6 +41,8 @@ class List:
             elif key == "program":
                 program, *names = value.split()
                 self.programs.append((program, names))
+            elif key == "compiled":
+                self.compiled = value
             elif key == "mutants":
                 self.all = int(value)
             elif key in COUNTS:
@@ -78,6 +81,11 @@ class List:
             lines += ["", f"survivor: {defect.file}: {defect.what}", f"- {defect.source}"]
             lines += known.why if known else []
         self.path.write_text("\n".join(lines) + "\n")
+
+    def shorten(self, taken):
+        """Makes it a sample of fewer."""
+        at = next(n for n, it in enumerate(self.head) if it.startswith("sample: "))
+        self.taken, self.head[at] = taken, f"sample: {taken} {self.seed}"
 
     def killed(self):
         return self.counts["caught"] + self.counts["too long"]

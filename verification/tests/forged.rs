@@ -2,8 +2,8 @@
 //! checker were missing.
 
 use cotama_verification::certificate::{
-    Case, Certificate, Evidence, Fact, Formula, Growth, Linear, Net, Question, Refutation, SCHEMA,
-    Trace, Transition, verify,
+    Case, Certificate, Evidence, Fact, Formula, Growth, Linear, Net, One, Question, Refutation,
+    SCHEMA, Trace, Transition, verify,
 };
 
 /// A net of one place, or two, with one transition.
@@ -138,4 +138,38 @@ fn a_certificate_is_about_its_net_and_its_question() {
         let arcs = read("pl p (1)  tr go p -> q  tr back q -> q");
         assert_eq!([at(&tokens, text), at(&arcs, text)], ["net", "net"]);
     }
+}
+
+#[test]
+fn one_part_that_holds_is_not_all_of_them() {
+    let marked = || net(&[("p", 1)], &[("p", 1)], &[("p", 1)]);
+    let parts = vec![Formula::AtMost(at_most(-1, 1)), Formula::AtMost(at_most(0, 1))];
+    let one = || Evidence::One(One { part: 0, by: Box::new(Evidence::State) });
+    let misfit = "this kind of evidence does not fit the claim";
+    // `p <= 1` holds and `p <= 0` does not.
+    let all = Question::Formula(Formula::And(parts.clone()));
+    assert_eq!(refusal(marked(), all, true, one()), misfit);
+    let second = Evidence::One(One { part: 1, by: Box::new(Evidence::State) });
+    let some = Question::Formula(Formula::Or(parts));
+    assert_eq!(refusal(marked(), some, false, second), misfit);
+}
+
+#[test]
+fn a_refutation_speaks_of_all_runs_and_not_of_one() {
+    // `G p <= 1` of every run, by `p <= 1` which nothing breaks.
+    let marked = || net(&[("p", 1)], &[("p", 1)], &[("p", 1)]);
+    let kept = Box::new(Formula::Globally(Box::new(Formula::AtMost(at_most(-1, 1)))));
+    let by = || refuted(vec![Fact::AtMost(at_most(-1, 1))], vec![(0, 1), (1, 1)]);
+    let every = Certificate {
+        schema: SCHEMA.to_owned(),
+        net: marked(),
+        property: "kept".to_owned(),
+        question: Question::Formula(Formula::All(kept.clone())),
+        verdict: true,
+        evidence: by(),
+    };
+    assert!(verify(&every.text()).unwrap().verdict);
+    let some = Question::Formula(Formula::Exists(kept));
+    let misfit = "this kind of evidence does not fit the claim";
+    assert_eq!(refusal(marked(), some, true, by()), misfit);
 }

@@ -156,6 +156,11 @@ impl<'a> Numbered<'a> {
         self.work.set(self.work.get().saturating_add(work as u64));
         ensure(self.work.get() <= MAX_WORK, "is too much work to check")
     }
+
+    #[cfg(test)]
+    pub(super) fn counted(&self) -> (u64, u64) {
+        (self.work.get(), self.memory.get())
+    }
 }
 
 impl Formula {

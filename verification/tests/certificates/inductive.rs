@@ -76,3 +76,25 @@ fn what_a_transition_breaks_is_no_fact() {
         ],
     );
 }
+
+#[test]
+fn a_transition_that_leaves_a_formula_as_it_is_needs_no_cases() {
+    let turn = net(
+        "turn",
+        &[("p", 1), ("q", 0)],
+        &[("go", &[("p", 1)], &[("q", 1)]), ("back", &[("q", 1)], &[("p", 1)])],
+    );
+    let one = |weight: i64| Formula::AtMost(linear(-weight, &[("p", weight), ("q", weight)]));
+    let holds = Formula::And(vec![one(1), one(-1)]);
+    let evidence = Evidence::Refutation(Refutation {
+        dead: vec![],
+        facts: vec![Fact::Inductive(Inductive { holds, kept: vec![] })],
+        cases: vec![leaf(&[(0, 1), (2, 1)])],
+    });
+    let question = Question::Formula(a(g(not(has("p", 2)))));
+    assert_eq!(
+        shown(&Certificate::of(&turn, "one", question, true, evidence)),
+        "net turn (2 places, 2 transitions): A(G(!(2 <= p))) is true\n  \
+         by 0 inequalities, 1 inductive formula and 0 traps that exclude 1 case"
+    );
+}

@@ -148,3 +148,21 @@ fn a_broken_battery_ends_the_hope_that_it_works_again() {
          by a trace of 3 firings, and there passing through 1 marking"
     );
 }
+
+#[test]
+fn a_negation_turns_around_what_a_way_has_to_show() {
+    let battery = battery();
+    let way = |formula: Formula, verdict| {
+        let evidence = Evidence::trace(&battery, &[0, 0]);
+        shown(&Certificate::of(&battery, "", Question::Formula(formula), verdict, evidence))
+    };
+    let head = "net battery (3 places, 3 transitions): ";
+    assert_eq!(
+        way(e(not(g(has("full", 1)))), true),
+        format!("{head}E(!(G(1 <= full))) is true\n  by a trace of 2 firings")
+    );
+    assert_eq!(
+        way(not(e(f(has("empty", 2)))), false),
+        format!("{head}!(E(F(2 <= empty))) is false\n  by a trace of 2 firings")
+    );
+}

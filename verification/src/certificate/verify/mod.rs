@@ -7,6 +7,8 @@
 //! questions mean and where formulas hold; in `refutation` proofs without markings.
 
 mod refutation;
+#[cfg(test)]
+mod tests;
 mod truth;
 
 use super::read::{self, Claim, Numbered, marking_bytes};
