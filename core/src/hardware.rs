@@ -127,6 +127,8 @@ mod tests {
         assert_eq!(Equipment::NONE.with(MAX_KINDS, 1), None);
         assert_eq!(Equipment::NONE.with(0, MAX_UNITS + 1), None);
         assert_eq!(Equipment::from_bits(8), None);
+        assert_eq!(Equipment::from_bits(GUARDS), None);
+        assert_eq!(Equipment::from_bits(0x7), Equipment::NONE.with(0, 7));
         assert_eq!(Equipment::NONE.of(MAX_KINDS), 0);
     }
 }

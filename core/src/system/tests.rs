@@ -94,6 +94,21 @@ fn a_chain_of_eight_rendezvous_is_too_long_and_one_of_seven_is_not() {
     assert!(defect.unwrap().to_string().starts_with("rendezvous lead from net 1 back to it"));
 }
 
+#[test]
+fn more_than_65_534_parts_of_a_kind_are_too_many() {
+    let pair = relays(2);
+    let links = |count| std::vec![link(0, 1, 0, Delivery::Now); count];
+    // So many are looked at, and one link is there twice.
+    let twice = linked(&pair, &links(65_534)).defect();
+    assert_eq!(twice, linked(&pair, &links(2)).defect());
+    assert_eq!(linked(&pair, &links(65_535)).defect(), Some(SystemDefect::TooLong));
+    assert_eq!(linked(&relays(65_535), &[]).defect(), Some(SystemDefect::TooLong));
+    let bound = Binding { shared: of(0, PlaceId(0)), target: Target::Place(of(1, PlaceId(0))) };
+    let bindings = std::vec![bound; 65_535];
+    let bound = System { bindings: &bindings, ..linked(&pair, &[]) };
+    assert_eq!(bound.defect(), Some(SystemDefect::TooLong));
+}
+
 /// A system of 65,000 links and as many places is looked through in less than a minute, which a
 /// look at every pair is not.
 #[test]

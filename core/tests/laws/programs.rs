@@ -224,6 +224,24 @@ fn what_was_decided_long_ago_is_told_apart() {
     assert_eq!(verdict(&net), missed);
 }
 
+/// A transition on an event is one move, a place that others might change is two.
+#[test]
+fn more_than_16_384_moves_are_too_many() {
+    let loops = |count: u32| {
+        let mut net = OwnedNet::new("loops", "");
+        net.event("go", "").unwrap();
+        for (name, tokens) in [("A", 1), ("B", 0)] {
+            net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
+        }
+        for at in 0..count {
+            net.transition(step(&format!("t{at}"), B, B).on(GO)).unwrap();
+        }
+        net
+    };
+    assert!(verdict(&loops(16_380)).is_ok());
+    assert_eq!(verdict(&loops(16_381)), Err((Culprit::TooLarge(Limit::Parts), vec![])));
+}
+
 #[test]
 fn more_than_eight_clocks_are_too_many() {
     let timers = |count: u32| {
