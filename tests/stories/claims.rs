@@ -24,8 +24,8 @@ fn pages() -> Vec<PathBuf> {
     pages
 }
 
-/// What is kept, and what is counted in the lists of seeded defects: all that a test could notice,
-/// and those that one does.
+/// What is kept, and what is counted in the lists of seeded defects and of generated mutants: all
+/// that a test could notice, and those that one does.
 fn all() -> BTreeMap<String, u64> {
     let mut all: BTreeMap<_, _> = figures().map(|it| (it.0.to_owned(), it.1)).collect();
     for list in ["core", "sim", "models", "cli"] {
@@ -37,6 +37,17 @@ fn all() -> BTreeMap<String, u64> {
         let killed = seeded.clone().filter(|it| says(it, "by: ") && !says(it, "open: "));
         all.insert(format!("defects.{list}"), seeded.count() as u64);
         all.insert(format!("defects.{list}.killed"), killed.count() as u64);
+    }
+    for list in ["checker", "core", "language", "models"] {
+        let text = fs::read_to_string(root().join(format!("tests/mutants/generated/{list}.txt")));
+        let text = text.expect("a list of generated mutants");
+        let count = |key: &str| {
+            let number = text.lines().find_map(|it| it.strip_prefix(key)).expect("a count");
+            number.parse::<u64>().expect("a number")
+        };
+        let killed = count("caught: ") + count("too long: ");
+        all.insert(format!("generated.{list}"), killed + count("missed: "));
+        all.insert(format!("generated.{list}.killed"), killed);
     }
     all
 }
@@ -83,7 +94,8 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
     for name in figures.keys() {
         assert!(shown.contains(name), "no page shows `{name}`");
         let is_asserted = asserted.contains(&format!("\"{name}\""));
-        assert!(is_asserted || name.starts_with("defects."), "no test asserts `{name}`");
+        let is_counted = name.starts_with("defects.") || name.starts_with("generated.");
+        assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }
 }
 
