@@ -224,6 +224,38 @@ fn what_was_decided_long_ago_is_told_apart() {
     assert_eq!(verdict(&net), missed);
 }
 
+#[test]
+fn an_event_without_answer_names_its_own_transition_that_is_not_open() {
+    let lines = vec![
+        step("stays", A, A).on(GO),
+        step("late", A, B).on(BACK).within(20, Some(30)),
+        step("there", B, B).on(GO),
+        step("back", B, A).on(BACK),
+    ];
+    let (event, closed) = (BACK, Some(TransitionId(1)));
+    let unanswered = Culprit::Unanswered { event, closed };
+    assert_eq!(verdict(&net(lines, OwnedLaw::HandlesAll)), Err((unanswered, vec![])));
+}
+
+#[test]
+fn the_seventieth_event_is_answered_or_not() {
+    let hears = |count: u32| {
+        let mut net = OwnedNet::new("hears", "");
+        net.place(OwnedPlace::new("A", 1).at_most(1)).unwrap();
+        for at in 0..70 {
+            net.event(&format!("e{at}"), "").unwrap();
+        }
+        for at in 0..count {
+            net.transition(step(&format!("t{at}"), A, A).on(EventId(at))).unwrap();
+        }
+        net.laws.push(OwnedLaw::HandlesAll);
+        net
+    };
+    assert!(verdict(&hears(70)).is_ok());
+    let last = Culprit::Unanswered { event: EventId(69), closed: None };
+    assert_eq!(verdict(&hears(69)), Err((last, vec![])));
+}
+
 /// A transition on an event is one move, a place that others might change is two.
 #[test]
 fn more_than_16_384_moves_are_too_many() {
