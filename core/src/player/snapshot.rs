@@ -299,3 +299,28 @@ fn is_sound<const W: usize>(code: &Code<'_, W>, marking: &[u64; W]) -> bool {
         || marking.first().is_some_and(|it| (it & code.control).is_power_of_two());
     !stray && one && code.holds(&code.bounds, marking)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::RestoreError;
+    use crate::net::TransitionId;
+    use crate::system::Of;
+    use std::string::ToString;
+
+    #[test]
+    fn a_refusal_says_what_is_wrong_with_a_stored_marking() {
+        let said = |it: RestoreError, text: &str| assert_eq!(it.to_string(), text);
+        said(
+            RestoreError::OtherSystem { expected: 0xab, found: 1 << 60 },
+            "the stored marking is of another net or version: fingerprint 1000000000000000 \
+             instead of 00000000000000ab",
+        );
+        said(RestoreError::Marking, "the stored marking holds more tokens than a place can");
+        said(RestoreError::Law(2, 3), "the stored marking breaks law 3 of net 2");
+        said(
+            RestoreError::Clock(Of { component: 1, id: TransitionId(4) }),
+            "the stored clock of transition 4 of net 1 cannot be",
+        );
+        said(RestoreError::NotSettled, "the stored marking is not settled");
+    }
+}

@@ -38,6 +38,11 @@ fn all_coalitions_and_all_orderings_have_the_same_optimum_and_the_counts_of_the_
                 if n < 8 || missing == 0 {
                     let all = all_orderings(task, parts, &mut [0; 8]);
                     assert_eq!((all.best.map(|it| it.0), all.looked_at), (ours, orderings));
+                    // As many robots as the plan has roles.
+                    for (_, plan, robots) in all.best.into_iter().chain(coalitions.best) {
+                        let roles = task.plans[plan].roles.rows();
+                        assert_eq!(robots.count_ones() as usize, roles);
+                    }
                 }
             });
         }
