@@ -353,3 +353,15 @@ fn an_adapted_setting_lasts_for_five_seconds_after_its_flag() {
     }
     assert_eq!(robot.now - last_seen, 5_000);
 }
+
+#[test]
+fn a_bump_on_the_way_makes_the_robot_go_carefully() {
+    let mut robot = Robot::following();
+    let before = robot.after(1);
+    let finding = robot.sees(&[Flag::Bumper]);
+    assert_eq!(finding.diagnosis, Diagnosis::Unique(FailureMode::Col1));
+    let after = robot.after(3);
+    assert!(after.drive && !after.ask);
+    // In thousandths.
+    assert_eq!((before.adjusted.speed, after.adjusted.speed), (1_000, 500));
+}
