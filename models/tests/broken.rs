@@ -222,6 +222,7 @@ fn files_of_faults() {
         Ok(&mission.run.faults)
     );
     let errors = Faults::parse("faults.toml", &script, &mission).unwrap_err();
+    assert_eq!((errors.source_name(), errors.text()), ("faults.toml", &*script));
     compare("faults_with_period", &errors.to_string());
     let errors = Faults::parse("faults.toml", patrol(), &mission).unwrap_err();
     compare("faults_of_another_format", &errors.to_string());

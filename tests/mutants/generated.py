@@ -116,6 +116,16 @@ def viable(sample, defects):
         print(f"{len(guilty)} are not built", flush=True)
 
 
+def is_stopped(sample, run):
+    """Whether the run is to end: so many are a sample as well, as they are run in the order in which
+    they are drawn."""
+    if not STOP.exists() or not sample.taken:
+        return False
+    STOP.unlink()
+    sample.shorten(run)
+    return True
+
+
 def alone(sample, defects, counts, missed):
     """What the compiler runs: each is built by itself, without a choice."""
     package = SUITES[sample.crate][0][0]
@@ -141,7 +151,9 @@ def alone(sample, defects, counts, missed):
     runner = runs.Runner(built)
     if failure := runner.first_failure(built[sample.compiled], 0, [], 1800):
         sys.exit(f"without a mutant, {sample.compiled} {failure} fails")
-    for defect in defects:
+    for run, defect in enumerate(defects):
+        if is_stopped(sample, run):
+            break
         write(defect)
         how = "caught"
         said = "the compiler"
@@ -210,10 +222,7 @@ def main():
         if defect.alone:
             counts["not built"] += 1
             continue
-        if STOP.exists() and sample.taken and not again:
-            # So many are a sample as well: they are run in the order in which they are drawn.
-            STOP.unlink()
-            sample.shorten(run)
+        if not again and is_stopped(sample, run):
             break
         failure = None
         # Who killed the one before in this file is asked first.

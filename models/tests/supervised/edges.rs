@@ -83,6 +83,35 @@ fn what_happens_at_one_place_keeps_the_order_of_the_file() {
     assert_eq!(fails.collect::<Vec<_>>(), expected);
 }
 
+#[test]
+fn moments_are_sorted_by_place_then_time_then_state() {
+    let mission = delivery_with(&[]).unwrap();
+    let text = r#"format = "panorama-faults/1"
+        event = [
+            { during = "Teleprogrammed", after_ms = 1, kind = "failure", mode = "RT1" },
+            { during = "Following", after_ms = 2, kind = "failure", mode = "RT1" },
+            { during = "Planning", after_ms = 4, kind = "failure", mode = "RT1" },
+            { during = "Planning", after_ms = 3, kind = "failure", mode = "RT1" },
+            { t_ms = 6, kind = "failure", mode = "RT1" },
+            { t_ms = 5, kind = "failure", mode = "RT1" },
+            { x_mm = 7, kind = "failure", mode = "RT1" },
+        ]"#;
+    let faults = Faults::parse("faults.toml", text, &mission).unwrap();
+    let said: Vec<_> = faults.incidents.iter().map(|it| it.when.to_string()).collect();
+    assert_eq!(
+        said,
+        [
+            "at 0.0 m",
+            "at 0.005 s",
+            "at 0.006 s",
+            "0.003 s after Planning is first reached",
+            "0.004 s after Planning is first reached",
+            "0.002 s after Following is first reached",
+            "0.001 s after Teleprogrammed is first reached",
+        ]
+    );
+}
+
 /// A drive of 40 m at 300 mm/s takes 133,333 ms, and the slowest of its own limits is that.
 #[test]
 fn an_objective_may_fill_its_limit_alone() {
