@@ -84,6 +84,24 @@ fn what_happens_at_one_place_keeps_the_order_of_the_file() {
 }
 
 #[test]
+fn what_nobody_does_standing_is_read_nevertheless() {
+    let with = |line: &str| {
+        let text = format!("[fixed]\n{line}\n\n[motion_power]");
+        let said = delivery_with(&[("[motion_power]", &text)]).map_err(|it| it.to_string());
+        said.err().unwrap_or_default()
+    };
+    let lacks = |key: &str| {
+        let help = format!("help: add `{key}`");
+        format!("delivery.toml:62:1: missing key `{key}` in `fixed`\n  {help}")
+    };
+    assert_eq!(with(""), "");
+    assert_eq!(with("turn_ms = 1"), lacks("turn_power_mw"));
+    assert_eq!(with("turn_power_mw = 5"), lacks("turn_ms"));
+    assert_eq!(with("detect_ms = 1"), lacks("detect_power_mw"));
+    assert_eq!(with("detect_power_mw = { }"), lacks("detect_ms"));
+}
+
+#[test]
 fn moments_are_sorted_by_place_then_time_then_state() {
     let mission = delivery_with(&[]).unwrap();
     let text = r#"format = "panorama-faults/1"
