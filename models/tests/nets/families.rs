@@ -2,7 +2,7 @@
 
 use crate::laws;
 use crate::textbook::explore;
-use cotama_core::net::owned::OwnedNet;
+use cotama_core::net::owned::{OwnedLaw, OwnedNet};
 use cotama_models::nets::families::{fms, kanban, philosophers, swimming_pool, token_ring};
 
 /// Places, transitions, arcs; a place that is read counts for an arc there and one back.
@@ -19,6 +19,16 @@ fn counts(net: &OwnedNet) -> (usize, usize) {
     let graph = explore(&net, 100_000).unwrap();
     assert_eq!(laws::broken(&net, &graph), None);
     (graph.markings.len(), graph.edges())
+}
+
+#[test]
+fn families_say_which_sums_of_tokens_stay_as_they_are() {
+    let sums = |net: OwnedNet| {
+        let sums = net.laws.iter().filter(|it| matches!(it, OwnedLaw::Invariant { .. }));
+        sums.count()
+    };
+    let of = [philosophers(5), token_ring(5), kanban(2), fms(2), swimming_pool(2)];
+    assert_eq!(of.map(|it| sums(it.unwrap())), [10, 6, 4, 6, 3]);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Mutants of generated supervisors: each is found by the check on load.
 
 use crate::file::File;
-use cotama_core::net::owned::OwnedNet;
-use cotama_core::net::{EventId, OutputId, PlaceId};
+use cotama_core::net::owned::{OwnedNet, OwnedTransition};
+use cotama_core::net::{Arc, EventId, OutputId, PlaceId};
 use cotama_models::missions::mission_net::{
     MAX_OBJECTIVES, MissionNetError, check, global_supervisor,
 };
@@ -104,6 +104,23 @@ fn what_is_ignored_only_under_a_guard_is_found() {
         let faults = check(&net.view().net(), &mission.objectives).unwrap_err();
         assert_eq!(faults.len(), 1, "{ignored}: {faults:?}");
     }
+}
+
+#[test]
+fn a_transition_that_does_more_than_move_the_token_is_named() {
+    let mission = embedded::mission("delivery").unwrap();
+    let mission = Mission::parse(mission.name, mission.text).unwrap();
+    let told = |change: &dyn Fn(&mut OwnedTransition)| {
+        let mut net = mission.supervisor().unwrap().clone();
+        change(&mut net.transitions[0]);
+        let name = net.transitions[0].name.clone();
+        let faults = check(&net.view().net(), &mission.objectives).unwrap_err();
+        let plain = format!("`{name}` does not just wait for an event and move the token");
+        faults.iter().any(|it| it.to_string() == plain)
+    };
+    assert!(told(&|it| it.read.push(Arc { place: PlaceId(1), weight: 1 })));
+    assert!(told(&|it| it.on = None));
+    assert!(!told(&|it| it.emits.clear()));
 }
 
 #[test]
