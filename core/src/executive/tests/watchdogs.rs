@@ -236,6 +236,13 @@ fn only_a_job_that_is_done_publishes_and_only_a_fault_is_acknowledged() {
     }
     let task = Task { patience: 1, ..task(20, 5, 4, 3) };
     let mut executive = Executive::new([Task { offset: Micros(1), ..task }]).unwrap();
+    let mut late = executive.clone();
+    while late.simulate(Micros(9), &[Micros(u64::MAX)]).is_some() {}
+    // Nothing is acknowledged over the head of what is due.
+    assert_eq!((late.watchdog(0), late.wake_at()), (Some(Watchdog::Fault), Some(Micros(21))));
+    assert_eq!(late.acknowledge(0, Micros(22)), None);
+    let acknowledged = Happening { at: Micros(21), task: 0, what: What::Acknowledged };
+    assert_eq!(late.acknowledge(0, Micros(21)), Some(acknowledged));
     for (now, watchdog) in
         [(0, Watchdog::Idle), (1, Watchdog::Run), (6, Watchdog::Extra), (9, Watchdog::Fault)]
     {
