@@ -2,10 +2,13 @@
 //! its own.
 #![cfg(feature = "std")]
 
+use cotama_core::hardware::Equipment;
 use cotama_core::problem::Problem;
 use cotama_core::units::{Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts};
 use cotama_models::missions::infeasible::{Relaxation, explain};
-use cotama_models::missions::tables::{EMPTY, RemainingError, Rest, buffer_sizes, remaining};
+use cotama_models::missions::tables::{
+    Alternative, EMPTY, RemainingError, Rest, buffer_sizes, remaining,
+};
 use cotama_models::missions::tables::{delivery, patrol};
 use cotama_models::missions::{Constraint, Mission, embedded, harmless_speed};
 
@@ -264,4 +267,20 @@ fn the_printed_tables_are_those_of_the_mission_file() {
 #[test]
 fn the_printed_tables_of_the_delivery_are_those_of_its_file() {
     assert_printed!("delivery", delivery);
+}
+
+/// A rest of an activity costs 32 bits of milliseconds and of millijoules at most.
+#[test]
+fn a_rest_that_does_not_fit_32_bits_has_no_cost() {
+    let standing = |power| Alternative::standing(0, power, Equipment::NONE, 0);
+    let most = u64::from(u32::MAX);
+    let cost = |power, ms| standing(power).cost(Rest::Time(Millis(ms)));
+    assert_eq!(cost(0, most), Some([u32::MAX, 0]));
+    assert_eq!(cost(0, most + 1), None);
+    assert_eq!(cost(0, most + 2), None);
+    assert_eq!(cost(1_000 * most, 1_000), None);
+    assert_eq!(cost(most, 1_000), Some([1_000, u32::MAX]));
+    assert_eq!(cost(most + 1, 1_000), None);
+    assert_eq!(cost(most + 2, 1_000), None);
+    assert_eq!(standing(1).cost(Rest::Travel(Millimetres(1))), None);
 }

@@ -186,13 +186,16 @@ def main():
     os.environ.pop("UPDATE_GOLDEN", None)
     found = listed(sample)
     defects = found
-    if sample.taken:
+    again = "--missed" in sys.argv
+    if again:
+        # Sources may have changed since, and with them what would be drawn.
+        defects = list({sample.known(it).key(): it for it in found if sample.known(it)}.values())
+        if len(defects) != len(sample.missed):
+            sys.exit("a mutant that was missed is no more there, or is there twice")
+    elif sample.taken:
         # A larger sample of the same seed has all of the smaller one.
         drawn = random.Random(sample.seed).sample(range(len(found)), len(found))
         defects = [found[it] for it in drawn[: sample.taken]]
-    again = "--missed" in sys.argv
-    if again:
-        defects = [it for it in defects if sample.known(it)]
     packages = sorted({it for crate in sample.crates() & SUITES.keys() for it in SUITES[crate][0]})
     for number, defect in enumerate(defects, 1):
         defect.number, defect.suite = number, (packages, [it for it, _ in sample.programs])

@@ -227,12 +227,13 @@ fn what_was_decided_long_ago_is_told_apart() {
 #[test]
 fn an_event_without_answer_names_its_own_transition_that_is_not_open() {
     let lines = vec![
+        step("early", A, B).on(GO).within(20, Some(30)),
         step("stays", A, A).on(GO),
         step("late", A, B).on(BACK).within(20, Some(30)),
         step("there", B, B).on(GO),
         step("back", B, A).on(BACK),
     ];
-    let (event, closed) = (BACK, Some(TransitionId(1)));
+    let (event, closed) = (BACK, Some(TransitionId(2)));
     let unanswered = Culprit::Unanswered { event, closed };
     assert_eq!(verdict(&net(lines, OwnedLaw::HandlesAll)), Err((unanswered, vec![])));
 }

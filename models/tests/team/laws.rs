@@ -286,3 +286,10 @@ fn a_pledge_is_never_below_the_cost() {
     let most = |second| Pledge::of(100, second, 500).most;
     assert_eq!([None, Some(200), Some(120), Some(50)].map(most), [150, 150, 120, 100]);
 }
+
+#[test]
+fn a_capability_has_the_number_that_it_was_made_of() {
+    let numbers: Vec<_> =
+        (0..=u8::MAX).filter_map(|it| Capability::new(it).map(Capability::number)).collect();
+    assert_eq!(numbers, (0..32).collect::<Vec<_>>());
+}
