@@ -27,7 +27,7 @@ class List:
         self.name, self.path = name, FOLDER / f"{name}.txt"
         self.head, self.files, self.but, self.programs, self.missed = [], [], [], [], []
         self.crate, self.taken, self.seed, self.all, self.counts = "", 0, 0, 0, {}
-        self.compiled = ""
+        self.compiled, self.first = "", (0, 0)
         for number, line in enumerate(self.path.read_text().splitlines(), 1):
             key, _, value = line.partition(": ")
             if key in HEAD:
@@ -47,6 +47,8 @@ class List:
                 self.all = int(value)
             elif key in COUNTS:
                 self.counts[key] = int(value)
+            elif key == "first":
+                self.first = tuple(map(int, value.split(" of ")))
             elif key == "survivor":
                 file, what = value.split(": ", 1)
                 self.missed.append(Missed(file, what, ""))
@@ -74,8 +76,10 @@ class List:
             self.counts["missed"] = counts["missed"]
         else:
             self.all, self.counts = found, counts
+            self.first = self.killed(), self.viable()
         lines = [*self.head, "", f"mutants: {self.all}"]
         lines += [f"{it}: {self.counts[it]}" for it in COUNTS]
+        lines.append("first: {} of {}".format(*self.first))
         for defect in missed:
             known = self.known(defect)
             lines += ["", f"survivor: {defect.file}: {defect.what}", f"- {defect.source}"]
@@ -128,16 +132,17 @@ def table():
     path = FOLDER / "README.md"
     text = path.read_text().split("\n| ")[0].rstrip() + "\n"
     names = sorted(it.stem for it in FOLDER.glob("*.txt"))
-    text += "\n| list | mutants | taken | not built | caught | too long | missed | killed | 95 % |\n"
-    text += "| --- " + "| ---: " * 8 + "|\n"
+    text += "\n| list | mutants | drawn | built | killed at first | of all, at 95 % | killed now |\n"
+    text += "| --- " + "| ---: " * 6 + "|\n"
     lists = [List(it) for it in names]
     for it in (it for it in lists if it.counts):
-        taken = it.taken or it.all
-        share = f"{100 * it.killed() / it.viable():.1f} %"
-        range_ = "all" if taken >= it.all else "{:.1f} to {:.1f} %".format(
-            *interval(it.killed(), it.viable()))
-        cells = [it.name, it.all, taken, it.counts["not built"], it.counts["caught"],
-                 it.counts["too long"], it.counts["missed"], share, range_]
+        drawn = min(it.taken or it.all, it.all)
+        (first, built), now = it.first, it.killed()
+        share = "all are drawn"
+        if drawn < it.all:
+            share = "{:.1f} to {:.1f} %".format(*interval(first, built))
+        cells = [it.name, it.all, drawn, built, f"{first} ({100 * first / built:.1f} %)", share,
+                 f"{now} ({100 * now / built:.1f} %)"]
         text += "| " + " | ".join(str(cell) for cell in cells) + " |\n"
     for it in (it for it in lists if it.missed):
         text += f"\n## {it.name}\n\n"

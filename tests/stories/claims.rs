@@ -48,6 +48,9 @@ fn all() -> BTreeMap<String, u64> {
         let killed = count("caught: ") + count("too long: ");
         all.insert(format!("generated.{list}"), killed + count("missed: "));
         all.insert(format!("generated.{list}.killed"), killed);
+        let first = text.lines().find_map(|it| it.strip_prefix("first: ")).expect("the first run");
+        let first = first.split(' ').next().and_then(|it| it.parse().ok()).expect("a number");
+        all.insert(format!("generated.{list}.first"), first);
     }
     all
 }
