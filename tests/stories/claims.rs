@@ -38,7 +38,7 @@ fn all() -> BTreeMap<String, u64> {
         all.insert(format!("defects.{list}"), seeded.count() as u64);
         all.insert(format!("defects.{list}.killed"), killed.count() as u64);
     }
-    for list in ["checker", "core", "language", "models"] {
+    for list in ["checker", "core", "models"] {
         let text = fs::read_to_string(root().join(format!("tests/mutants/generated/{list}.txt")));
         let text = text.expect("a list of generated mutants");
         let count = |key: &str| {
