@@ -239,6 +239,19 @@ fn an_event_without_answer_names_its_own_transition_that_is_not_open() {
 }
 
 #[test]
+fn in_another_state_it_is_the_transition_of_that_state() {
+    let lines = vec![
+        step("goes", A, C).on(GO),
+        step("waits", A, A).on(BACK),
+        step("there", C, C).on(GO),
+        step("late", C, A).on(BACK).within(20, Some(30)),
+    ];
+    let unanswered = Culprit::Unanswered { event: BACK, closed: Some(TransitionId(3)) };
+    let way = vec![fires(0)];
+    assert_eq!(verdict(&net(lines, OwnedLaw::HandlesAll)), Err((unanswered, way)));
+}
+
+#[test]
 fn the_seventieth_event_is_answered_or_not() {
     let hears = |count: u32| {
         let mut net = OwnedNet::new("hears", "");
