@@ -236,7 +236,7 @@ fn only_a_job_that_is_done_publishes_and_only_a_fault_is_acknowledged() {
     }
     let task = Task { patience: 1, ..task(20, 5, 4, 3) };
     let mut executive = Executive::new([Task { offset: Micros(1), ..task }]).unwrap();
-    let mut late = executive.clone();
+    let mut late = executive;
     while late.simulate(Micros(9), &[Micros(u64::MAX)]).is_some() {}
     // Nothing is acknowledged over the head of what is due.
     assert_eq!((late.watchdog(0), late.wake_at()), (Some(Watchdog::Fault), Some(Micros(21))));
