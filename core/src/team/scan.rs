@@ -12,6 +12,8 @@ const LANES: usize = 16;
 const VECTORS: bool = cfg!(any(target_feature = "sse2", target_feature = "neon"));
 /// Columns of a block: a bit for each of its chunks.
 const BLOCK: usize = 32 * LANES;
+/// Chunks in which the nearest column is looked for once it is known how near that is.
+const SHORT: usize = 8;
 
 /// A row at the prices of its columns; an entry counts if it is stored as `least` or more.
 #[derive(Clone, Copy)]
@@ -259,19 +261,26 @@ pub(super) fn reach<N: Amount>(
     let (befores, before) = chunks_mut(before);
     // A column that is done is nearer than any path, so no path shortens it; less a half it is
     // further than all others.
-    let mut firsts = [N::FAR; LANES];
-    let whole = rows.iter().zip(costs).zip(lengths).zip(befores);
-    for (((row, prices), distances), before) in whole {
-        let (mut lengths, mut rows) = (*distances, *before);
-        for lane in 0..LANES {
-            let value = value(row[lane], prices[lane]);
-            rows[lane] = if value < lengths[lane] { from } else { rows[lane] };
-            lengths[lane] = less(lengths[lane], value);
-            firsts[lane] = less(firsts[lane], lengths[lane].minus(N::HALF));
+    let (mut best, mut block, mut number) = (N::FAR, 0, 0_usize);
+    let blocks = rows.chunks(SHORT).zip(costs.chunks(SHORT));
+    let blocks = blocks.zip(lengths.chunks_mut(SHORT)).zip(befores.chunks_mut(SHORT));
+    for (((rows, costs), lengths), befores) in blocks {
+        let mut firsts = [N::FAR; LANES];
+        let chunks = rows.iter().zip(costs).zip(lengths).zip(befores);
+        for (((row, prices), distances), before) in chunks {
+            let (mut lengths, mut rows) = (*distances, *before);
+            for lane in 0..LANES {
+                let value = value(row[lane], prices[lane]);
+                rows[lane] = if value < lengths[lane] { from } else { rows[lane] };
+                lengths[lane] = less(lengths[lane], value);
+                firsts[lane] = less(firsts[lane], lengths[lane].minus(N::HALF));
+            }
+            (*distances, *before) = (lengths, rows);
         }
-        (*distances, *before) = (lengths, rows);
+        let first = firsts.into_iter().fold(N::FAR, less);
+        (best, block) = if first < best { (first, number) } else { (best, block) };
+        number = number.wrapping_add(SHORT);
     }
-    let mut best = firsts.into_iter().fold(N::FAR, less);
     let rest = rest.iter().zip(prices).zip(others.iter_mut().zip(before));
     for ((entry, price), (distance, before)) in rest {
         let value = value(*entry, *price);
@@ -281,8 +290,8 @@ pub(super) fn reach<N: Amount>(
     }
     let away = if best >= N::FAR.minus(N::HALF) { N::FAR } else { best.plus(N::HALF) };
     let (whole, rest) = chunks(distances);
-    let mut start = 0_usize;
-    for chunk in whole {
+    let mut start = block.wrapping_mul(LANES);
+    for chunk in whole.get(block..).unwrap_or(&[]) {
         let met = lanes(chunk, away);
         if met != 0 {
             return (away, start.wrapping_add(met.trailing_zeros() as usize));
