@@ -4,9 +4,10 @@
 #   firmware/check.sh [--write]
 #
 # Installs what it can where it lacks: Debian's compiler for Cortex-M (see .ci/install-thumb), an
-# emulator. Prints a table of what the firmware costs, and last the digest of all traces. Exit status
-# 0 when all agree and nothing costs over 5 % more than budget.txt says, 75 when the tools cannot be
-# had here. --write rewrites scenes.txt and budget.txt.
+# emulator; a Cortex-M0 is looked at only where its compiler is there. Prints a table of what the
+# firmware costs, and last the digest of all traces. Exit status 0 when all agree and nothing costs
+# over 5 % more than budget.txt says, 75 when the tools cannot be had here. --write rewrites
+# scenes.txt and budget.txt.
 set -euo pipefail
 here=$(realpath "$(dirname "$0")")
 cd "$here"
@@ -18,7 +19,7 @@ failed=0
 fail() { echo "FAILED: $*" >&2; failed=1; }
 cannot() { echo "the firmware cannot be built here: $*" >&2; exit 75; }
 
-m4=thumbv7em-none-eabihf m3=thumbv7m-none-eabi
+m4=thumbv7em-none-eabihf m3=thumbv7m-none-eabi m0=thumbv6m-none-eabi
 if ! command -v qemu-system-arm >/dev/null; then
     [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null || cannot "there is no qemu-system-arm"
     (apt-get -qq update && DEBIAN_FRONTEND=noninteractive timeout 300 \
@@ -56,10 +57,11 @@ image() { # BOARD TARGET BIN...
 }
 built() { echo "$out/$1/$2/release/$3"; } # BOARD TARGET BIN
 
-# run MACHINE IMAGE: what it sends goes to out, what it says to said and shouted.
+# run MACHINE IMAGE OPTION...: what it sends goes to out, what it says to said and shouted.
 run() {
     local machine=$1 image=$2
-    timeout 120 qemu-system-arm -M "$machine" -display none -monitor none \
+    shift 2
+    timeout 120 qemu-system-arm -M "$machine" "$@" -display none -monitor none \
         -chardev "file,id=uart,path=$work/out" -serial chardev:uart \
         -semihosting-config enable=on,target=native -kernel "$image" \
         >"$work/said" 2>"$work/shouted"
@@ -91,6 +93,18 @@ for at in "mps2-an386 $m4 Cortex-M4F" "mps2-an385 $m3 Cortex-M3"; do
         [ "$target" != $m4 ] || awk '/^stack/ { print $2 }' "$work/shouted" >"$work/$bin.stack"
     done
 done
+
+# A Cortex-M0, where its compiler was asked for: the micro:bit, with the RAM of the larger nRF51822.
+if [ -d "/usr/lib/rustlib/$m0" ] && ../.ci/install-thumb $m0 >/dev/null; then
+    image nrf51822 $m0 scenes
+    run microbit "$(built nrf51822 $m0 scenes)" -global nrf51-soc.sram-size=32768 ||
+        fail "the scenes end with status $?"
+    cmp "$work/host.trace" "$work/out" || fail "another trace on Cortex-M0"
+    diff "$work/host.said" <(grep -v "^stack" "$work/said") || fail "other scenes on Cortex-M0"
+    echo "Cortex-M0: the trace of the scenes is that of this machine, byte by byte"
+else
+    echo "!!! SKIPPED: Cortex-M0: no compiler for it (.ci/install-thumb $m0)"
+fi
 
 # 32 bits on this machine, where its standard library is there.
 if [ -d /usr/lib/rustlib/i686-unknown-linux-gnu ]; then

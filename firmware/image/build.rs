@@ -4,7 +4,12 @@ use std::path::Path;
 use std::{env, fs};
 
 fn main() {
-    let board = if env::var_os("CARGO_FEATURE_NRF52840").is_some() { "nrf52840" } else { "mps2" };
+    let chosen = |feature| env::var_os(feature).is_some();
+    let board = match () {
+        () if chosen("CARGO_FEATURE_NRF51822") => "nrf51822",
+        () if chosen("CARGO_FEATURE_NRF52840") => "nrf52840",
+        () => "mps2",
+    };
     let out = env::var("OUT_DIR").expect("cargo sets it");
     let memory = format!("memory/{board}.x");
     fs::copy(&memory, Path::new(&out).join("memory.x")).expect("a folder to write to");

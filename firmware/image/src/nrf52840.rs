@@ -1,13 +1,10 @@
 //! Nordic's nRF52840 development kit (PCA10056). Registers are those of the product specification,
 //! version 1.7; section numbers are its. Built, not run: there is no such board in the tests.
 
-use crate::received::{listen, received};
 use crate::register::Register;
 use embedded_storage::nor_flash::{
     ErrorType, NorFlash, NorFlashError, NorFlashErrorKind, ReadNorFlash,
 };
-
-const UART: usize = 0x4000_2000;
 
 /// The clock of the core.
 pub const CLOCK_HZ: u32 = 64_000_000;
@@ -25,56 +22,8 @@ pub fn exit(_: i32) -> ! {
     cortex_m::peripheral::SCB::sys_reset()
 }
 
-/// UART 0 at 115,200 baud on the pins of the kit's USB serial port (section 6.33).
-#[derive(Debug)]
-pub struct Uart {
-    sent: Register,
-    data_out: Register,
-    sending: bool,
-}
-
-impl Uart {
-    /// Switches it on.
-    pub fn start() -> Self {
-        // SAFETY: the UART has these registers, and nothing else here uses it.
-        let register = |offset| unsafe { Register::new(UART, offset) };
-        register(0x50C).write(6); // PSEL.TXD: P0.06
-        register(0x514).write(8); // PSEL.RXD: P0.08
-        register(0x524).write(0x01D7_E000); // BAUDRATE
-        register(0x500).write(4); // ENABLE
-        register(0x304).write(1 << 2); // INTENSET: RXDRDY
-        listen();
-        register(0x000).write(1); // TASKS_STARTRX
-        register(0x008).write(1); // TASKS_STARTTX
-        Self { sent: register(0x11C), data_out: register(0x51C), sending: false }
-    }
-
-    /// Sends a byte, once the one before is gone.
-    pub fn put(&mut self, byte: u8) {
-        while self.sending && self.sent.read() == 0 {}
-        self.sent.write(0);
-        self.data_out.write(byte.into());
-        self.sending = true;
-    }
-
-    /// The byte that came first of those that wait, if any.
-    pub fn get(&mut self) -> Option<u8> {
-        received()
-    }
-}
-
-/// The interrupt of a byte that came.
-pub(crate) const UART_INTERRUPT: u16 = 2;
-
-/// The byte that the UART holds, for its interrupt. It keeps six.
-pub(crate) fn take_byte() -> Option<u8> {
-    // SAFETY: the UART has these registers, and nothing else here uses them.
-    let register = |offset| unsafe { Register::new(UART, offset) };
-    (register(0x108).read() != 0).then(|| {
-        register(0x108).write(0); // EVENTS_RXDRDY
-        register(0x518).read() as u8 // RXD
-    })
-}
+/// Where the kit's USB serial port is: P0.06 sends, P0.08 receives.
+pub(crate) const UART_PINS: (u32, u32) = (6, 8);
 
 /// The hardware watchdog (section 6.36).
 #[derive(Debug)]
