@@ -63,7 +63,7 @@ pub const AFTER: Millis = Millis(60_000);
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Policy {
     /// The allocator; that of the kind of mission if none: the rule of PANORAMA, and under
-    /// supervisors [`PLANNER`](supervised::PLANNER).
+    /// supervisors [`PLANNER`](crate::supervised::PLANNER).
     pub planner: Option<Planner>,
     /// Whether better plans are looked for when margins have grown: without supervisors only.
     pub upward: bool,

@@ -103,7 +103,7 @@ impl<'m> CampaignTest<'m> {
     }
 
     /// Panics with the smallest plan found that breaks a requirement of
-    /// [`Requirement`](super::requirement::Requirement)'s language, a property of the supervisors
+    /// [`Requirement`]'s language, a property of the supervisors
     /// among them, as [`check`](Self::check) does; what broke a property stands above the plan.
     ///
     /// ```should_panic

@@ -12,7 +12,7 @@ pub struct Fired {
     pub net: &'static str,
     /// The transition, as `l5`.
     pub transition: String,
-    /// What it goes back to: 0, or the number of a failure in [`Run::conduct`], from 1.
+    /// What it goes back to: 0, or the number of a failure in `conduct` of a run, from 1.
     pub cause: Cause,
 }
 
