@@ -22,7 +22,7 @@ pub(super) struct Row<'r, N> {
     least: i32,
     prices: &'r [N],
     /// Whether an entry may be missing.
-    pub(super) lacks_any: bool,
+    lacks_any: bool,
 }
 
 /// The nearest columns of a row.

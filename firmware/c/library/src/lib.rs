@@ -7,6 +7,7 @@
 use core::panic::PanicInfo;
 pub use cotama_c::*;
 
+// SAFETY: the C library defines it with this type, and it may be called at any time.
 #[cfg(all(not(target_os = "none"), not(feature = "panic-free")))]
 unsafe extern "C" {
     /// Ends the program, as C's library has it.
@@ -33,6 +34,7 @@ fn stop(_: &PanicInfo<'_>) -> ! {
 #[unsafe(no_mangle)]
 extern "C" fn rust_eh_personality() {}
 
+// SAFETY: nothing defines it, so no program that could call it is ever linked.
 #[cfg(feature = "panic-free")]
 unsafe extern "C" {
     /// Is defined nowhere.
