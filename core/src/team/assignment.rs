@@ -8,10 +8,16 @@
 
 use super::amount::Amount;
 use super::cost::{Cost, Costs};
-use super::memory::Memory;
+use super::memory::{Memory, put};
 use super::proof::conflict;
 use super::scan::{Nearest, Reach, Row, cheapest, reach};
 use crate::allocation::{MemoryError, enough};
+
+/// How often rows push each other out without gain; paths of such exchanges are looked for later.
+const LEVEL: usize = 4;
+/// For fewer rows to count columns, and to look for paths among equally near ones, costs more than
+/// it saves. Chosen, not tuned.
+pub(super) const MANY: usize = 64;
 
 /// Why there is no assignment.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -70,14 +76,30 @@ impl From<MemoryError> for Unassigned {
 ///
 /// # Errors
 /// [`Unassigned`]: some rows are in conflict, the amounts are too narrow, or memory lacks.
+#[inline]
 pub fn assign<N: Amount>(costs: &Costs<'_>, memory: &mut Memory<'_, N>) -> Result<u64, Unassigned> {
+    // Where the compiler knows the memory, as of `Fixed`, a program has the code that it needs.
+    if memory.size().0 < MANY {
+        assign_sized::<N, false>(costs, memory)
+    } else {
+        assign_sized::<N, true>(costs, memory)
+    }
+}
+
+#[inline(never)]
+fn assign_sized<N: Amount, const LARGE: bool>(
+    costs: &Costs<'_>,
+    memory: &mut Memory<'_, N>,
+) -> Result<u64, Unassigned> {
     let mut work = Work::start(costs, memory)?;
     work.memory.conflict.fill(0);
     if costs.rows() > costs.columns() {
         return Err(work.all_in_conflict());
     }
-    work.can_all_have_one()?;
-    work.assign()
+    if LARGE && costs.rows() >= MANY {
+        work.can_all_have_one()?;
+    }
+    work.assign::<LARGE>()
 }
 
 /// An assignment under work.
@@ -104,15 +126,19 @@ impl<'w, N: Amount> Work<'w, N> {
         }
     }
 
-    /// Assigns each row a column at the least total.
-    pub(super) fn assign(&mut self) -> Result<u64, Unassigned> {
+    /// Assigns each row a column at the least total. Tables of [`MANY`] rows are `LARGE`.
+    pub(super) fn assign<const LARGE: bool>(&mut self) -> Result<u64, Unassigned> {
         let costs = self.costs;
         if costs.rows() == costs.columns() {
             self.reduce_columns()?;
         }
         self.reduce_rows()?;
+        let is_large = LARGE && costs.rows() >= MANY;
+        if is_large {
+            self.look_ahead();
+        }
         for row in 0..costs.rows() {
-            if self.memory.column(row).is_none() {
+            if self.memory.column(row).is_none() && !(is_large && self.join(row as u32)?) {
                 self.grow(row as u32)?;
             }
         }
@@ -129,23 +155,23 @@ impl<'w, N: Amount> Work<'w, N> {
 
     /// A row gets a column that nobody has any more.
     pub(super) fn give(&mut self, row: u32, column: usize) {
-        if let Some(it) = self.memory.row_of.get_mut(column) {
-            *it = row.wrapping_add(1);
-        }
-        if let Some(it) = self.memory.column_of.get_mut(row as usize) {
-            *it = (column as u32).wrapping_add(1);
-        }
+        put(self.memory.row_of, column, row.wrapping_add(1));
+        put(self.memory.column_of, row as usize, (column as u32).wrapping_add(1));
     }
 
     /// Changes the price of a column.
-    fn reprice(&mut self, column: usize, by: impl FnOnce(N) -> N) -> Result<(), Unassigned> {
+    pub(super) fn reprice(
+        &mut self,
+        column: usize,
+        by: impl FnOnce(N) -> N,
+    ) -> Result<(), Unassigned> {
         let Some(price) = self.memory.prices.get_mut(column) else { return Ok(()) };
         *price = by(*price);
         if *price > N::ZERO.minus(N::ROOM) { Ok(()) } else { Err(Unassigned::TooLarge) }
     }
 
     /// A row at the current prices.
-    fn row(&self, row: usize) -> Row<'_, N> {
+    pub(super) fn row(&self, row: usize) -> Row<'_, N> {
         Row::new(self.costs, row, self.memory.prices)
     }
 
@@ -197,11 +223,10 @@ impl<'w, N: Amount> Work<'w, N> {
     /// column only nothing tells what that is worth, and the rest is left to the paths.
     fn reduce_rows(&mut self) -> Result<(), Unassigned> {
         let mut steps = self.costs.rows().saturating_mul(4);
-        let most_level = (self.costs.rows() / 10).saturating_add(4);
         for _ in 0..2 {
             for row in 0..self.costs.rows() {
                 let mut open = row;
-                let (mut level, mut lost) = (most_level, row);
+                let (mut level, mut lost) = (LEVEL, row);
                 while self.memory.column(open).is_none() {
                     let Some(left) = steps.checked_sub(1) else { return Ok(()) };
                     steps = left;
@@ -228,9 +253,7 @@ impl<'w, N: Amount> Work<'w, N> {
                     self.reprice(column, |it| it.minus(gain).minus(taken))?;
                     self.give(open as u32, column);
                     let Some(pushed) = pushed else { break };
-                    if let Some(it) = self.memory.column_of.get_mut(pushed) {
-                        *it = 0;
-                    }
+                    put(self.memory.column_of, pushed, 0);
                     open = pushed;
                 }
             }
@@ -241,25 +264,43 @@ impl<'w, N: Amount> Work<'w, N> {
     /// A shortest path of exchanges from a row without a column to a column without a row.
     pub(super) fn grow(&mut self, from: u32) -> Result<(), Unassigned> {
         self.memory.distances.fill(N::FAR);
-        // The row that is looked at, and what it costs to come to it.
-        let (mut row, mut base, mut met) = (from, N::ZERO, 0_usize);
+        let nearest = self.reach(from as usize, N::ZERO);
+        self.grow_on(from, 0, nearest)
+    }
+
+    /// The nearest column that is not done, and how far it is, once it is known how far columns are
+    /// by a row to which it costs so much to come.
+    fn reach(&mut self, row: usize, base: N) -> (N, usize) {
+        let prices = Row::new(self.costs, row, self.memory.prices);
+        let by = Reach { row: prices, base, from: row as u32 };
+        reach(&by, self.memory.distances, self.memory.before)
+    }
+
+    /// What it costs to come to the row that has a column to which it costs so much.
+    pub(super) fn base(&self, row: usize, column: usize, away: N) -> Result<N, Unassigned> {
+        // The row gives this column back, and what it pays for it.
+        let own = N::twice(self.entry(row, column), 1).unwrap_or(N::ZERO);
+        let price = self.memory.prices.get(column).copied().unwrap_or(N::ZERO);
+        let base = away.minus(own.minus(price));
+        if base < N::ROOM.plus(N::ROOM) { Ok(base) } else { Err(Unassigned::TooLarge) }
+    }
+
+    /// The rest of a shortest path when so many columns are done.
+    pub(super) fn grow_on(
+        &mut self,
+        from: u32,
+        mut met: usize,
+        (mut away, mut column): (N, usize),
+    ) -> Result<(), Unassigned> {
         let (end, length) = loop {
-            let prices = Row::new(self.costs, row as usize, self.memory.prices);
-            let by = Reach { row: prices, base, from: row };
-            let (away, column) = reach(&by, self.memory.distances, self.memory.before);
             if away == N::FAR {
                 return Err(self.conflict(from as usize, met));
             }
             let Some(next) = self.memory.row(column) else { break (column, away) };
             self.settle(column, met, away);
-            // The next row gives this column back, and what it pays for it.
-            let own = N::twice(self.entry(next, column), 1).unwrap_or(N::ZERO);
-            let price = self.memory.prices.get(column).copied().unwrap_or(N::ZERO);
-            base = away.minus(own.minus(price));
-            if base >= N::ROOM.plus(N::ROOM) {
-                return Err(Unassigned::TooLarge);
-            }
-            (row, met) = (next as u32, met.wrapping_add(1));
+            let base = self.base(next, column, away)?;
+            (away, column) = self.reach(next, base);
+            met = met.wrapping_add(1);
         };
         let mut lowest = N::ZERO;
         let ends = self.memory.done.iter().zip(self.memory.lengths.iter());
@@ -279,15 +320,9 @@ impl<'w, N: Amount> Work<'w, N> {
 
     /// The shortest path to a column that somebody has is known.
     pub(super) fn settle(&mut self, column: usize, number: usize, length: N) {
-        if let Some(it) = self.memory.done.get_mut(number) {
-            *it = column as u32;
-        }
-        if let Some(it) = self.memory.lengths.get_mut(number) {
-            *it = length;
-        }
-        if let Some(it) = self.memory.distances.get_mut(column) {
-            *it = N::DONE;
-        }
+        put(self.memory.done, number, column as u32);
+        put(self.memory.lengths, number, length);
+        put(self.memory.distances, column, N::DONE);
     }
 
     /// An entry of the table.
@@ -321,9 +356,7 @@ impl<'w, N: Amount> Work<'w, N> {
         conflict.fill(0);
         let rows = done.iter().take(met).filter_map(|it| row_of.get(*it as usize));
         for row in rows.filter_map(|it| it.checked_sub(1)).chain([from as u32]) {
-            if let Some(it) = conflict.get_mut(row as usize) {
-                *it = 1;
-            }
+            put(conflict, row as usize, 1);
         }
         Unassigned::Infeasible { rows: met.saturating_add(1), columns: met }
     }

@@ -7,7 +7,7 @@
 //! they have fewer columns than they are.
 
 use super::amount::Amount;
-use super::assignment::{Unassigned, Work};
+use super::assignment::{MANY, Unassigned, Work};
 use super::cost::{Cost, Costs};
 use super::memory::Memory;
 use super::scan::{Reach, Row, reach};
@@ -42,7 +42,21 @@ pub struct Bottleneck {
 ///
 /// # Errors
 /// As [`assign`](super::assign).
+#[inline]
 pub fn bottleneck<N: Amount>(
+    costs: &Costs<'_>,
+    memory: &mut Memory<'_, N>,
+) -> Result<Bottleneck, Unassigned> {
+    // As an assignment has it.
+    if memory.size().0 < MANY {
+        bottleneck_sized::<N, false>(costs, memory)
+    } else {
+        bottleneck_sized::<N, true>(costs, memory)
+    }
+}
+
+#[inline(never)]
+fn bottleneck_sized<N: Amount, const LARGE: bool>(
     costs: &Costs<'_>,
     memory: &mut Memory<'_, N>,
 ) -> Result<Bottleneck, Unassigned> {
@@ -56,7 +70,7 @@ pub fn bottleneck<N: Amount>(
         work.widen(row as u32, &mut largest)?;
     }
     let within = largest.map_or(*costs, |it| costs.at_most(it));
-    let total = Work::start(&within, memory)?.assign()?;
+    let total = Work::start(&within, memory)?.assign::<LARGE>()?;
     Ok(Bottleneck { largest, total })
 }
 

@@ -7,27 +7,23 @@
 use super::amount::Amount;
 use super::assignment::{Unassigned, Work};
 use super::cost::Cost;
-use super::memory::Memory;
-
-/// For fewer rows to ask costs more than it saves. Chosen, not tuned.
-const MANY: usize = 64;
+use super::memory::{Memory, put};
+use super::scan::present;
 
 impl<N: Amount> Work<'_, N> {
-    /// Refuses rows that are in conflict, where there are many rows and edges are missing.
+    /// Refuses rows that are in conflict, where edges are missing.
     pub(super) fn can_all_have_one(&mut self) -> Result<(), Unassigned> {
-        if self.costs.rows() < MANY || !self.costs.lacks_any() {
+        if !self.costs.lacks_any() {
             return Ok(());
         }
         for row in 0..self.costs.rows() {
             let size = self.size(row);
-            if let Some(it) = self.memory.conflict.get_mut(row) {
-                *it = size;
-            }
+            put(self.memory.conflict, row, size);
         }
         self.list_columns();
         let mut taken = 0_usize;
         // Who has few columns chooses first, and seldom has to ask another row for one.
-        for size in 0..=u32::BITS {
+        for size in 0..=bits(self.costs.columns() as u32) {
             for row in 0..self.costs.rows() {
                 if self.memory.conflict.get(row) == Some(&size)
                     && let Some((column, at)) = self.next(row, taken)
@@ -57,9 +53,7 @@ impl<N: Amount> Work<'_, N> {
             // Those between were looked at, and changed places with those that are met.
             let mut behind = met;
             while let Some((column, at)) = self.next(row as usize, behind) {
-                if let Some(it) = self.memory.before.get_mut(column) {
-                    *it = row;
-                }
+                put(self.memory.before, column, row);
                 if self.memory.row(column).is_none() {
                     self.exchange(from, column, met);
                     return Ok(());
@@ -78,10 +72,7 @@ impl<N: Amount> Work<'_, N> {
 
     /// How many bits it takes to say how many columns a row can have.
     fn size(&self, row: usize) -> u32 {
-        let least = self.costs.least();
-        let can = |it: &Option<Cost>| u32::from(Cost::upside_down(*it) >= least);
-        let columns = self.costs.entries(row).iter().map(can).fold(0_u32, u32::wrapping_add);
-        u32::BITS.saturating_sub(columns.leading_zeros())
+        bits(present(self.costs.entries(row), self.costs.least()))
     }
 
     /// Lists all columns: first those that nobody has.
@@ -121,4 +112,9 @@ impl<N: Amount> Work<'_, N> {
             self.memory.done.swap(at, met);
         }
     }
+}
+
+/// How many bits a number has.
+const fn bits(number: u32) -> u32 {
+    u32::BITS.saturating_sub(number.leading_zeros())
 }

@@ -18,7 +18,8 @@ use crate::allocation::{MemoryError, enough};
 pub struct Memory<'m, N> {
     /// The column of each row, one more than its number; 0 for none.
     pub(super) column_of: &'m mut [u32],
-    /// Whether a row is in conflict: not 0.
+    /// The last bit: whether a row is in conflict. The others: one more than a column that nobody
+    /// has and that is as near as the row's own, as far as that is known.
     pub(super) conflict: &'m mut [u32],
     /// The row of each column, one more than its number; 0 for none.
     pub(super) row_of: &'m mut [u32],
@@ -126,12 +127,21 @@ impl<'m, N: Amount> Memory<'m, N> {
     /// Whether a row is one of those in conflict, after
     /// [`Infeasible`](super::Unassigned::Infeasible) or a bottleneck.
     pub fn in_conflict(&self, row: usize) -> bool {
-        self.conflict.get(row).is_some_and(|it| *it != 0)
+        self.conflict.get(row).is_some_and(|it| *it & 1 != 0)
+    }
+}
+
+/// Writes at a place, if there is one.
+#[inline]
+pub(super) fn put<T>(list: &mut [T], at: usize, it: T) {
+    if let Some(place) = list.get_mut(at) {
+        *place = it;
     }
 }
 
 /// The number that is stored one higher; none for 0.
-fn number(list: &[u32], at: usize) -> Option<usize> {
+#[inline]
+pub(super) fn number(list: &[u32], at: usize) -> Option<usize> {
     list.get(at)?.checked_sub(1).map(|it| it as usize)
 }
 

@@ -13,6 +13,7 @@ mod assignment;
 mod bottleneck;
 mod coalition;
 mod cost;
+mod equality;
 pub mod joint;
 mod matching;
 mod memory;

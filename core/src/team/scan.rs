@@ -145,6 +145,66 @@ impl<'r, N: Amount> Row<'r, N> {
         place(met).map(|it| start.wrapping_add(it))
     }
 
+    /// How near a column is.
+    pub(super) fn near_of(&self, column: usize) -> N {
+        let entry = self.entries.get(column).copied().flatten();
+        let price = self.prices.get(column).copied().unwrap_or(N::ZERO);
+        self.near::<false>(entry, price)
+    }
+
+    /// How far a column is; none if it is missing.
+    #[inline]
+    pub(super) fn away_of(&self, column: usize) -> Option<N> {
+        let cost = N::twice(self.entries.get(column).copied().flatten(), self.least)?;
+        Some(cost.minus(*self.prices.get(column)?))
+    }
+
+    /// The first column that is as near as this, which nobody has; those before that somebody has
+    /// are met and made too dear to be met again, until one that is met ends it.
+    #[inline(never)]
+    pub(super) fn equals(
+        &self,
+        near: N,
+        prices: &mut [N],
+        mut meet: impl FnMut(usize) -> bool,
+    ) -> Option<usize> {
+        let low = near.minus(N::HALF);
+        // Whether it ends here, and which column nobody has.
+        let mut at = |column, price: &mut N| {
+            if *price == price.whole() {
+                return Some(Some(column));
+            }
+            *price = N::ZERO.minus(N::ROOM).minus(N::ROOM).minus(N::ROOM).minus(N::ROOM);
+            meet(column).then_some(None)
+        };
+        let ((rows, rest), (costs, prices)) = (chunks(self.entries), chunks_mut(prices));
+        let mut start = 0_usize;
+        for (row, prices) in rows.iter().zip(costs) {
+            let (mut met, mut bit) = (0_u32, 1_u32);
+            for lane in 0..LANES {
+                met |= if self.near::<false>(row[lane], prices[lane]) >= low { bit } else { 0 };
+                bit = bit.wrapping_shl(1);
+            }
+            while met != 0 {
+                let lane = met.trailing_zeros() as usize % LANES;
+                if let Some(end) = at(start.wrapping_add(lane), &mut prices[lane]) {
+                    return end;
+                }
+                met &= met.wrapping_sub(1);
+            }
+            start = start.wrapping_add(LANES);
+        }
+        for (entry, price) in rest.iter().zip(prices) {
+            if self.near::<false>(*entry, *price) >= low
+                && let Some(end) = at(start, price)
+            {
+                return end;
+            }
+            start = start.wrapping_add(1);
+        }
+        None
+    }
+
     /// The next column behind this one that is so far away, the first again after the last.
     pub(super) fn next_equal(&self, away: N, behind: usize) -> usize {
         let next = self.equal(away, behind.wrapping_add(1));
@@ -207,6 +267,18 @@ pub(super) fn place(all: impl Iterator<Item = bool>) -> Option<usize> {
     None
 }
 
+/// How many entries of a row are stored as `least` or more.
+#[inline]
+pub(super) fn present(row: &[Option<Cost>], least: i32) -> u32 {
+    let counts = |entry: &Option<Cost>| u32::from(Cost::upside_down(*entry) >= least);
+    let (entries, rest) = chunks(row);
+    let mut all = [0_u32; LANES];
+    for row in entries {
+        all.iter_mut().zip(row).for_each(|(all, it)| *all = all.wrapping_add(counts(it)));
+    }
+    all.into_iter().chain(rest.iter().map(counts)).fold(0, u32::wrapping_add)
+}
+
 /// Keeps of each column what it costs its cheapest row so far, as that is stored, and which row is
 /// that, the first of equal ones.
 #[inline]
@@ -242,7 +314,7 @@ pub(super) struct Reach<'r, N> {
 
 /// Shortens the paths to columns that are nearer by this row, and finds the nearest column that is
 /// not done, the first of equal ones: how far it is, and which it is.
-#[inline]
+#[inline(never)]
 pub(super) fn reach<N: Amount>(
     by: &Reach<'_, N>,
     distances: &mut [N],

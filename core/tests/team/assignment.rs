@@ -143,6 +143,49 @@ fn large_tables_that_are_nearly_empty_are_assigned_or_in_conflict() {
 }
 
 #[test]
+fn rows_that_find_many_columns_equally_near_are_proven_and_the_same_everywhere() {
+    // Few costs, so that paths among equally near columns, and shortest paths beyond them, are
+    // taken; in some tables the last rows have few columns, just enough or one too few.
+    let (mut draw, mut feasible, mut digest) = (Draw::new(22), 0, 0xcbf2_9ce4_8422_2325_u64);
+    let mut narrow = Fixed::<i32, 130, 140>::new();
+    let mut wide = Fixed::<i64, 130, 140>::new();
+    for number in 0..600 {
+        let rows = 64 + below(&mut draw, 67) as usize;
+        let columns = rows + [0, 0, 0, 1, 10][below(&mut draw, 5) as usize];
+        let most = [1, 2, 4, 20][below(&mut draw, 4) as usize];
+        let missing = [0, 30, 60, 85, 93][below(&mut draw, 5) as usize];
+        let mut entries = table(&mut draw, rows, columns, most, missing);
+        if number % 4 == 0 {
+            let few = 1 + below(&mut draw, rows as u64 / 4) as usize;
+            let own = (few + below(&mut draw, 3) as usize).saturating_sub(1);
+            for row in rows - few..rows {
+                entries[row * columns + own.min(columns)..(row + 1) * columns].fill(None);
+            }
+        }
+        let costs = Costs::new(&entries, columns).unwrap();
+        let mut memory = narrow.memory();
+        let found = proven(&costs, &mut memory);
+        let columns: Vec<_> = (0..rows).map(|row| memory.column(row)).collect();
+        let mut memory = wide.memory();
+        assert_eq!(proven(&costs, &mut memory), found);
+        feasible += usize::from(found.is_some());
+        if found.is_some() {
+            assert!((0..rows).all(|row| !memory.in_conflict(row)));
+            assert!((0..rows).all(|row| memory.column(row) == columns[row]));
+        }
+        if let (Some(_), Ok(found)) = (found, bottleneck(&costs, &mut memory)) {
+            let (rows, columns) =
+                conflict(&costs.below(found.largest.unwrap()), |row| memory.in_conflict(row));
+            assert!(rows > columns);
+        }
+        for it in columns.into_iter().filter(|_| found.is_some()) {
+            digest = (digest ^ it.unwrap() as u64).wrapping_mul(0x100_0000_01b3);
+        }
+    }
+    assert_eq!((feasible, digest), (490, 0x00d5_29aa_3d63_527f));
+}
+
+#[test]
 fn too_large_for_half_the_width_is_said_and_the_whole_width_has_an_answer() {
     let entries = of([Some(Cost::MOST), Some(0), Some(Cost::MOST), Some(1)]);
     let costs = Costs::new(&entries, 2).unwrap();

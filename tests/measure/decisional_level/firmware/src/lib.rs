@@ -8,7 +8,7 @@ use cotama_core::executive::Happening;
 use cotama_core::hardware::Equipment;
 use cotama_core::monitor::Request;
 use cotama_core::team::joint::{Column, Joint, JointMemory, Level, Open, Slot, Solved, Way};
-use cotama_core::team::{Bottleneck, Costs, Memory, Team, Unassigned, assign, bottleneck};
+use cotama_core::team::{Bottleneck, Costs, Fixed, Team, Unassigned, assign, bottleneck};
 use cotama_core::units::{Micros, Millis};
 use cotama_models::cotama::load::Load;
 use cotama_models::cotama::{Body, DecisionalLevel, Finding, Perceived, Requests, Told, Word};
@@ -58,12 +58,12 @@ entries! {
         robot.mission().plan_exactly(first, rest, units);
     /// Roles to robots at the least sum.
     robot_assign(
-        costs: &Costs<'_>, memory: &mut Memory<'_, i32>
-    ) -> Result<u64, Unassigned> = assign(costs, memory);
+        costs: &Costs<'_>, memory: &mut Fixed<i32, 8, 8>
+    ) -> Result<u64, Unassigned> = assign(costs, &mut memory.memory());
     /// Roles to robots with the largest cost as small as can be.
     robot_bottleneck(
-        costs: &Costs<'_>, memory: &mut Memory<'_, i32>
-    ) -> Result<Bottleneck, Unassigned> = bottleneck(costs, memory);
+        costs: &Costs<'_>, memory: &mut Fixed<i32, 8, 8>
+    ) -> Result<Bottleneck, Unassigned> = bottleneck(costs, &mut memory.memory());
     /// All tasks of eight robots at once.
     robot_joint(
         team: &Team<'_>, memory: JointMemory<'_, 8>, steps: u64

@@ -77,13 +77,13 @@ fn main() -> ! {
         for number in 0..EACH {
             let entries = table(&mut draw, most, missing);
             let Some(costs) = Costs::new(&entries, 8) else { panic!("eight columns") };
-            let mut memory = fixed.memory();
-            let total = counted(|| robot_assign(black_box(&costs), &mut memory));
+            let total = counted(|| robot_assign(black_box(&costs), &mut fixed));
+            let memory = fixed.memory();
             let proven = is_least(&costs, |row| memory.column(row), |column| memory.price(column));
             assert!(total.ok() == proven.ok(), "not proven");
             feasible += u32::from(total.is_ok());
             if number < 100 {
-                let used = depth(|| _ = black_box(robot_assign(&costs, &mut memory)));
+                let used = depth(|| _ = black_box(robot_assign(&costs, &mut fixed)));
                 deepest[0] = used.max(deepest[0]);
             }
         }
@@ -95,10 +95,9 @@ fn main() -> ! {
         for number in 0..EACH {
             let entries = table(&mut draw, most, missing);
             let Some(costs) = Costs::new(&entries, 8) else { panic!("eight columns") };
-            let mut memory = fixed.memory();
-            let _ = counted(|| robot_bottleneck(black_box(&costs), &mut memory));
+            let _ = counted(|| robot_bottleneck(black_box(&costs), &mut fixed));
             if number < 100 {
-                let used = depth(|| _ = black_box(robot_bottleneck(&costs, &mut memory)));
+                let used = depth(|| _ = black_box(robot_bottleneck(&costs, &mut fixed)));
                 deepest[1] = used.max(deepest[1]);
             }
         }
