@@ -218,44 +218,42 @@ impl<'w, N: Amount> Work<'w, N> {
         Ok(())
     }
 
-    /// The reduction of rows, twice: a row takes the column that is nearest, and lowers its price
-    /// by as much as the second one is further, which may push another row out. Where a row has one
+    /// The reduction of rows, once: a row takes the column that is nearest, and lowers its price by
+    /// as much as the second one is further, which may push another row out. Where a row has one
     /// column only nothing tells what that is worth, and the rest is left to the paths.
     fn reduce_rows(&mut self) -> Result<(), Unassigned> {
         let mut steps = self.costs.rows().saturating_mul(4);
-        for _ in 0..2 {
-            for row in 0..self.costs.rows() {
-                let mut open = row;
-                let (mut level, mut lost) = (LEVEL, row);
-                while self.memory.column(open).is_none() {
-                    let Some(left) = steps.checked_sub(1) else { return Ok(()) };
-                    steps = left;
-                    let Nearest { away, column, second } = self.row(open).two_nearest();
-                    if away == N::FAR {
-                        return Err(self.conflict(open, 0));
-                    }
-                    let free = away == away.whole();
-                    let gain = match second {
-                        it if it == N::FAR => N::ZERO,
-                        it => it.whole().minus(away.whole()),
-                    };
-                    if !free && gain == N::ZERO {
-                        // To push somebody out without gain may go on for ever.
-                        let Some(left) = level.checked_sub(1) else { break };
-                        level = left;
-                    }
-                    // Of equal ones the first that is free, or the next one that is not.
-                    let behind = if free { usize::MAX } else { lost };
-                    let column = column.unwrap_or_else(|| self.row(open).next_equal(away, behind));
-                    lost = column;
-                    let pushed = self.memory.row(column);
-                    let taken = if free { N::HALF } else { N::ZERO };
-                    self.reprice(column, |it| it.minus(gain).minus(taken))?;
-                    self.give(open as u32, column);
-                    let Some(pushed) = pushed else { break };
-                    put(self.memory.column_of, pushed, 0);
-                    open = pushed;
+        for row in 0..self.costs.rows() {
+            let mut open = row;
+            let (mut level, mut lost) = (LEVEL, row);
+            while self.memory.column(open).is_none() {
+                let Some(left) = steps.checked_sub(1) else { return Ok(()) };
+                steps = left;
+                let Nearest { away, column, second } = self.row(open).two_nearest();
+                if away == N::FAR {
+                    return Err(self.conflict(open, 0));
                 }
+                let free = away == away.whole();
+                let gain = match second {
+                    it if it == N::FAR => N::ZERO,
+                    it => it.whole().minus(away.whole()),
+                };
+                if !free && gain == N::ZERO {
+                    // To push somebody out without gain may go on for ever.
+                    let Some(left) = level.checked_sub(1) else { break };
+                    level = left;
+                }
+                // Of equal ones the first that is free, or the next one that is not.
+                let behind = if free { usize::MAX } else { lost };
+                let column = column.unwrap_or_else(|| self.row(open).next_equal(away, behind));
+                lost = column;
+                let pushed = self.memory.row(column);
+                let taken = if free { N::HALF } else { N::ZERO };
+                self.reprice(column, |it| it.minus(gain).minus(taken))?;
+                self.give(open as u32, column);
+                let Some(pushed) = pushed else { break };
+                put(self.memory.column_of, pushed, 0);
+                open = pushed;
             }
         }
         Ok(())

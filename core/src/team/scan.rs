@@ -45,13 +45,19 @@ impl<'r, N: Amount> Row<'r, N> {
     /// The nearest two columns.
     #[inline]
     pub(super) fn two_nearest(&self) -> Nearest<N> {
+        let full = VECTORS && !self.lacks_any; // not to ask each entry makes vectors quicker
+        let of_block = |block: &Self| {
+            if full { block.two_of_block::<true>() } else { block.two_of_block::<false>() }
+        };
+        if self.entries.len() <= BLOCK {
+            let (best, second, column) = of_block(self);
+            let (away, second) = (N::away(best), N::away(second));
+            return Nearest { away, column: (away < second).then_some(column), second };
+        }
         let (mut best, mut second, mut column, mut start) = (N::DONE, N::DONE, 0, 0_usize);
         let prices = self.prices.get(..self.entries.len()).unwrap_or(&[]);
         for (entries, prices) in self.entries.chunks(BLOCK).zip(prices.chunks(BLOCK)) {
-            let block = Row { entries, prices, ..*self };
-            let full = VECTORS && !self.lacks_any; // not to ask each entry makes vectors quicker
-            let (first, next, at) =
-                if full { block.two_of_block::<true>() } else { block.two_of_block::<false>() };
+            let (first, next, at) = of_block(&Row { entries, prices, ..*self });
             second = more(more(second, next), less(best, first));
             column = if first > best { start.wrapping_add(at) } else { column };
             best = more(best, first);
@@ -281,27 +287,13 @@ pub(super) fn present(row: &[Option<Cost>], least: i32) -> u32 {
 
 /// Keeps of each column what it costs its cheapest row so far, as that is stored, and which row is
 /// that, the first of equal ones.
-#[inline]
+#[inline(never)]
 pub(super) fn cheapest(row: &[Option<Cost>], from: u32, most: &mut [u32], rows: &mut [u32]) {
-    // Costs are stored upside down, and what is missing as the least of all.
-    let (entries, rest) = chunks(row);
-    let (mosts, most) = chunks_mut(most);
-    let (froms, rows) = chunks_mut(rows);
-    for (row, (mosts, froms)) in entries.iter().zip(mosts.iter_mut().zip(froms)) {
-        let (mut most, mut rows) = (*mosts, *froms);
-        for lane in 0..LANES {
-            let stored = Cost::upside_down(row[lane]);
-            let more = stored > most[lane].cast_signed();
-            rows[lane] = if more { from } else { rows[lane] };
-            most[lane] = if more { stored.cast_unsigned() } else { most[lane] };
-        }
-        (*mosts, *froms) = (most, rows);
-    }
-    for (entry, (most, row)) in rest.iter().zip(most.iter_mut().zip(rows)) {
-        let stored = Cost::upside_down(*entry);
-        if stored > most.cast_signed() {
-            (*most, *row) = (stored.cast_unsigned(), from);
-        }
+    for (entry, (most, row)) in row.iter().zip(most.iter_mut().zip(rows)) {
+        // Costs are stored upside down, and what is missing as the least of all.
+        let (stored, known) = (Cost::upside_down(*entry), most.cast_signed());
+        *row = if stored > known { from } else { *row };
+        *most = if stored > known { stored } else { known }.cast_unsigned();
     }
 }
 
@@ -314,8 +306,21 @@ pub(super) struct Reach<'r, N> {
 
 /// Shortens the paths to columns that are nearer by this row, and finds the nearest column that is
 /// not done, the first of equal ones: how far it is, and which it is.
-#[inline(never)]
+#[inline]
 pub(super) fn reach<N: Amount>(
+    by: &Reach<'_, N>,
+    distances: &mut [N],
+    before: &mut [u32],
+) -> (N, usize) {
+    if VECTORS && !by.row.lacks_any {
+        reach_by::<N, true>(by, distances, before)
+    } else {
+        reach_by::<N, false>(by, distances, before)
+    }
+}
+
+#[inline(never)]
+fn reach_by<N: Amount, const FULL: bool>(
     by: &Reach<'_, N>,
     distances: &mut [N],
     before: &mut [u32],
@@ -325,7 +330,7 @@ pub(super) fn reach<N: Amount>(
     let value = move |entry, price: N| {
         let stored = Cost::upside_down(entry);
         let near = N::twice_stored(stored).plus(price);
-        if stored >= least { base.minus(near) } else { N::FAR }
+        if FULL || stored >= least { base.minus(near) } else { N::FAR }
     };
     let (rows, rest) = chunks(entries);
     let (costs, prices) = chunks(prices);

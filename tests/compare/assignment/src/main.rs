@@ -42,27 +42,30 @@ fn main() {
     rectangles::<16, 64>();
 }
 
-/// Writes squares as 32-bit numbers, and a line of JSON for each with its total and its time, for
-/// `../teams.py`.
+/// Writes squares as 32-bit numbers, and a line of JSON for each size with their totals and the
+/// median time, for `../teams.py`.
 fn export(folder: &Path) {
     std::fs::create_dir_all(folder).expect("the folder can be made");
     let mut results = String::new();
     for n in [100, 500, 1_000, 2_000] {
         for most in [100, 1_000_000] {
-            let entries = table(&mut Draw::new(n as u64 + most), n, n, most, 0);
-            let costs = Costs::new(&entries, n).expect("a square");
+            let mut draw = Draw::new(n as u64 + most);
             let mut room = Room::<i32>::new(n);
-            let runs =
-                (0..if n > 500 { 5 } else { 25 }).map(|_| timed(|| room.assign(black_box(&costs))));
-            let (times, totals): (Vec<_>, Vec<_>) = runs.unzip();
-            let total = totals[0].expect("a full table has an assignment");
-            let bytes = entries.iter().flat_map(|it| it.map_or(0, Cost::get).to_le_bytes());
+            let (mut times, mut totals, mut bytes) = (vec![], vec![], vec![]);
+            // Each run has a table of its own: a processor learns what it has seen.
+            for _ in 0..if n > 500 { 5 } else { 25 } {
+                let entries = table(&mut draw, n, n, most, 0);
+                let costs = Costs::new(&entries, n).expect("a square");
+                let (time, total) = timed(|| room.assign(black_box(&costs)));
+                times.push(time);
+                totals.push(total.expect("a full table has an assignment"));
+                bytes.extend(entries.iter().flat_map(|it| it.map_or(0, Cost::get).to_le_bytes()));
+            }
             let name = format!("{n}-{most}");
-            let file = folder.join(format!("{name}.bin"));
-            std::fs::write(file, bytes.collect::<Vec<_>>()).expect("it can be written");
+            std::fs::write(folder.join(format!("{name}.bin")), bytes).expect("it can be written");
             let seconds = median(times) / 1e6;
             results += &format!(
-                "{{\"name\": \"{name}\", \"n\": {n}, \"most\": {most}, \"total\": {total}, \
+                "{{\"name\": \"{name}\", \"n\": {n}, \"most\": {most}, \"totals\": {totals:?}, \
                  \"seconds\": {seconds:.9}}}\n"
             );
         }
