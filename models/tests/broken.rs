@@ -190,6 +190,8 @@ fn files_of_their_own() {
         "lists_empty",
         "format = \"panorama-mission/1\"\ntio = []\nobjective = []\nzone = []\n".into(),
     );
+    let prose = "# A robot\n\nIt drives on, whatever is in its way.\nSee below.\n";
+    refused("prose", prose.repeat(3));
     refused("nested", format!("format = {}", "[".repeat(100_000)));
     refused("nested_tables", format!("format = {}", "{a=".repeat(100_000)));
     refused("nested_keys", format!("{}b = 1", "a.".repeat(100_000)));

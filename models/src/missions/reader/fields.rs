@@ -18,6 +18,9 @@ type Node<'t> = toml::Spanned<DeValue<'t>>;
 /// The largest file that is read, in bytes.
 const MAX_BYTES: usize = 16 << 20;
 
+/// With more syntax errors the text is hardly meant to be TOML.
+const MANY_SYNTAX_ERRORS: usize = 4;
+
 /// What is wrong was reported.
 pub(crate) struct Reported;
 
@@ -54,9 +57,15 @@ pub(crate) fn document<T>(
         return None;
     }
     let (root, errors) = DeTable::parse_recoverable(text);
-    for error in &errors {
+    // A file of another kind has one in nearly each line: the first says as much as all.
+    let shown = if errors.len() > MANY_SYNTAX_ERRORS { 1 } else { errors.len() };
+    for error in errors.iter().take(shown) {
         let message = format!("not TOML: {}", error.message());
-        sink.report(Diagnostic::new(error.span().unwrap_or(0..0), message, "TOML syntax"));
+        let it = Diagnostic::new(error.span().unwrap_or(0..0), message, "TOML syntax");
+        let others = errors.len() - shown;
+        let help =
+            format!("{others} more places are not TOML either: is it the file that was meant?");
+        sink.report(if others > 0 { it.help(help) } else { it });
     }
     if !errors.is_empty() {
         return None;
