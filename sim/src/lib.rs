@@ -8,6 +8,7 @@
 #![cfg_attr(test, allow(clippy::pedantic, clippy::unwrap_used))]
 
 pub mod campaign;
+pub mod estimate;
 pub mod faults_text;
 pub mod fleet;
 pub mod kernel;
