@@ -5,6 +5,7 @@ use crate::answers::campaign::CampaignAnswer;
 use crate::answers::check::{CheckAnswer, StatespaceAnswer, VerifyAnswer};
 use crate::answers::conform::ConformAnswer;
 use crate::answers::error::ErrorAnswer;
+use crate::answers::estimate::EstimateAnswer;
 use crate::answers::fmeca::FmecaAnswer;
 use crate::answers::model::{ModelsAnswer, SimulateAnswer};
 use crate::answers::new::NewAnswer;
@@ -52,6 +53,7 @@ pub(crate) fn schema(args: &SchemaArgs) -> Result<Exit, Failure> {
         SchemaName::Simulate => schemas.into_root_schema_for::<SimulateAnswer>(),
         SchemaName::Check => schemas.into_root_schema_for::<CheckAnswer>(),
         SchemaName::Statespace => schemas.into_root_schema_for::<StatespaceAnswer>(),
+        SchemaName::Estimate => schemas.into_root_schema_for::<EstimateAnswer>(),
         SchemaName::Verify => schemas.into_root_schema_for::<VerifyAnswer>(),
         SchemaName::Error => schemas.into_root_schema_for::<ErrorAnswer>(),
         SchemaName::Conform => schemas.into_root_schema_for::<ConformAnswer>(),
@@ -108,7 +110,7 @@ fn named(program: clap::Command) -> clap::Command {
         };
         program.mut_subcommand(command, |it| it.mut_args(valued))
     };
-    let commands = ["export", "check", "statespace", "simulate", "conform"];
+    let commands = ["export", "check", "estimate", "statespace", "simulate", "conform"];
     let program = commands.iter().fold(program, |it, command| of(command, "model", &models, it));
     let program = of("models", "name", &models, program);
     let teams = Team::ALL.iter().map(|it| it.0.name());

@@ -5,6 +5,7 @@ pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;
 pub(crate) mod error;
+pub(crate) mod estimate;
 pub(crate) mod fmeca;
 pub(crate) mod model;
 pub(crate) mod new;

@@ -4,6 +4,7 @@ mod assign;
 mod campaign;
 mod check;
 mod conform;
+mod estimate;
 mod fitted;
 mod fmeca;
 mod mission;
@@ -17,6 +18,7 @@ pub(crate) use assign::AssignArgs;
 pub(crate) use campaign::{CampaignArgs, PolicyName};
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use conform::ConformArgs;
+pub(crate) use estimate::EstimateArgs;
 pub(crate) use fitted::command;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use mission::{
@@ -167,6 +169,14 @@ Examples:
     /// fire.
     #[command(after_long_help = check::STATESPACE_EXAMPLES)]
     Statespace(StatespaceArgs),
+    /// Says how likely a random run of a model is as a property says
+    ///
+    /// Runs are drawn: in each marking every enabled transition is equally likely, and time plays no
+    /// part. A run that shows a property or refutes it is a proof; a share of runs is none, whatever
+    /// its interval. Where there are too many states for `cotama check`, runs may still find what
+    /// is wrong.
+    #[command(after_long_help = estimate::ESTIMATE_EXAMPLES)]
+    Estimate(EstimateArgs),
     /// Checks a certificate again, without the engine that found it
     #[command(after_long_help = check::VERIFY_EXAMPLES)]
     Verify(VerifyArgs),

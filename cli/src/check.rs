@@ -1,7 +1,7 @@
 //! `cotama check`: whether properties of a model hold, and why.
 
 pub(crate) mod contest;
-mod explained;
+pub(crate) mod explained;
 mod files;
 mod junit;
 pub(crate) mod questions;

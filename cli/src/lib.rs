@@ -14,6 +14,7 @@ mod campaign;
 mod catalogue;
 mod check;
 mod conform;
+mod estimate;
 mod exit;
 mod export;
 mod file_errors;
@@ -102,6 +103,7 @@ fn ended(command: Command, screen: &Screen) -> Result<Exit, Failure> {
         Command::Models(args) => models::models(&args, screen),
         Command::Export(args) => export::export(&args, screen),
         Command::Check(args) => check::check(&args, screen),
+        Command::Estimate(args) => estimate::estimate(&args, screen),
         Command::Statespace(args) => statespace::statespace(&args, screen),
         Command::Verify(args) => verify::verify(&args, screen),
         Command::Simulate(args) => simulate::simulate(&args, screen),

@@ -2,7 +2,7 @@
 
 use crate::common::Folder;
 
-pub(crate) const COMMANDS: [&str; 20] = [
+pub(crate) const COMMANDS: [&str; 21] = [
     "list",
     "plan",
     "run",
@@ -14,6 +14,7 @@ pub(crate) const COMMANDS: [&str; 20] = [
     "simulate",
     "check",
     "statespace",
+    "estimate",
     "verify",
     "conform",
     "fmeca",

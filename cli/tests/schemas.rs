@@ -4,7 +4,7 @@ use crate::common::Folder;
 use serde_json::Value;
 use std::path::PathBuf;
 
-const COMMANDS: [&str; 20] = [
+const COMMANDS: [&str; 21] = [
     "list",
     "plan",
     "run",
@@ -16,6 +16,7 @@ const COMMANDS: [&str; 20] = [
     "simulate",
     "check",
     "statespace",
+    "estimate",
     "verify",
     "conform",
     "recording",

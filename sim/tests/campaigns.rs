@@ -6,6 +6,8 @@
 
 #[path = "campaigns/defects.rs"]
 mod defects;
+#[path = "campaigns/estimates.rs"]
+mod estimates;
 #[path = "campaigns/measured.rs"]
 mod measured;
 #[path = "campaigns/own.rs"]

@@ -161,12 +161,12 @@ fn shard(text: &str) -> Result<Shard, String> {
     shard.filter(fits).ok_or_else(|| "a part of the whole, as 2/3, is needed".into())
 }
 
-fn share(text: &str) -> Result<f64, String> {
+pub(super) fn share(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|it| *it > 1e-9 && *it < 1.0);
     number.ok_or_else(|| "a number between 0 and 1, as 0.01, is needed".into())
 }
 
-fn confidence(text: &str) -> Result<f64, String> {
+pub(super) fn confidence(text: &str) -> Result<f64, String> {
     let number = text.parse().ok().filter(|it| (0.5..=0.999_999).contains(it));
     number.ok_or_else(|| "a number from 0.5 to 0.999999, as 0.95, is needed".into())
 }

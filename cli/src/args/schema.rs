@@ -24,6 +24,7 @@ pub(crate) enum SchemaName {
     Simulate,
     Check,
     Statespace,
+    Estimate,
     Verify,
     Conform,
     Fmeca,

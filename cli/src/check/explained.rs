@@ -20,7 +20,7 @@ const MARKINGS: u64 = 100_000;
 const UNUSED: u64 = 1_000_000;
 
 /// The run of an answer, explained, if there is one.
-pub(super) fn diagnosis(
+pub(crate) fn diagnosis(
     subject: &Subject,
     property: &Property,
     answer: &Answer,
@@ -39,7 +39,7 @@ pub(super) fn diagnosis(
 
 /// Which firings of a run are shown: of a system in rounds not those in which its token only goes
 /// on.
-pub(super) fn shown(subject: &Subject, answer: &Answer, count: usize) -> Vec<bool> {
+pub(crate) fn shown(subject: &Subject, answer: &Answer, count: usize) -> Vec<bool> {
     let (Some(rounds), Some(run)) = (&subject.rounds, &answer.run) else {
         return vec![true; count];
     };
@@ -47,7 +47,7 @@ pub(super) fn shown(subject: &Subject, answer: &Answer, count: usize) -> Vec<boo
 }
 
 /// A run of a system in rounds, as what happens in each of them.
-pub(super) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer) -> String {
+pub(crate) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer) -> String {
     let mut text = format!("{}\n", diagnosis.summary);
     let Some(run) = &answer.run else { return text };
     let firings: Vec<_> = run.firings().collect();
@@ -68,7 +68,7 @@ pub(super) fn in_rounds(rounds: &Rounds, diagnosis: &Diagnosis, answer: &Answer)
 }
 
 /// The firings of a run that are shown, a loop once.
-pub(super) fn firings(diagnosis: &Diagnosis, shown: &[bool]) -> Vec<FiringRow> {
+pub(crate) fn firings(diagnosis: &Diagnosis, shown: &[bool]) -> Vec<FiringRow> {
     let row = |step: &Step| FiringRow {
         transition: step.transition.clone(),
         event: step.event.clone(),
@@ -84,7 +84,7 @@ pub(super) fn firings(diagnosis: &Diagnosis, shown: &[bool]) -> Vec<FiringRow> {
 }
 
 /// How a run goes on.
-pub(super) fn rest(diagnosis: &Diagnosis, shown: &[bool]) -> RestRow {
+pub(crate) fn rest(diagnosis: &Diagnosis, shown: &[bool]) -> RestRow {
     match diagnosis.cycle_starts_at {
         Some(at) => RestRow::LoopFrom(shown.iter().take(at).filter(|it| **it).count() as u64),
         None if diagnosis.deadlock => RestRow::Deadlock,

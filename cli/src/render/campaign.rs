@@ -152,7 +152,7 @@ fn policies(answer: &CampaignAnswer) -> String {
     text
 }
 
-fn number(it: u64) -> String {
+pub(super) fn number(it: u64) -> String {
     grouped(&it.to_string())
 }
 
@@ -167,7 +167,7 @@ pub(crate) fn percent(share: f64) -> String {
     }
 }
 
-fn interval(it: Measured) -> String {
+pub(super) fn interval(it: Measured) -> String {
     format!("({} to {})", percent(it.low), percent(it.high))
 }
 

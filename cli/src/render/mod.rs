@@ -5,6 +5,7 @@ pub(crate) mod assign;
 pub(crate) mod campaign;
 pub(crate) mod check;
 pub(crate) mod conform;
+pub(crate) mod estimate;
 pub(crate) mod fmeca;
 pub(crate) mod fold;
 pub(crate) mod models;
