@@ -14,6 +14,7 @@ mod check;
 mod common;
 mod conform;
 mod errors;
+mod estimate;
 mod export;
 mod file_schemas;
 mod fmeca;

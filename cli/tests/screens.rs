@@ -56,6 +56,7 @@ fn no_line_is_wider_than_the_window_where_tables_can_be_wrapped() {
             "check watchdog --property 'bound(w1 -> Fault)'",
             "statespace kanban:2",
             "statespace door",
+            "estimate door --untimed --property 'EF Open' --runs 50",
             "simulate door Call EndOpen +5000",
             "simulate philosophers:3 left_first_1",
             "fmeca",

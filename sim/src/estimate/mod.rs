@@ -19,18 +19,19 @@
 //! assert_eq!(found.tallies[0].shortest_holding.unwrap().steps, 2);
 //! ```
 
+mod chain;
 mod path;
+mod tally;
 mod walk;
 
 pub use path::{Asked, NotOfARun, Wants};
-pub use walk::{Drawn, Overflow, Tally, Witness};
+pub use tally::{Drawn, Overflow, Tally, Witness};
 
-use crate::estimate::path::Judged;
 use crate::streams::Streams;
+use chain::{Chain, Run};
 use cotama_core::net::TransitionId;
 use cotama_verification::pt::Pt;
 use std::ops::Range;
-use walk::{Run, Walk};
 
 /// Which runs are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -84,17 +85,8 @@ pub fn draw(net: &Pt, asked: &[Asked<'_>], all: Draw) -> Result<Drawn, Overflow>
 /// assert_eq!(fired, replay(&net, 7, Witness { run: 3, steps: 5 }));
 /// ```
 pub fn replay(net: &Pt, seed: u64, which: Witness) -> Vec<TransitionId> {
-    let mut walk = Walk::new(net);
-    let mut stream = Streams::new(seed).stream(&stream_of(which.run));
-    let mut fired = Vec::new();
-    while (fired.len() as u64) < which.steps {
-        let Some(next) = walk.choose(&mut stream) else { break };
-        if walk.fire(next).is_err() {
-            break;
-        }
-        fired.push(TransitionId(next));
-    }
-    fired
+    let stream = Streams::new(seed).stream(&stream_of(which.run));
+    Chain::new(net, &[]).fired(Run { number: which.run, most: which.steps, stream })
 }
 
 fn stream_of(run: u64) -> String {
@@ -112,13 +104,12 @@ fn walk_all(
     all: Draw,
     numbers: Range<u64>,
 ) -> Result<Drawn, Overflow> {
-    let (mut drawn, mut walk) = (Drawn::none(asked.len()), Walk::new(net));
-    let streams = Streams::new(all.seed);
-    let mut judged = vec![Judged::Open; asked.len()];
+    let (mut drawn, mut chain) = (Drawn::none(asked.len()), Chain::new(net, asked));
+    let (streams, mut open) = (Streams::new(all.seed), Vec::new());
     for number in numbers {
         let stream = streams.stream(&stream_of(number));
         let run = Run { number, most: all.steps, stream };
-        drawn.steps += walk.run(asked, run, &mut judged, &mut drawn.tallies)?;
+        drawn.steps += chain.run(run, &mut open, &mut drawn.tallies)?;
         drawn.runs += 1;
     }
     Ok(drawn)

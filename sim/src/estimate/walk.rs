@@ -1,223 +1,94 @@
-//! A random walk: which transitions are enabled, kept up to date from step to step.
+//! A marking, and which transitions are enabled in it, kept up to date from firing to firing.
 
-use super::path::{Asked, Judged};
+use super::tally::Overflow;
 use crate::streams::Stream;
 use cotama_core::net::{PlaceId, TransitionId};
 use cotama_verification::pt::Pt;
-use std::fmt;
 
-/// What came of many runs.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Drawn {
-    /// How many runs there were.
-    pub runs: u64,
-    /// How many transitions fired in all of them.
-    pub steps: u64,
-    /// One a question, in their order.
-    pub tallies: Vec<Tally>,
-}
-
-/// What came of one question.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Tally {
-    /// How many runs were as the property says, within their steps.
-    pub holding: u64,
-    /// Of how many runs that was not decided when their steps were used up.
-    pub open: u64,
-    /// The shortest run that is surely as the property says; of several the first.
-    pub shortest_holding: Option<Witness>,
-    /// The shortest run that surely is not.
-    pub shortest_broken: Option<Witness>,
-}
-
-/// A run, and how many steps of it decide a question.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Witness {
-    /// Its steps.
-    pub steps: u64,
-    /// Its number, from 0.
-    pub run: u64,
-}
-
-/// A place would hold more tokens than can be counted.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Overflow {
-    /// The number of the run.
-    pub run: u64,
-    /// What fires.
-    pub transition: TransitionId,
-    /// The place.
-    pub place: PlaceId,
-}
-
-impl fmt::Display for Overflow {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "in run {} a place comes to more than {} tokens", self.run, u32::MAX)
-    }
-}
-
-impl std::error::Error for Overflow {}
-
-impl Drawn {
-    pub(super) fn none(questions: usize) -> Self {
-        Self { runs: 0, steps: 0, tallies: vec![Tally::default(); questions] }
-    }
-
-    /// Adds what came of other runs.
-    pub(super) fn add(&mut self, other: &Self) {
-        let shorter = |a: Option<Witness>, b: Option<Witness>| a.into_iter().chain(b).min();
-        self.runs += other.runs;
-        self.steps += other.steps;
-        for (it, more) in self.tallies.iter_mut().zip(&other.tallies) {
-            it.holding += more.holding;
-            it.open += more.open;
-            it.shortest_holding = shorter(it.shortest_holding, more.shortest_holding);
-            it.shortest_broken = shorter(it.shortest_broken, more.shortest_broken);
-        }
-    }
-}
-
-impl Tally {
-    fn add(&mut self, asked: &Asked<'_>, judged: Judged, seen: Witness) {
-        let shorter = |it: Option<Witness>| Some(it.map_or(seen, |it| it.min(seen)));
-        match judged {
-            Judged::Holds => {
-                self.holding += 1;
-                self.shortest_holding = shorter(self.shortest_holding);
-            }
-            Judged::Broken => self.shortest_broken = shorter(self.shortest_broken),
-            Judged::Open => {
-                self.open += 1;
-                self.holding += u64::from(asked.holds_so_far());
-            }
-        }
-    }
-}
-
-/// One run to be drawn.
-pub(super) struct Run {
-    pub(super) number: u64,
-    pub(super) most: u64,
-    pub(super) stream: Stream,
-}
-
-/// A marking and what is enabled in it.
+/// Where a run is among markings that are not remembered.
 pub(super) struct Walk<'n> {
     net: &'n Pt,
-    now: State,
-    start: State,
-}
-
-#[derive(Clone)]
-struct State {
     marking: Vec<u32>,
     /// Of each transition how many places lack what it needs of them.
     lacking: Vec<u32>,
-    /// The enabled transitions, in the order in which they came to be so.
-    enabled: Vec<u32>,
-    /// Of each enabled transition its place among them.
-    at: Vec<u32>,
+    /// A bit for each transition that lacks nothing, and how many there are.
+    enabled: Vec<u64>,
+    count: u64,
 }
 
 impl<'n> Walk<'n> {
     pub(super) fn new(net: &'n Pt) -> Self {
         let count = net.transitions.len();
-        let mut start = State {
+        Self {
+            net,
             marking: net.initial.clone(),
             lacking: vec![0; count],
-            enabled: Vec::with_capacity(count),
-            at: vec![0; count],
-        };
-        for transition in 0..count as u32 {
-            let lacks = |it: &&(u32, u32)| net.initial[it.0 as usize] < it.1;
-            let lacking = net.needs.of(transition).iter().filter(lacks).count() as u32;
-            start.lacking[transition as usize] = lacking;
+            enabled: vec![0; count.div_ceil(64)],
+            count: 0,
+        }
+    }
+
+    /// Begins in a marking.
+    pub(super) fn begin(&mut self, marking: &[u32]) {
+        self.marking.copy_from_slice(marking);
+        self.enabled.fill(0);
+        self.count = 0;
+        for transition in 0..self.lacking.len() as u32 {
+            let lacks = |it: &&(u32, u32)| marking[it.0 as usize] < it.1;
+            let lacking = self.net.needs.of(transition).iter().filter(lacks).count() as u32;
+            self.lacking[transition as usize] = lacking;
             if lacking == 0 {
-                start.enable(transition);
+                self.flip(transition);
+                self.count += 1;
             }
         }
-        Self { net, now: start.clone(), start }
     }
 
-    /// Draws a run from the start and counts what it shows; how many transitions fired.
-    pub(super) fn run(
-        &mut self,
-        asked: &[Asked<'_>],
-        run: Run,
-        judged: &mut [Judged],
-        tallies: &mut [Tally],
-    ) -> Result<u64, Overflow> {
-        self.now.copy(&self.start);
-        judged.fill(Judged::Open);
-        let Run { number, most, mut stream } = run;
-        let (mut steps, mut open) = (0, asked.len());
-        loop {
-            let is_dead = self.now.enabled.is_empty();
-            for ((asked, judged), tally) in asked.iter().zip(&mut *judged).zip(&mut *tallies) {
-                if *judged == Judged::Open {
-                    *judged = asked.sees(&self.now.marking, is_dead);
-                    if *judged != Judged::Open {
-                        tally.add(asked, *judged, Witness { steps, run: number });
-                        open -= 1;
-                    }
+    pub(super) fn marking(&self) -> &[u32] {
+        &self.marking
+    }
+
+    pub(super) fn is_dead(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Fires one of the enabled transitions, all equally likely; none in a deadlock.
+    #[inline]
+    pub(super) fn step(&mut self, stream: &mut Stream) -> Option<Result<u32, Overflow>> {
+        let mut left = stream.below(self.count);
+        for (word, base) in self.enabled.iter().zip((0_u32..).step_by(64)) {
+            let here = u64::from(word.count_ones());
+            if left < here {
+                let mut word = *word;
+                for _ in 0..left {
+                    word &= word - 1;
                 }
+                let transition = base + word.trailing_zeros();
+                return Some(self.fire(transition).map(|()| transition));
             }
-            if open == 0 || steps == most {
-                break;
-            }
-            let Some(next) = self.choose(&mut stream) else { break };
-            self.fire(next).map_err(|place| {
-                let (transition, place) = (TransitionId(next), PlaceId(place));
-                Overflow { run: number, transition, place }
+            left -= here;
+        }
+        None
+    }
+
+    fn fire(&mut self, transition: u32) -> Result<(), Overflow> {
+        let net = self.net;
+        for &(place, change) in net.effects.of(transition) {
+            let before = self.marking[place as usize];
+            let after = u32::try_from(i64::from(before) + change).map_err(|_| {
+                let (transition, place) = (TransitionId(transition), PlaceId(place));
+                Overflow { run: 0, transition, place }
             })?;
-            steps += 1;
-        }
-        for ((asked, judged), tally) in asked.iter().zip(&*judged).zip(&mut *tallies) {
-            if *judged == Judged::Open {
-                tally.add(asked, Judged::Open, Witness { steps, run: number });
-            }
-        }
-        Ok(steps)
-    }
-
-    /// One of the enabled transitions, all equally likely; none in a deadlock.
-    #[inline]
-    pub(super) fn choose(&self, stream: &mut Stream) -> Option<u32> {
-        let number = stream.below(self.now.enabled.len() as u64);
-        self.now.enabled.get(number as usize).copied()
-    }
-
-    /// Fires an enabled transition, or says which place would overflow.
-    #[inline]
-    pub(super) fn fire(&mut self, transition: u32) -> Result<(), u32> {
-        for &(place, change) in self.net.effects.of(transition) {
-            let before = self.now.marking[place as usize];
-            let after = u32::try_from(i64::from(before) + change).map_err(|_| place)?;
-            self.now.marking[place as usize] = after;
-            for &(consumer, need) in self.net.consumers.of(place) {
+            self.marking[place as usize] = after;
+            for &(consumer, need) in net.consumers.of(place) {
                 match (before >= need, after >= need) {
-                    (true, false) => self.now.lack(consumer),
-                    (false, true) => self.now.supply(consumer),
+                    (true, false) => self.lack(consumer),
+                    (false, true) => self.supply(consumer),
                     _ => {}
                 }
             }
         }
         Ok(())
-    }
-}
-
-impl State {
-    fn copy(&mut self, other: &Self) {
-        self.marking.copy_from_slice(&other.marking);
-        self.lacking.copy_from_slice(&other.lacking);
-        self.at.copy_from_slice(&other.at);
-        self.enabled.clear();
-        self.enabled.extend_from_slice(&other.enabled);
-    }
-
-    fn enable(&mut self, transition: u32) {
-        self.at[transition as usize] = self.enabled.len() as u32;
-        self.enabled.push(transition);
     }
 
     /// One place more lacks what a transition needs.
@@ -226,11 +97,8 @@ impl State {
         let lacking = &mut self.lacking[transition as usize];
         *lacking += 1;
         if *lacking == 1 {
-            let at = self.at[transition as usize];
-            self.enabled.swap_remove(at as usize);
-            if let Some(&moved) = self.enabled.get(at as usize) {
-                self.at[moved as usize] = at;
-            }
+            self.count -= 1;
+            self.flip(transition);
         }
     }
 
@@ -240,7 +108,13 @@ impl State {
         let lacking = &mut self.lacking[transition as usize];
         *lacking -= 1;
         if *lacking == 0 {
-            self.enable(transition);
+            self.count += 1;
+            self.flip(transition);
         }
+    }
+
+    #[inline]
+    fn flip(&mut self, transition: u32) {
+        self.enabled[transition as usize / 64] ^= 1 << (transition % 64);
     }
 }

@@ -107,7 +107,8 @@ fn a_deadlock_decides_what_more_steps_would_not_change() {
         assert!((400..600).contains(&tails));
         let way = Witness { steps: 1, ..ended.shortest_holding.unwrap() };
         assert_eq!((ended.shortest_holding, ended.shortest_broken.unwrap().steps), (Some(way), 1));
-        let by_tails = if holds_with_heads { spins.shortest_broken } else { spins.shortest_holding };
+        let by_tails =
+            if holds_with_heads { spins.shortest_broken } else { spins.shortest_holding };
         assert_eq!(by_tails, None);
     }
 }
