@@ -22,6 +22,8 @@ use std::path::Path;
 use store::Store;
 
 mod merge;
+#[cfg(feature = "parquet")]
+mod parquet;
 mod progress;
 mod store;
 
@@ -233,6 +235,8 @@ fn write(
         row.fault_file = Some(path.display().to_string());
     }
     let page = report::campaign::html(header, campaign, tally, findings, confidence);
+    #[cfg(feature = "parquet")]
+    parquet::write(folder, tally.runs)?;
     let path = folder.join("index.html");
     output::file(&path, page.as_bytes())?;
     answer.report = Some(path.display().to_string());

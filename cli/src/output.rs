@@ -152,16 +152,26 @@ pub(crate) fn file(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     if path.metadata().is_ok_and(|there| !there.is_file()) {
         return fs::write(path, bytes).map_err(|error| unwritten(path, &error));
     }
+    replaced(path, |file| write_to(file, bytes).map_err(|error| unwritten(path, &error)))
+}
+
+/// Writes a file piece by piece under another name in the same folder, which then takes the place
+/// of the old file; where that fails, whatever stood there before still does.
+pub(crate) fn replaced(
+    path: &Path,
+    write: impl FnOnce(&mut fs::File) -> Result<(), Failure>,
+) -> Result<(), Failure> {
     let mut temporary = std::ffi::OsString::from(".");
     temporary.push(path.file_name().unwrap_or_default());
     temporary.push(format!(".{}.part", std::process::id()));
     let temporary = folder_of(path).join(temporary);
+    let wrong = |error: io::Error| unwritten(path, &error);
     let whole = fs::File::create(&temporary)
-        .and_then(|mut file| write_to(&mut file, bytes))
-        .and_then(|()| fs::rename(&temporary, path));
-    whole.map_err(|error| {
+        .map_err(wrong)
+        .and_then(|mut file| write(&mut file))
+        .and_then(|()| fs::rename(&temporary, path).map_err(wrong));
+    whole.inspect_err(|_| {
         let _ = fs::remove_file(&temporary);
-        unwritten(path, &error)
     })
 }
 

@@ -91,10 +91,8 @@ impl<'n> Asked<'n> {
     fn of(formula: &Formula, negated: bool, net: &'n Pt) -> Option<Self> {
         let (wants, path) = match (formula, negated) {
             (Formula::Not(inner), _) => return Self::of(inner, !negated, net),
-            (Formula::All(path), false) => (Wants::All, path),
-            (Formula::Exists(path), false) => (Wants::Some, path),
-            (Formula::All(path), true) => (Wants::Some, path),
-            (Formula::Exists(path), true) => (Wants::All, path),
+            (Formula::All(path), false) | (Formula::Exists(path), true) => (Wants::All, path),
+            (Formula::Exists(path), false) | (Formula::All(path), true) => (Wants::Some, path),
             _ => return None,
         };
         let state = |it: &Formula| State::new(it, negated, net);
