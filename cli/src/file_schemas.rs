@@ -8,7 +8,7 @@ mod parts;
 
 use cotama_core::hardware::{MAX_KINDS, MAX_UNITS};
 use cotama_models::cotama::{Configuration, FailureMode, Module};
-use cotama_models::missions::faults::{self, Answer, Moment};
+use cotama_models::missions::faults::{self, Act, Answer, Moment};
 use cotama_models::missions::known::{
     AT_LEAST_ZERO, ENERGIES, EVENTS, INCIDENTS, NAME_LENGTHS, NEEDED_UNITS, OBJECTIVES, PER_KM,
     PERIODS, POSITIVE, POWER_ERRORS, QUALITIES, RANDOM_EVENTS, ROUNDINGS, SPEEDS, UNITS,
@@ -262,20 +262,25 @@ fn happenings() -> [(&'static str, Value); 3] {
 }
 
 /// What an event has beside its place and its kind.
-fn details() -> [(&'static str, Value); 15] {
+fn details() -> [(&'static str, Value); 17] {
     let modes: Vec<_> = FailureMode::ALL.iter().map(|it| it.name()).collect();
     let modules: Vec<_> = Module::ALL.iter().map(|it| it.name()).collect();
     let states = Moment::STATES.map(|it| it.0);
+    let acts: Vec<_> = Act::all().map(|it| it.to_string()).collect();
+    let acts: Vec<_> = acts.iter().map(String::as_str).collect();
+    let act = "this transition of the supervisors fires for the first time";
     let (place, time) = ("where it ends, in mm", "when it ends, in ms after the start");
     let state = "the local supervisor comes to this place for the first time";
     [
         ("t_ms", integer(&AT_LEAST_ZERO, "in place of `x_mm`: when it fails, in ms")),
         ("during", choice(&states, &format!("in place of `x_mm`: {state}"))),
-        ("after_ms", integer(&AT_LEAST_ZERO, "beside `during`: so long after that, in ms")),
+        ("fired", choice(&acts, &format!("in place of `x_mm`: {act}"))),
+        ("after_ms", integer(&AT_LEAST_ZERO, "beside `during` or `fired`: so long after, in ms")),
         ("until_x_mm", integer(&AT_LEAST_ZERO, place)),
         ("until_t_ms", integer(&AT_LEAST_ZERO, time)),
         ("until_during", choice(&states, &format!("it ends when {state}"))),
-        ("until_after_ms", integer(&AT_LEAST_ZERO, "beside `until_during`: so long after that")),
+        ("until_fired", choice(&acts, &format!("it ends when {act}"))),
+        ("until_after_ms", integer(&AT_LEAST_ZERO, "so long after `until_during`, `until_fired`")),
         ("module", choice(&modules, "of a failure of one module, whichever it is: which one")),
         ("delay_ms", integer(&AT_LEAST_ZERO, "how long the robot or the operator waits, in ms")),
         ("extra_mm", integer(&POSITIVE, "so much more path to drive, in mm")),
@@ -315,15 +320,20 @@ fn event() -> Value {
 /// A failure names its mode, and can name its module, and when it begins and ends.
 fn fails(keys: &[&str]) -> Value {
     let own = |key: &&str| {
-        ["mode", "module", "t_ms", "during", "after_ms"].contains(key) || key.starts_with("until_")
+        ["mode", "module", "t_ms", "during", "fired", "after_ms"].contains(key)
+            || key.starts_with("until_")
     };
     let others: Vec<_> = keys.iter().copied().filter(|it| !own(it)).collect();
     let once = json!({ "oneOf": [
         { "required": ["x_mm"] }, { "required": ["t_ms"] }, { "required": ["during"] },
+        { "required": ["fired"] },
     ] });
     let then = both(&json!({ "required": ["mode"] }), &both(&absent(&others), &once));
+    let one_of =
+        |first, second| json!({ "anyOf": [{ "required": [first] }, { "required": [second] }] });
     let since = json!({ "dependencies": {
-        "after_ms": ["during"], "until_after_ms": ["until_during"],
+        "after_ms": one_of("during", "fired"),
+        "until_after_ms": one_of("until_during", "until_fired"),
     } });
     when(&says("kind", &["failure"]), &both(&then, &since))
 }

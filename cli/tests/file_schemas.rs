@@ -199,6 +199,7 @@ fn an_event_has_the_keys_that_the_reader_knows_for_its_kind() {
         (0, point, "failure", "mode = \"SON1\""),
         (0, "[[event]]\nt_ms = 1\n", "failure", "mode = \"SON1\""),
         (0, "[[event]]\nduring = \"HandOver\"\n", "failure", "mode = \"SON1\""),
+        (0, "[[event]]\nfired = \"permit.revoked\"\n", "failure", "mode = \"SON1\""),
         (0, point, "operator", "answers = [\"give_up\"]\ndelay_ms = 0"),
         (1, random, "obstacle", "delay_ms = 3"),
         (1, random, "odometry", "extra_mm = 3"),
@@ -210,7 +211,7 @@ fn an_event_has_the_keys_that_the_reader_knows_for_its_kind() {
         assert_eq!(wrong(&validator, &file(&text)), [""; 0], "{text}");
         // Each key that the reader knows is needed, and so it is by the schema.
         let known = known(&nonsense);
-        // A failure names its module and its end if it likes, and its moment in one of three ways.
+        // A failure names its module and its end if it likes, and its moment in one of four ways.
         let is_needed = |it: &&String| {
             kind != "failure" || ["kind", "mode"].contains(&it.as_str()) || start.contains(*it)
         };

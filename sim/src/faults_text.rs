@@ -81,6 +81,9 @@ fn moment(text: &mut String, before: &str, when: Moment) {
             let name = Moment::state_name(state).unwrap_or("");
             writeln!(text, "{before}during = \"{name}\"\n{before}after_ms = {}", after.0)
         }
+        Moment::Fired(act, after) => {
+            writeln!(text, "{before}fired = \"{act}\"\n{before}after_ms = {}", after.0)
+        }
     };
 }
 

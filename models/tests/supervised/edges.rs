@@ -106,6 +106,7 @@ fn moments_are_sorted_by_place_then_time_then_state() {
     let mission = delivery_with(&[]).unwrap();
     let text = r#"format = "panorama-faults/1"
         event = [
+            { fired = "permit.revoked", kind = "failure", mode = "RT1" },
             { during = "Teleprogrammed", after_ms = 1, kind = "failure", mode = "RT1" },
             { during = "Following", after_ms = 2, kind = "failure", mode = "RT1" },
             { during = "Planning", after_ms = 4, kind = "failure", mode = "RT1" },
@@ -126,7 +127,32 @@ fn moments_are_sorted_by_place_then_time_then_state() {
             "0.004 s after Planning is first reached",
             "0.002 s after Following is first reached",
             "0.001 s after Teleprogrammed is first reached",
+            "0.000 s after permit.revoked first fires",
         ]
+    );
+}
+
+#[test]
+fn a_moment_is_said_once_and_names_what_the_supervisors_do() {
+    let mission = delivery_with(&[]).unwrap();
+    let said = |event: &str| {
+        let text = format!("format = \"panorama-faults/1\"\n[[event]]\n{event}\n");
+        let text = format!("{text}kind = \"failure\"\nmode = \"RT1\"\n");
+        Faults::parse("faults.toml", &text, &mission).unwrap_err().to_string()
+    };
+    assert_eq!(
+        said("fired = \"permit.revokd\""),
+        "faults.toml:3:9: unknown transition of the supervisors `permit.revokd`; did you mean \
+         `permit.revoked`?\n  help: write `permit.revoked`"
+    );
+    let several = "faults.toml:4:8: one of `x_mm`, `t_ms`, `during` and `fired` says when, not \
+        several\n  help: leave out all but one";
+    assert_eq!(said("during = \"Planning\"\nfired = \"ls.l3\""), several.replace("4:8", "3:10"));
+    assert_eq!(said("fired = \"ls.l3\"\nt_ms = 3"), several);
+    assert_eq!(
+        said("t_ms = 3\nafter_ms = 3"),
+        "faults.toml:4:12: `after_ms` is counted from what the supervisors do\n  \
+         help: add `during` or `fired`, or write `t_ms`"
     );
 }
 

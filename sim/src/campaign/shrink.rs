@@ -186,6 +186,9 @@ fn moments(when: When) -> Vec<When> {
         When::During(state, after) => {
             round(after.0, 0).into_iter().map(|it| When::During(state, Millis(it))).collect()
         }
+        When::Fired(act, after) => {
+            round(after.0, 0).into_iter().map(|it| When::Fired(act, Millis(it))).collect()
+        }
     };
     start.into_iter().chain(rounder).collect()
 }

@@ -259,6 +259,7 @@ impl Space {
             When::During(state, after) => {
                 When::During(state, Millis(after.0 + 1 + stream.below(60_000)))
             }
+            When::Fired(act, after) => When::Fired(act, Millis(after.0 + 1 + stream.below(60_000))),
         }
     }
 

@@ -11,7 +11,7 @@ use super::monitor::Watching;
 use super::operator::Operator;
 use super::plan::{Planning, Progress};
 use super::robot::Robot;
-use super::{Conduct, Injection, Planted, Run, Script, Supervised, When, shipped};
+use super::{Conduct, Fired, Injection, Planted, Run, Script, Supervised, When, shipped};
 use crate::options::Planner;
 use crate::run::{LONGEST, NoPlan, Outcome, PlanCause};
 use cotama_core::net::Net;
@@ -23,6 +23,7 @@ use cotama_models::cotama::{
     local, recovering,
 };
 use cotama_models::missions::Mission;
+use cotama_models::missions::faults::Act;
 use objective::Objective;
 
 mod motion;
@@ -64,6 +65,12 @@ impl Failure {
         let scheduler = self.mode == FailureMode::Sw1 && self.part.has(Module::Sch);
         if scheduler && !self.over { Motion::Mindless } else { effect(self.mode).motion }
     }
+}
+
+/// When a transition fired for the first time.
+fn first_fired(fired: &[Fired], act: Act) -> Option<Millis> {
+    let is = |it: &&Fired| it.net == act.net && it.transition == act.transition;
+    fired.iter().find(is).map(|it| it.at)
 }
 
 /// A mission under way.
@@ -252,12 +259,15 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
 
     /// What is to fail now fails.
     fn fail(&mut self) {
-        let (now, x, first) = (self.now, self.robot.x(), &self.first);
+        let (now, x, first, fired) = (self.now, self.robot.x(), &self.first, &self.run.fired);
         let due = |when: When| match when {
             When::At(at) => now >= at,
             When::Place(place) => x >= place,
             When::During(state, after) => {
                 first.iter().any(|(it, since)| *it == state && now.0 >= since.0 + after.0)
+            }
+            When::Fired(act, after) => {
+                first_fired(fired, act).is_some_and(|since| now.0 >= since.0 + after.0)
             }
         };
         let (fail, wait) = self.waiting.iter().partition::<Vec<_>, _>(|it| due(it.when));

@@ -7,6 +7,7 @@ mod answers;
 mod crashes;
 mod ends;
 mod matrix;
+mod moments;
 mod observers;
 mod other_missions;
 mod pairs;

@@ -139,6 +139,7 @@ fn words(script: &Script) -> String {
             When::At(time) => format!("at {} s", time.0 / 1_000),
             When::Place(place) => format!("at {} m", place.0 / 1_000),
             When::During(place, _) => format!("in {place:?}"),
+            When::Fired(act, _) => format!("after {act}"),
         };
         let until = match it.until {
             Some(When::Place(place)) => format!(" to {} m", place.0 / 1_000),

@@ -1,7 +1,7 @@
 //! What happens during a run that only supervisors can deal with: failures that observers have to
 //! find, and what the operator answers when the robot asks.
 
-use crate::cotama::{Configuration, FailureMode, Module, local};
+use crate::cotama::{Configuration, FailureMode, Module, local, recovering};
 use cotama_core::units::{Millimetres, Millis};
 
 /// Something that happens once to a supervised mission.
@@ -33,6 +33,49 @@ pub enum Moment {
     At(Millis),
     /// So long after the local supervisor has come to a place for the first time.
     During(local::State, Millis),
+    /// So long after a transition of the supervisors has fired for the first time.
+    Fired(Act, Millis),
+}
+
+/// A transition of the supervisors. Those of the global one are its mission's, and are not named.
+///
+/// ```
+/// use cotama_models::missions::faults::Act;
+/// let revoked = Act::named("permit.revoked").unwrap();
+/// assert_eq!((revoked.net, revoked.transition), ("permit", "revoked"));
+/// assert!(Act::all().any(|it| it == revoked));
+/// assert_eq!(Act::named("gs.g1"), None);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Act {
+    /// The net.
+    pub net: &'static str,
+    /// Its transition.
+    pub transition: &'static str,
+}
+
+impl Act {
+    /// All, in the order of the nets.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        let of_supervisors = |net: &str| !["gs", "faults", "operator"].contains(&net);
+        let components = recovering::SYSTEM.components.iter();
+        components.filter(move |it| of_supervisors(it.name)).flat_map(|it| {
+            let transitions = it.net.transitions.iter();
+            transitions.map(|transition| Self { net: it.name, transition: transition.name })
+        })
+    }
+
+    /// The one of this name, as `permit.revoked`.
+    pub fn named(name: &str) -> Option<Self> {
+        let (net, transition) = name.split_once('.')?;
+        Self::all().find(|it| it.net == net && it.transition == transition)
+    }
+}
+
+impl std::fmt::Display for Act {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}.{}", self.net, self.transition)
+    }
 }
 
 impl Moment {
@@ -56,6 +99,7 @@ impl Moment {
             Self::Place(x) => (0, x.0),
             Self::At(time) => (1, time.0),
             Self::During(state, after) => (2 + state as u8, after.0),
+            Self::Fired(_, after) => (u8::MAX, after.0),
         }
     }
 }
@@ -70,6 +114,7 @@ impl std::fmt::Display for Moment {
                 let name = Self::state_name(state).unwrap_or("rest");
                 write!(f, "{} after {name} is first reached", seconds(after))
             }
+            Self::Fired(act, after) => write!(f, "{} after {act} first fires", seconds(after)),
         }
     }
 }

@@ -5,7 +5,7 @@ use cotama_core::units::{Millimetres, Millis};
 
 mod incidents;
 
-pub use incidents::{Answer, Incident, IncidentKind, Moment};
+pub use incidents::{Act, Answer, Incident, IncidentKind, Moment};
 
 /// The format that a file of faults must name.
 pub const FORMAT: &str = "panorama-faults/1";

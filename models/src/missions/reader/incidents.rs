@@ -15,9 +15,9 @@ pub(super) fn is_incident(fields: &Fields<'_>, kind: &str) -> bool {
     INCIDENTS.contains(&kind) || (kind == "repair" && fields.has("mode"))
 }
 
-/// Whether an event says a time or a place of the local supervisor, not a place of the path.
+/// Whether an event says a time or what the supervisors do, not a place of the path.
 pub(super) fn is_timed(fields: &Fields<'_>) -> bool {
-    fields.has("t_ms") || fields.has("during")
+    ["t_ms", "during", "fired"].into_iter().any(|key| fields.has(key))
 }
 
 /// The module of a failure of one module, if it is named.

@@ -195,6 +195,7 @@ fn move_it(fault: &mut Fault, space: &Space, stream: &mut Stream) {
                 When::Place(x) => When::Place(Millimetres(near(x.0, space.path_mm, stream))),
                 When::At(it) => When::At(Millis(near(it.0, space.time_ms, stream))),
                 When::During(state, it) => When::During(state, Millis(near(it.0, 60_000, stream))),
+                When::Fired(act, it) => When::Fired(act, Millis(near(it.0, 60_000, stream))),
             };
         }
         Fault::Event(it) => {

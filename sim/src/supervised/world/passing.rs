@@ -5,7 +5,7 @@
 //! takes each period by itself; both come to the same, which is a test.
 
 use super::objective::Objective;
-use super::{CLOCKS, Failure, PERIOD, World};
+use super::{CLOCKS, Failure, PERIOD, World, first_fired};
 use crate::run::LONGEST;
 use crate::supervised::effect::{Ends, FIRMWARE_WATCHDOG, Motion, effect};
 use crate::supervised::{PLANNING, When};
@@ -57,6 +57,10 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
                 let reached = self.first.iter().find(|it| it.0 == state);
                 Millis(reached.map_or(u64::MAX, |it| it.1.0.saturating_add(after.0)))
             }
+            When::Fired(act, after) => {
+                let since = first_fired(&self.run.fired, act);
+                Millis(since.map_or(u64::MAX, |it| it.0.saturating_add(after.0)))
+            }
         };
         let under_way = self
             .failures
@@ -104,6 +108,11 @@ impl<P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'_, P, W, S
             }
             When::During(state, after) => {
                 if let Some((_, since)) = self.first.iter().find(|it| it.0 == state) {
+                    until = until.min(since.0 + after.0);
+                }
+            }
+            When::Fired(act, after) => {
+                if let Some(since) = first_fired(&self.run.fired, act) {
                     until = until.min(since.0 + after.0);
                 }
             }
