@@ -171,10 +171,10 @@ Examples:
     Statespace(StatespaceArgs),
     /// Says how likely a random run of a model is as a property says
     ///
-    /// Runs are drawn: in each marking every enabled transition is equally likely, and time plays no
-    /// part. A run that shows a property or refutes it is a proof; a share of runs is none, whatever
-    /// its interval. Where there are too many states for `cotama check`, runs may still find what
-    /// is wrong.
+    /// Runs are drawn: in each marking every enabled transition is equally likely, and time plays
+    /// no part. A run that shows a property or refutes it is a proof; a share of runs is none,
+    /// whatever its interval. Where there are too many states for `cotama check`, runs may still
+    /// find what is wrong.
     #[command(after_long_help = estimate::ESTIMATE_EXAMPLES)]
     Estimate(EstimateArgs),
     /// Checks a certificate again, without the engine that found it

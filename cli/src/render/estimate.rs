@@ -48,8 +48,8 @@ pub(crate) fn screen(answer: &EstimateAnswer, texts: &[Option<String>], width: u
     }
     let confidence = answer.results.first().map_or(0.0, |it| it.probability.confidence);
     let assumed = format!(
-        "\nEach enabled transition is equally likely to fire. Intervals hold the truth of such runs \
-         at least {} times in 100.",
+        "\nEach enabled transition is equally likely to fire. Intervals hold the truth of such \
+         runs at least {} times in 100.",
         (100.0 * confidence * 1e4).round() / 1e4
     );
     text += &wrapped(&assumed, width, "");

@@ -12,6 +12,8 @@ pub mod compare;
 pub mod findings;
 pub mod observed;
 pub mod plan;
+#[cfg(feature = "proptest")]
+pub mod plans;
 pub mod rare;
 pub mod requirement;
 pub mod results;

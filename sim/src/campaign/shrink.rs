@@ -117,6 +117,28 @@ impl Search<'_> {
     }
 }
 
+/// The plans that one step makes of a plan: a part of it left out, or a fault made plainer.
+#[cfg(feature = "proptest")]
+pub(super) fn steps(plan: &Plan) -> Vec<Plan> {
+    let count = plan.faults.len();
+    let half = count.div_ceil(2);
+    let halves = [0..half, half..count].into_iter().filter(|it| count > 2 && !it.is_empty());
+    let without = |part: std::ops::Range<usize>| {
+        let mut less = plan.clone();
+        less.faults.drain(part);
+        less
+    };
+    let mut steps: Vec<_> = halves.chain((0..count).map(|at| at..at + 1)).map(without).collect();
+    for (at, fault) in plan.faults.iter().enumerate() {
+        for plainer in (0..PARTS).flat_map(|part| simpler(fault, part)) {
+            let mut less = plan.clone();
+            less.faults[at] = plainer;
+            steps.push(less);
+        }
+    }
+    steps
+}
+
 /// How many parts of a fault are made plainer, one after the other.
 const PARTS: usize = 4;
 

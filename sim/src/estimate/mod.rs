@@ -1,9 +1,9 @@
 //! How likely a random run of a net is as a property says: statistical model checking of nets.
 //!
-//! In each marking every enabled transition is equally likely to fire, and time plays no part. That
-//! is a choice, not a law of nature: an estimate speaks of runs drawn so. What a single run shows is
-//! certain whatever the choice: one run that breaks `AG p` refutes it, one that comes to `p` proves
-//! `EF p`.
+//! In each marking every enabled transition is equally likely to fire, and time plays no part.
+//! That is a choice, not a law of nature: an estimate speaks of runs drawn so. What a single run
+//! shows is certain whatever the choice: one run that breaks `AG p` refutes it, one that comes to
+//! `p` proves `EF p`.
 //!
 //! ```
 //! use cotama_models::nets::families::philosophers;

@@ -68,8 +68,8 @@ pub(super) enum Judged {
 }
 
 impl<'n> Asked<'n> {
-    /// A question to runs of a net: `AG p`, `EF p`, `AF p`, `EG p`, `A (p U q)`, `E (p U q)` of what
-    /// is about one marking, and the negation of one of the first four.
+    /// A question to runs of a net: `AG p`, `EF p`, `AF p`, `EG p`, `A (p U q)`, `E (p U q)` of
+    /// what is about one marking, and the negation of one of the first four.
     ///
     /// # Errors
     /// When it is another one.

@@ -1,10 +1,10 @@
 //! Plans whose failures are seen just when a supervisor acts.
 
-use super::uniform::of_run;
+use super::uniform::each;
 use super::{Draws, Strategy};
 use crate::campaign::plan::{Fault, Plan};
 use crate::campaign::space::Space;
-use crate::streams::{Stream, Streams};
+use crate::streams::Stream;
 
 /// Races.
 ///
@@ -29,29 +29,19 @@ pub struct Races;
 
 impl Strategy for Races {
     fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's> {
-        Box::new(Racing { space, streams: Streams::new(seed), run: first })
+        each(space, seed, first, racing)
     }
 }
 
-struct Racing<'s> {
-    space: &'s Space,
-    streams: Streams,
-    run: u64,
-}
-
-impl Draws for Racing<'_> {
-    fn next(&mut self) -> Plan {
-        let mut stream = of_run(self.streams, self.run);
-        self.run += 1;
-        let mut plan = self.space.draw(&mut stream, &self.space.kinds);
-        for it in &mut plan.faults {
-            if stream.below(4) > 0 {
-                race(it, self.space, &mut stream);
-            }
+fn racing(space: &Space, stream: &mut Stream) -> Plan {
+    let mut plan = space.draw(stream, &space.kinds);
+    for it in &mut plan.faults {
+        if stream.below(4) > 0 {
+            race(it, space, stream);
         }
-        answer(&mut plan, self.space, &mut stream);
-        plan
     }
+    answer(&mut plan, space, stream);
+    plan
 }
 
 /// The failure is seen about when a supervisor acts.

@@ -16,7 +16,7 @@ pub struct Swarm;
 
 impl Strategy for Uniform {
     fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's> {
-        Box::new(Independent { space, streams: Streams::new(seed), run: first, swarm: false })
+        each(space, seed, first, |space, stream| space.draw(stream, &space.kinds))
     }
 
     fn estimates(&self) -> bool {
@@ -26,7 +26,10 @@ impl Strategy for Uniform {
 
 impl Strategy for Swarm {
     fn block<'s>(&'s self, space: &'s Space, seed: u64, first: u64) -> Box<dyn Draws + 's> {
-        Box::new(Independent { space, streams: Streams::new(seed), run: first, swarm: true })
+        each(space, seed, first, |space, stream| {
+            let kinds = swarm(space, stream);
+            space.draw(stream, &kinds)
+        })
     }
 
     fn estimates(&self) -> bool {
@@ -34,22 +37,28 @@ impl Strategy for Swarm {
     }
 }
 
-struct Independent<'s> {
+/// Plans drawn one by one, each from the random numbers of its run.
+pub(super) fn each<'s>(
+    space: &'s Space,
+    seed: u64,
+    first: u64,
+    draw: fn(&Space, &mut Stream) -> Plan,
+) -> Box<dyn Draws + 's> {
+    Box::new(Each { space, streams: Streams::new(seed), run: first, draw })
+}
+
+struct Each<'s> {
     space: &'s Space,
     streams: Streams,
     run: u64,
-    swarm: bool,
+    draw: fn(&Space, &mut Stream) -> Plan,
 }
 
-impl Draws for Independent<'_> {
+impl Draws for Each<'_> {
     fn next(&mut self) -> Plan {
         let mut stream = of_run(self.streams, self.run);
         self.run += 1;
-        if !self.swarm {
-            return self.space.draw(&mut stream, &self.space.kinds);
-        }
-        let kinds = swarm(self.space, &mut stream);
-        self.space.draw(&mut stream, &kinds)
+        (self.draw)(self.space, &mut stream)
     }
 }
 
