@@ -29,15 +29,15 @@ fn share(it: Interval) -> String {
 /// How many plans only the one and only the other completes, what that is in points, and how likely
 /// it is if both are alike.
 fn points(it: &Difference) -> String {
-    let p = if it.p_value < 0.001 { "p < 0.001".into() } else { format!("p = {:.3}", it.p_value) };
+    let p = if it.p_value < 0.001 { "< 0.001".into() } else { format!("{:.3}", it.p_value) };
     let [low, high] = [it.success.low, it.success.high].map(|it| 100.0 * it);
-    format!("only it {}, only other {}: {low:.2} to {high:.2}, {p}", it.only_second, it.only_first)
+    format!("{} | {} | {low:.1} to {high:.1} | {p}", it.only_second, it.only_first)
 }
 
-/// A number in thousands of its unit, with its interval.
-fn thousand(it: Interval, digits: usize) -> String {
-    let [value, low, high] = [it.estimate, it.low, it.high].map(|it| it / 1_000.0);
-    format!("{value:.digits$} ({low:.digits$} to {high:.digits$})")
+/// A mean with its interval, which reaches as far to either side.
+fn mean(it: Interval, unit: f64, digits: usize) -> String {
+    let [value, half] = [it.estimate, (it.high - it.low) / 2.0].map(|it| it / unit);
+    format!("{value:.digits$} ± {half:.digits$}")
 }
 
 /// Those after the first against it: paired differences.
@@ -47,8 +47,8 @@ fn differences(text: &mut String, all: &[Compared]) {
         let against = it.against.as_ref().unwrap();
         let [time, energy, asked, _] = against.means;
         let success = points(&against.success);
-        let (time, energy) = (thousand(time, 1), thousand(energy, 2));
-        let asked = format!("{:.3} ({:.3} to {:.3})", asked.estimate, asked.low, asked.high);
+        let (time, energy) = (mean(time, 1_000.0, 1), mean(energy, 1_000.0, 1));
+        let asked = mean(asked, 1.0, 3);
         let line =
             format!("| {} against {first} | {success} | {time} | {energy} | {asked} |", it.name);
         writeln!(text, "{}", line.replace('-', "−")).unwrap();
@@ -63,9 +63,8 @@ fn rows(text: &mut String, name: &str, all: &[Compared]) {
         let [completed, safe, failed] = it.outcomes;
         assert_eq!(completed + safe + failed, RUNS);
         let [time, energy, asked, _] = it.means;
-        let asked = format!("{:.3} ({:.3} to {:.3})", asked.estimate, asked.low, asked.high);
-        let (name, share) = (&it.name, share(it.success));
-        let (time, energy) = (thousand(time, 1), thousand(energy, 1));
+        let (name, share, asked) = (&it.name, share(it.success), mean(asked, 1.0, 3));
+        let (time, energy) = (mean(time, 1_000.0, 1), mean(energy, 1_000.0, 1));
         let line =
             format!("| {name} | {share} | {safe} | {failed} | {time} | {energy} | {asked} |");
         writeln!(text, "{line}").unwrap();
@@ -93,8 +92,8 @@ fn policies_over_the_same_20_000_plans() {
     let mut text = String::new();
     rows(&mut text, "patrol", &all);
     rows(&mut text, "delivery", &delivery);
-    text += "| over the same plans | completed, points: McNemar | time, s | energy, J | asked |\n\
-             | --- | --- | --- | --- | --- |\n";
+    text += "| over the same plans | only it | only other | points | p | time, s | energy, J | asked |\n\
+             | --- | --- | --- | --- | --- | --- | --- | --- |\n";
     differences(&mut text, &all);
     differences(&mut text, &of_rule);
     differences(&mut text, &delivery);
