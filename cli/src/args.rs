@@ -18,7 +18,7 @@ pub(crate) use assign::AssignArgs;
 pub(crate) use campaign::{CampaignArgs, PolicyName};
 pub(crate) use check::{BudgetArgs, CheckArgs, EngineName, Semantics, StatespaceArgs, VerifyArgs};
 pub(crate) use conform::ConformArgs;
-pub(crate) use estimate::EstimateArgs;
+pub(crate) use estimate::{EstimateArgs, MOST_RUNS};
 pub(crate) use fitted::command;
 pub(crate) use fmeca::{FmecaArgs, FmecaFormat};
 pub(crate) use mission::{

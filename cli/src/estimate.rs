@@ -2,7 +2,7 @@
 
 use crate::answers::check::VerdictName;
 use crate::answers::estimate::{EstimateAnswer, EstimateRow};
-use crate::args::EstimateArgs;
+use crate::args::{EstimateArgs, MOST_RUNS};
 use crate::check::{explained, questions};
 use crate::exit::{Exit, Failure};
 use crate::output::Screen;
@@ -27,8 +27,13 @@ pub(crate) fn estimate(args: &EstimateArgs, screen: &Screen) -> Result<Exit, Fai
     let properties = properties.collect::<Result<Vec<_>, _>>()?;
     let asked = properties.iter().map(|it| asked(it, &subject)).collect::<Result<Vec<_>, _>>()?;
     let processors = || std::thread::available_parallelism().map_or(1, usize::from);
+    let runs = args.within.map_or(args.runs, |it| okamoto_runs(it, args.confidence));
+    if runs > MOST_RUNS {
+        let message = format!("that takes {runs} runs, and at most {MOST_RUNS} are drawn");
+        return Err(Failure::new(message).help("a larger --within takes fewer"));
+    }
     let all = Draw {
-        runs: args.within.map_or(args.runs, |it| okamoto_runs(it, args.confidence)),
+        runs,
         steps: args.steps,
         seed: args.seed,
         jobs: args.jobs.map_or_else(processors, |it| usize::try_from(it).unwrap_or(1)),

@@ -63,6 +63,7 @@ fn what_runs_cannot_say_is_refused() {
         ("door --untimed --property EF~Opne", "did you mean `Open`?"),
         ("door --untimed", "--property"),
         ("door --untimed --property EF~Open --runs 0", "a whole number from 1"),
+        ("door --untimed --property EF~Open --within 0.000001", "at most 1000000000 are drawn"),
     ] {
         let words: Vec<_> = line.split(' ').map(|it| it.replace('~', " ")).collect();
         let words: Vec<_> = ["estimate"].into_iter().chain(words.iter().map(|it| &**it)).collect();

@@ -15,6 +15,9 @@ Examples:
   $ cotama estimate watchdog --untimed --property 'AG !Fault' --within 0.02   # exit code 1
   $ cotama estimate delivery --property 'EF ls.End' --steps 500 --runs 200 --json";
 
+/// The most runs that are drawn.
+pub(crate) const MOST_RUNS: u64 = 1_000_000_000;
+
 #[derive(Args, Debug)]
 pub(crate) struct EstimateArgs {
     /// The name of a model that comes with the program, the path of a PNML, JSON or TINA (.net)
@@ -24,7 +27,7 @@ pub(crate) struct EstimateArgs {
     #[arg(long, value_name = "TEXT", required = true)]
     pub(crate) property: Vec<String>,
     /// How many runs are drawn
-    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, 1 << 40))]
+    #[arg(long, value_name = "N", default_value_t = 10_000, value_parser = whole(1, MOST_RUNS))]
     pub(crate) runs: u64,
     /// Draws so many runs that the estimate misses by at most this
     #[arg(long, value_name = "E", value_parser = share, conflicts_with = "runs")]
