@@ -122,20 +122,24 @@ impl System<'_> {
             return Some(SystemDefect::TooLong);
         }
         index.fill(self);
-        let defects = [
-            self.link_defect(index),
-            self.clear_defect(index),
-            self.binding_defect(index),
-            self.unbound(index),
-            self.changed_mailbox(index),
-            self.overfilled(index),
-        ];
-        let mut at = 0;
-        while at < defects.len() {
-            if defects[at].is_some() {
-                return defects[at];
-            }
-            at += 1;
+        // One after the other: later ones rely on what earlier ones have found to be there.
+        if let defect @ Some(_) = self.link_defect(index) {
+            return defect;
+        }
+        if let defect @ Some(_) = self.clear_defect(index) {
+            return defect;
+        }
+        if let defect @ Some(_) = self.binding_defect(index) {
+            return defect;
+        }
+        if let defect @ Some(_) = self.unbound(index) {
+            return defect;
+        }
+        if let defect @ Some(_) = self.changed_mailbox(index) {
+            return defect;
+        }
+        if let defect @ Some(_) = self.overfilled(index) {
+            return defect;
         }
         self.circle(index.chains)
     }

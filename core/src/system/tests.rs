@@ -75,6 +75,17 @@ fn linked<'s>(components: &'s [Component<'s>], links: &'s [Link]) -> System<'s> 
     System { name: "linked", doc: "", components, links, bindings: &[], clears: &[] }
 }
 
+/// Nothing is looked for in a net that is not there.
+#[test]
+fn a_link_from_a_net_that_is_not_there_is_said() {
+    let components = relays(2);
+    for from in [2, 3, u16::MAX] {
+        let links = [link(0, 1, 0, Delivery::Now), link(from, 1, 1, Delivery::Now)];
+        let defect = linked(&components, &links).defect();
+        assert_eq!(defect, Some(SystemDefect::UnknownId { list: "links", at: 1 }));
+    }
+}
+
 #[test]
 fn a_chain_of_eight_rendezvous_is_too_long_and_one_of_seven_is_not() {
     let components = relays(9);

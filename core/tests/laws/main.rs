@@ -7,6 +7,10 @@ mod by_the_player;
 #[path = "../common/draw.rs"]
 #[allow(unreachable_pub)] // the tests across the crates read it too
 mod draw;
+mod effort;
+#[path = "../common/effort.rs"]
+#[allow(unreachable_pub)] // as above
+mod efforts;
 mod missing;
 mod programs;
 mod random;

@@ -29,16 +29,16 @@ fn of<T>(component: usize, id: T) -> Of<T> {
 
 /// What a system is made of.
 #[derive(Debug)]
-struct Parts {
-    nets: Vec<OwnedNet>,
-    links: Vec<Link>,
-    bindings: Vec<Binding>,
-    clears: Vec<Clear>,
+pub(crate) struct Parts {
+    pub(crate) nets: Vec<OwnedNet>,
+    pub(crate) links: Vec<Link>,
+    pub(crate) bindings: Vec<Binding>,
+    pub(crate) clears: Vec<Clear>,
 }
 
 /// Two or three nets, with links, a flag of the first one that others share, pending places and
 /// mailboxes that are emptied.
-fn parts(random: &mut Random) -> Parts {
+pub(crate) fn parts(random: &mut Random) -> Parts {
     let count = 2 + random.below(2) as usize;
     let mut parts = Parts {
         nets: Vec::new(),
