@@ -28,6 +28,7 @@ import resource
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 
 sys.dont_write_bytecode = True
 from choice import CONST_MODULE, FEATURES, blamed, seeded, with_choice
@@ -37,6 +38,8 @@ import run as runs
 
 # Where this file appears, a run ends with the mutants that it has run.
 STOP = runs.WORK / "stop"
+# So many programs run at once.
+WORKERS = int(os.environ.get("WORKERS", "2"))
 # With them the tests are built.
 FEATURES_OF = {"cotama-core": ["--features", "alloc"]}
 
@@ -222,13 +225,9 @@ def main():
     print(f"seconds at most: {limits}", flush=True)
     counts = dict.fromkeys(COUNTS, 0)
     missed, killers = [], {}
-    for run, defect in enumerate(defects):
-        if defect.alone:
-            counts["not built"] += 1
-            continue
-        if not again and is_stopped(sample, run):
-            break
-        failure = None
+
+    def killer(defect):
+        """The program that kills, and the test that fails."""
         # Who killed the one before in this file is asked first.
         order = sorted(range(len(limits)), key=lambda it: it != killers.get(defect.file))
         for asked in order:
@@ -239,13 +238,25 @@ def main():
             )
             if failure:
                 killers[defect.file] = asked
+                return program, failure
+        return None
+
+    with ThreadPoolExecutor(WORKERS) as pool:
+        runs_of = [None if it.alone else pool.submit(killer, it) for it in defects]
+        for run, (defect, asked) in enumerate(zip(defects, runs_of)):
+            if not again and is_stopped(sample, run):
+                pool.shutdown(cancel_futures=True)
                 break
-        how = "too long" if failure == "time" else "caught" if failure else "missed"
-        counts[how] += 1
-        said = f"{program} {failure}" if failure else "missed"
-        print(f"{defect.file}:{defect.line}: {defect.what}: {said}", flush=True)
-        if not failure:
-            missed.append(defect)
+            if asked is None:
+                counts["not built"] += 1
+                continue
+            killed = asked.result()
+            how = "missed" if not killed else "too long" if killed[1] == "time" else "caught"
+            counts[how] += 1
+            said = " ".join(killed) if killed else "missed"
+            print(f"{defect.file}:{defect.line}: {defect.what}: {said}", flush=True)
+            if not killed:
+                missed.append(defect)
     print(f"done after {time.monotonic() - begin:.0f} s", flush=True)
     sample.write(len(found), counts, missed, again)
 

@@ -3,6 +3,9 @@
 mod claims;
 mod conformance;
 mod doc_examples;
+#[path = "../../core/tests/common/effort.rs"]
+#[allow(unreachable_pub)] // the core tests read it too
+mod efforts;
 mod first_program;
 mod greedy;
 mod once_wrong;

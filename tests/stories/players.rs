@@ -1,6 +1,7 @@
 //! The player against the textbook: on random nets and systems both do the same, firing by firing.
 
 mod limits;
+mod packed;
 mod seen;
 mod snapshots;
 mod steps;

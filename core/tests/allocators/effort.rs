@@ -69,7 +69,7 @@ fn small_problems_take_so_many_steps_whatever_the_budget() {
         }
         effort.next();
     }
-    effort.compare("effort_small_problems");
+    effort.compare("tests/golden/effort_small_problems.txt");
 }
 
 #[test]
@@ -86,7 +86,7 @@ fn missions_take_so_many_steps_with_memory_for_nodes_or_without() {
         exactly(&mut effort, &instance, &[Objective::Least(1)], 4_000, 0);
         effort.next();
     }
-    effort.compare("effort_missions");
+    effort.compare("tests/golden/effort_missions.txt");
 }
 
 #[test]
@@ -100,7 +100,7 @@ fn long_missions_take_so_many_steps() {
         exactly(&mut effort, &instance, &[Objective::MostQuality], 20_000, 200);
         effort.next();
     }
-    effort.compare("effort_long_missions");
+    effort.compare("tests/golden/effort_long_missions.txt");
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn the_rule_of_the_paper_looks_at_so_many_candidates() {
         }
         effort.next();
     }
-    effort.compare("effort_rule");
+    effort.compare("tests/golden/effort_rule.txt");
 }
 
 /// With memory that is enough and with memory that is not: how much it lacks.
@@ -154,5 +154,5 @@ fn the_front_has_the_same_plans_in_the_same_order() {
         }
         effort.next();
     }
-    effort.compare("effort_front");
+    effort.compare("tests/golden/effort_front.txt");
 }

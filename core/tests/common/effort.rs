@@ -58,13 +58,13 @@ impl Effort {
         }
     }
 
-    /// Compares with the golden file of this name.
+    /// Compares with a golden file.
     ///
     /// # Panics
     /// When it differs, or when instances are left that fill no line.
     #[track_caller]
-    pub fn compare(&self, name: &str) {
+    pub fn compare(&self, path: &str) {
         assert!(self.instances.is_multiple_of(self.each) && !self.text.is_empty());
-        cotama_golden::compare(format!("tests/golden/{name}.txt"), &self.text);
+        cotama_golden::compare(path, &self.text);
     }
 }

@@ -87,14 +87,14 @@ fn random_nets_have_so_many_classes_and_say_the_same_of_their_laws() {
             judged::<1>(&mut effort, &owned);
         }
     }
-    effort.compare("effort_laws");
+    effort.compare("tests/golden/effort_laws.txt");
 }
 
 /// Many timers at once: zones with many differences.
 #[test]
 fn nets_with_many_timers_have_so_many_classes() {
-    let (mut random, mut effort) = (Random(Draw::new(82)), Effort::new(20));
-    for _ in 0..200 {
+    let (mut random, mut effort) = (Random(Draw::new(82)), Effort::new(100));
+    for _ in 0..1_500 {
         let mut owned = OwnedNet::new("timers", "");
         for name in ["go", "stop", "last"] {
             owned.event(name, "").unwrap();
@@ -128,7 +128,7 @@ fn nets_with_many_timers_have_so_many_classes() {
         owned.laws.extend([OwnedLaw::DeadlockFree { end: None }, OwnedLaw::Deterministic]);
         judged::<1>(&mut effort, &owned);
     }
-    effort.compare("effort_timers");
+    effort.compare("tests/golden/effort_timers.txt");
 }
 
 /// Calls the story with the system of these parts.
@@ -168,7 +168,7 @@ fn random_systems_have_so_many_states_and_say_the_same_of_what_they_forget() {
         });
         effort.next();
     }
-    effort.compare("effort_systems");
+    effort.compare("tests/golden/effort_systems.txt");
 }
 
 /// One thing in a net is made wrong, or seems so.
@@ -256,7 +256,7 @@ fn what_is_wrong_with_a_net_is_found_and_said() {
         effort.note(&Packed::<2, 9>::alone(&net).map(|it| it.code().fingerprint));
         effort.next();
     }
-    effort.compare("effort_defects");
+    effort.compare("tests/golden/effort_defects.txt");
 }
 
 /// One thing in a system is made wrong, or seems so.
@@ -321,7 +321,7 @@ fn what_is_wrong_with_a_system_is_found_and_said() {
         });
         effort.next();
     }
-    effort.compare("effort_system_defects");
+    effort.compare("tests/golden/effort_system_defects.txt");
 }
 
 /// The steps of a net whose transitions are `T`.
@@ -356,5 +356,5 @@ fn steps_that_the_compiler_lists_are_those_of_a_net_on_the_heap() {
         }
         effort.next();
     }
-    effort.compare("effort_steps");
+    effort.compare("tests/golden/effort_steps.txt");
 }

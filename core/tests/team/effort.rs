@@ -59,7 +59,7 @@ fn small_teams_take_so_many_steps_whatever_the_budget_and_the_memory() {
         });
         effort.next();
     }
-    effort.compare("effort_small_teams");
+    effort.compare("tests/golden/effort_small_teams.txt");
 }
 
 #[test]
@@ -73,7 +73,7 @@ fn teams_of_up_to_twenty_robots_take_so_many_steps() {
         });
         effort.next();
     }
-    effort.compare("effort_teams");
+    effort.compare("tests/golden/effort_teams.txt");
 }
 
 /// More tasks that must be done than robots can do: who competes for whom.
@@ -88,7 +88,7 @@ fn conflicts_take_so_many_steps_and_name_the_same_tasks_and_robots() {
         });
         effort.next();
     }
-    effort.compare("effort_conflicts");
+    effort.compare("tests/golden/effort_conflicts.txt");
 }
 
 /// All that memory tells after an assignment.
@@ -121,7 +121,7 @@ fn assignments_bottlenecks_and_coalitions_are_the_same_with_prices_and_conflicts
         told(&mut effort, &costs, &memory);
         effort.next();
     }
-    effort.compare("effort_assignments");
+    effort.compare("tests/golden/effort_assignments.txt");
 }
 
 #[test]
@@ -152,5 +152,5 @@ fn coalitions_and_greedy_rounds_are_the_same_robot_by_robot() {
         });
         effort.next();
     }
-    effort.compare("effort_rounds");
+    effort.compare("tests/golden/effort_rounds.txt");
 }
