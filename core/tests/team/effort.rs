@@ -91,6 +91,31 @@ fn conflicts_take_so_many_steps_and_name_the_same_tasks_and_robots() {
     effort.compare("tests/golden/effort_conflicts.txt");
 }
 
+/// As many robots as roles, or hardly more, and most of them can do little: a first solution is hard
+/// to find.
+#[test]
+fn tasks_that_need_nearly_all_robots_take_so_many_steps() {
+    let (mut draw, mut effort) = (Draw::new(76), Effort::new(50));
+    for _ in 0..1_000 {
+        let tasks = draw.between(3, 6) as usize;
+        let kind = Kind {
+            robots: 2 * tasks + draw.between(0, 2) as usize,
+            tasks,
+            must: [100, 100, 80][draw.between(0, 2) as usize],
+            missing: draw.between(40, 75),
+            plans: draw.between(1, 2),
+            largest: false,
+            ..drawn(&mut draw, (4, 12), (3, 8))
+        };
+        team(&mut draw, kind).with(|team| {
+            solve::<14>(&mut effort, team, 1_000, 300_000);
+            solve::<14>(&mut effort, team, 60, 5_000);
+        });
+        effort.next();
+    }
+    effort.compare("tests/golden/effort_tight_teams.txt");
+}
+
 /// All that memory tells after an assignment.
 fn told<N: Amount>(effort: &mut Effort, costs: &Costs<'_>, memory: &Memory<'_, N>) {
     for row in 0..costs.rows() {
