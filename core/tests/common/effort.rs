@@ -43,6 +43,12 @@ impl Effort {
         write!(self.digest, "{what:?};").expect("a digest takes all");
     }
 
+    /// How many instances have ended.
+    #[allow(dead_code)] // not all families ask
+    pub const fn instances(&self) -> usize {
+        self.instances
+    }
+
     /// An instance ends.
     pub fn next(&mut self) {
         self.instances += 1;

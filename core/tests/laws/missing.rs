@@ -2,17 +2,22 @@
 
 use crate::draw::Draw;
 use crate::random::{Random, net};
-use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet};
-use cotama_core::net::{Culprit, EventId, PlaceId, judge};
+use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
+use cotama_core::net::{Culprit, EventId, PlaceId, Role, judge};
 use cotama_core::player::Packed;
 
 const NETS: usize = 12_000;
 
 /// What the compiler would say when a net forgets an event.
 fn said(owned: &OwnedNet) -> Option<String> {
+    said_of::<1>(owned)
+}
+
+/// The same of a net of so many words.
+fn said_of<const W: usize>(owned: &OwnedNet) -> Option<String> {
     let view = owned.view();
     let net = view.net();
-    let packed = Packed::<1, 9>::alone(&net).unwrap();
+    let packed = Packed::<W, 9>::alone(&net).unwrap();
     match judge(&net, &packed.code()) {
         Err(violation) if matches!(violation.culprit, Culprit::Unanswered { .. }) => {
             let mut text = String::new();
@@ -78,4 +83,34 @@ fn what_is_to_be_pasted_makes_random_nets_handle_all_events() {
     }
     assert!(several > 1_000 && one > 100 && nowhere > 100, "{several} {one} {nowhere}");
     assert!(guarded > 20, "{guarded}");
+}
+
+/// Of 35 places in each of which `go` is used while a flag is set, and forgotten otherwise, 32 are
+/// told with the flag; the rest without.
+#[test]
+fn of_many_places_that_want_a_guard_the_first_32_are_told_with_it() {
+    let places = 35;
+    let mut owned = OwnedNet::new("many", "");
+    for at in 0..places {
+        let place = OwnedPlace::new(&format!("P{at}"), u32::from(at == 0)).at_most(1);
+        owned.place(place).unwrap();
+    }
+    let flag = OwnedPlace { role: Role::Data, ..OwnedPlace::new("flag", 0).at_most(1) };
+    let flag = owned.place(flag).unwrap();
+    let absent = OwnedPlace { role: Role::Complement(flag), ..OwnedPlace::new("not_flag", 1) };
+    let absent = owned.place(absent.at_most(1)).unwrap();
+    let [go, next, flip] = ["go", "next", "flip"].map(|it| owned.event(it, "").unwrap());
+    for at in 0..places {
+        let (here, there) = (PlaceId(at), PlaceId((at + 1) % places));
+        let step = |name: &str| OwnedTransition::new(&format!("{name}{at}")).take(here, 1);
+        owned.transition(step("go").on(go).read(flag, 1).give(here, 1)).unwrap();
+        owned.transition(step("next").on(next).give(there, 1)).unwrap();
+    }
+    owned.transition(OwnedTransition::new("up").on(flip).take(absent, 1).give(flag, 1)).unwrap();
+    owned.transition(OwnedTransition::new("down").on(flip).take(flag, 1).give(absent, 1)).unwrap();
+    owned.laws = vec![OwnedLaw::HandlesAll];
+    let text = said_of::<2>(&owned).unwrap();
+    assert!(text.contains("one of 35 "), "{text}");
+    assert_eq!(text.matches("[!flag];").count(), 32, "{text}");
+    assert!(text.contains("\n      go in P32;\n      go in P33;\n      go in P34;\n"), "{text}");
 }

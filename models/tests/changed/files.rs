@@ -15,9 +15,30 @@ use std::path::Path;
 
 /// Numbers at which something ends.
 const NUMBERS: [&str; 24] = [
-    "0", "1", "2", "3", "7", "8", "10", "16", "100", "255", "256", "999", "1000", "1001", "65535",
-    "65536", "1000000000", "1000000001", "4294967295", "4294967296", "9223372036854775807",
-    "9223372036854775808", "-1", "0.5",
+    "0",
+    "1",
+    "2",
+    "3",
+    "7",
+    "8",
+    "10",
+    "16",
+    "100",
+    "255",
+    "256",
+    "999",
+    "1000",
+    "1001",
+    "65535",
+    "65536",
+    "1000000000",
+    "1000000001",
+    "4294967295",
+    "4294967296",
+    "9223372036854775807",
+    "9223372036854775808",
+    "-1",
+    "0.5",
 ];
 
 /// Where words, numbers and texts in quotes stand.
@@ -188,10 +209,8 @@ extra_mm = 700
 #[test]
 fn faults_with_changes_are_refused_with_the_same_words_or_mean_the_same() {
     let (mut draw, mut effort) = (Draw::new(92), Effort::new(50));
-    let missions: Vec<_> = embedded::embedded()
-        .iter()
-        .map(|it| Mission::parse(it.name, it.text).unwrap())
-        .collect();
+    let missions: Vec<_> =
+        embedded::embedded().iter().map(|it| Mission::parse(it.name, it.text).unwrap()).collect();
     // What stands in [run] of the missions, as a file of its own.
     let mut texts = vec![(0, FAULTS[0].to_owned())];
     for (number, it) in embedded::embedded().iter().enumerate() {
