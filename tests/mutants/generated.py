@@ -16,6 +16,8 @@ The head of a list says what is run:
     compiled: tests/refused              instead: each is built alone, and must break the build of
                                          the crate's tests or this program
 
+`CRATE/doc` stands for the examples of a crate's documentation, which are compiled each time.
+
 They are run in the order in which they are drawn: when the file `defects/stop` appears in the
 target directory, a run ends with a smaller sample. The rest of the suite is not run, so a mutant
 that survives here may be killed by it. A run that computes for five times as long as without a
@@ -175,6 +177,18 @@ def alone(sample, defects, counts, missed):
             missed.append(defect)
 
 
+def examples(crate, target):
+    """How the examples of a crate's documentation are run, as its tests were built."""
+    package = SUITES[crate][0][0]
+    environment = {
+        "CARGO_TARGET_DIR": target, "CARGO_PROFILE_DEV_DEBUG": "0", "CARGO_INCREMENTAL": "1",
+        "RUSTFLAGS": "--cap-lints allow", "RUSTDOCFLAGS": "--cap-lints allow",
+    }
+    names = [f"{name}={value}" for name, value in environment.items()]
+    command = ["cargo", "test", "--offline", "--doc", "-p", package]
+    return [*names, *command, *FEATURES_OF.get(package, []), "--"]
+
+
 def spent():
     """Seconds of computing of the programs that have run."""
     return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
@@ -201,8 +215,9 @@ def main():
         drawn = random.Random(sample.seed).sample(range(len(found)), len(found))
         defects = [found[it] for it in drawn[: sample.taken]]
     packages = sorted({it for crate in sample.crates() & SUITES.keys() for it in SUITES[crate][0]})
+    tests = [it for it, _ in sample.programs if not it.endswith("/doc")]
     for number, defect in enumerate(defects, 1):
-        defect.number, defect.suite = number, (packages, [it for it, _ in sample.programs])
+        defect.number, defect.suite = number, (packages, tests)
     print(f"{len(defects)} of {len(found)} mutants", flush=True)
     begin = time.monotonic()
     if sample.compiled:
@@ -215,6 +230,11 @@ def main():
     if errors:
         sys.exit("\n".join(it["rendered"] for it in errors))
     print(f"built after {time.monotonic() - begin:.0f} s", flush=True)
+    for program, names in sample.programs:
+        crate, _, target = program.partition("/")
+        if target == "doc":
+            built[program] = ("env", runs.COPY / crate)
+            names[:] = examples(crate, runs.WORK / "build")
     runner = runs.Runner(built)
     limits = []
     for program, names in sample.programs:

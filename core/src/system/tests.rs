@@ -1,8 +1,14 @@
 //! Stories of systems that fit together, or do not.
 
-use super::{Binding, Clear, Component, Delivery, Link, Of, System, SystemDefect, Target};
-use crate::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use crate::net::{EventId, Net, OutputId, PlaceId, Role, TransitionId};
+use super::{
+    Binding, Clear, Component, Culprit, Delivery, Link, Of, Step, System, SystemDefect, Target,
+    judge,
+};
+use crate::net::owned::{
+    OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedSignal, OwnedTransition,
+};
+use crate::net::{Arc, EventId, Net, OutputId, PlaceId, Role, TransitionId};
+use crate::player::{Packed, words};
 use crate::{net, system};
 use std::string::ToString;
 use std::vec::Vec;
@@ -193,4 +199,75 @@ fn a_transition_that_mails_more_than_fits_is_a_defect() {
     assert_eq!(linked(&components, &links(2)).defect(), None);
     let defect = linked(&components, &links(1)).defect();
     assert_eq!(defect, Some(SystemDefect::Overfills(of(1, TransitionId(1)))));
+}
+
+/// A net of so many places, transitions, events, and events ignored.
+fn sized(places: usize, transitions: usize, events: usize, ignored: usize) -> OwnedNet {
+    let mut net = OwnedNet::new("sized", "");
+    net.places = std::vec![OwnedPlace::new("place", 0).at_most(1); places];
+    net.events = std::vec![OwnedSignal::default(); events];
+    net.transitions = std::vec![OwnedTransition::new("transition"); transitions];
+    net.ignored = std::vec![OwnedIgnored::new(EventId(0), PlaceId(0)); ignored];
+    net
+}
+
+/// Whether the net can be packed alone.
+fn fits(net: &OwnedNet) -> bool {
+    let view = net.view();
+    words(&System::alone(&[Component::alone(&view.net())])).is_some()
+}
+
+/// Each list of a packed system has up to 65,534 entries.
+#[test]
+fn what_fits_into_a_packed_system_and_what_is_one_too_many() {
+    assert!(fits(&sized(65_534, 0, 1, 0)) && !fits(&sized(65_535, 0, 1, 0)));
+    assert!(fits(&sized(1, 65_534, 1, 0)) && !fits(&sized(1, 65_535, 1, 0)));
+    assert!(fits(&sized(1, 0, 1, 65_534)) && !fits(&sized(1, 0, 1, 65_535)));
+    // Two rows for each event, for what fires at once by itself, and for what waits.
+    assert!(fits(&sized(1, 0, 32_765, 0)) && !fits(&sized(1, 0, 32_766, 0)));
+    // Summands of all laws together.
+    let summed = |more: u32| {
+        let mut net = sized(40_000, 0, 1, 0);
+        let sum = |count| (0..count).map(|at| Arc { place: PlaceId(at), weight: 1 }).collect();
+        for count in [40_000, more] {
+            net.laws.push(OwnedLaw::Invariant { sum: sum(count), equals: 0 });
+        }
+        fits(&net)
+    };
+    assert!(summed(25_534) && !summed(25_535));
+    // What waits in all mailboxes together, and where outputs go to.
+    let pair = relays(2);
+    let mails = |capacities: &[u16]| {
+        let mail = |(signal, &capacity)| link(0, 1, signal, Delivery::Mail { capacity });
+        let links: Vec<_> = (0..).zip(capacities).map(mail).collect();
+        words(&linked(&pair, &links)).is_some()
+    };
+    assert!(mails(&[65_534]) && !mails(&[65_535]));
+    assert!(mails(&[65_000, 534]) && !mails(&[65_000, 535]));
+    let routes = |count| {
+        let links = std::vec![link(0, 1, 0, Delivery::Now); count];
+        words(&linked(&pair, &links)).is_some()
+    };
+    assert!(routes(65_534) && !routes(65_535));
+}
+
+/// What goes on by rendezvous over five nets is forgotten by the sixth.
+#[test]
+fn an_event_is_followed_over_six_nets() {
+    let mut end = OwnedNet::new("end", "");
+    end.places.push(OwnedPlace::new("end", 1).at_most(1));
+    let forgotten = end.event("e0", "").unwrap();
+    let view = end.view();
+    let end = view.net();
+    let mut components = relays(5);
+    components.push(Component { name: "end", net: &end });
+    let links: Vec<_> = (0..5).map(|at| link(at, at + 1, 0, Delivery::Now)).collect();
+    let system = linked(&components, &links);
+    let packed = Packed::<1>::of(&system).unwrap();
+    let violation = judge(&system, &packed.code()).unwrap_err();
+    assert_eq!(violation.culprit, Culprit::Unanswered(of(5, forgotten)));
+    assert_eq!(violation.steps(), [Step::Offered(of(0, EventId(0)))]);
+    let mut text = std::string::String::new();
+    violation.write(&system, &packed.code(), &mut text).unwrap();
+    assert!(text.contains("add a transition on it to `end`"), "{text}");
 }

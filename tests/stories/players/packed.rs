@@ -51,7 +51,7 @@ fn note<const W: usize, const C: usize, const S: usize>(
 fn random_nets_are_packed_as_they_were() {
     let mut effort = Effort::new(100);
     for time in [Time::Without, Time::With] {
-        for (_, net, mut draw) in nets(900_000..901_000, time) {
+        for (_, net, mut draw) in nets(900_000..902_000, time) {
             let (draw, effort) = (&mut draw, &mut effort);
             net.with(|it| {
                 effort.note(&it.components.iter().map(|it| is_state_machine(it.net)).next());
@@ -65,7 +65,7 @@ fn random_nets_are_packed_as_they_were() {
 #[test]
 fn random_systems_are_packed_as_they_were() {
     let mut effort = Effort::new(50);
-    for (_, system, mut draw) in systems(900_000, 500) {
+    for (_, system, mut draw) in systems(900_000, 1_000) {
         let (draw, effort) = (&mut draw, &mut effort);
         system.with(|it| with_size_of!(it, draw, note(it, draw, effort)));
     }
