@@ -13,6 +13,7 @@ mod draw;
 mod efforts;
 mod files;
 mod health;
+mod limits;
 mod nets;
 
 use draw::Draw;
