@@ -48,7 +48,7 @@ pub trait Names {
 /// `W` is the number of words of a marking, `C` that of transitions with an interval, and `S` that
 /// of all that can wait in mailboxes: a player of other sizes does not compile.
 ///
-/// ```compile_fail,E0277
+/// ```compile_fail,E0599
 /// cotama_core::net! {
 ///     /// Rings after a while.
 ///     pub mod bell {

@@ -15,7 +15,7 @@ fn with_another_event(random: &mut Random, mut owned: OwnedNet) -> OwnedNet {
     let own = owned.places.iter().filter(|it| it.role == Role::State).count() as u32;
     owned.event("last", "").unwrap();
     let events = owned.events.len() as u32;
-    for at in 0..1 + random.below(3) {
+    for at in 0..=random.below(3) {
         let mut it = OwnedTransition::new(&format!("more{at}"))
             .on(EventId(random.below(events)))
             .take(PlaceId(random.below(own)), 1)
@@ -234,7 +234,7 @@ fn wrong(random: &mut Random, net: &mut OwnedNet) {
                 let place = PlaceId(beyond(random, places).saturating_sub(random.below(2)));
                 Arc { place, weight: random.below(3) }
             };
-            let sum = (0..1 + random.below(3)).map(|_| arc(random)).collect();
+            let sum = (0..=random.below(3)).map(|_| arc(random)).collect();
             net.laws.push(OwnedLaw::Invariant { sum, equals: 1 });
         }
     }
@@ -245,7 +245,7 @@ fn what_is_wrong_with_a_net_is_found_and_said() {
     let (mut random, mut effort) = (Random(Draw::new(84)), Effort::new(500));
     for _ in 0..5_000 {
         let mut owned = net(&mut random);
-        for _ in 0..1 + random.below(2) {
+        for _ in 0..=random.below(2) {
             wrong(&mut random, &mut owned);
         }
         let view = owned.view();
@@ -308,7 +308,7 @@ fn what_is_wrong_with_a_system_is_found_and_said() {
     let (mut random, mut effort) = (Random(Draw::new(85)), Effort::new(200));
     for _ in 0..4_000 {
         let mut parts = parts(&mut random);
-        for _ in 0..1 + random.below(3) {
+        for _ in 0..=random.below(3) {
             wrong_together(&mut random, &mut parts);
         }
         with_system(&parts, |system| {

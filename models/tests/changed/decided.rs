@@ -132,7 +132,7 @@ fn drawn_missions_of_the_delivery_go_as_they_went() {
         let mut decider = Delivering::start(delivery::Program, 4, planned);
         if seed % 10 == 9 {
             let faulty = Modules::of(&[*pick(&mut draw, Module::ALL)]);
-            decider.restart(decider.level().clone(), Health { faulty, ..Health::SOUND });
+            decider.restart(*decider.level(), Health { faulty, ..Health::SOUND });
         }
         play(&mut effort, seed, decider);
     }

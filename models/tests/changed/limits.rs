@@ -124,7 +124,7 @@ fn as_many_probes_as_are_read_and_one_more() {
 fn as_many_mistakes_as_are_told_and_one_more() {
     let mission = embedded::mission("patrol").unwrap().text;
     for count in [MAX_DIAGNOSTICS - 1, MAX_DIAGNOSTICS, MAX_DIAGNOSTICS + 1] {
-        let wrong: String = (0..count).map(|it| format!("wrong{it} = 1\n")).collect();
+        let wrong = (0..count).fold(String::new(), |text, it| text + &format!("wrong{it} = 1\n"));
         let errors = Mission::parse("", &format!("{wrong}{mission}")).unwrap_err();
         let told = count.min(MAX_DIAGNOSTICS);
         assert_eq!((errors.diagnostics().len(), errors.omitted()), (told, count - told));
@@ -152,7 +152,7 @@ fn json_is_64_deep_and_no_more() {
     let task = "{\"name\": \"t\", \"skip_cost\": 1, \"cost\": [1, 2]}";
     let deep = |depth: usize| {
         let more = format!(", \"deep\": {}{}", "[".repeat(depth), "]".repeat(depth));
-        instance(1, &task.replace("}", &format!("{more}}}")))
+        instance(1, &task.replace('}', &format!("{more}}}")))
     };
     let least = (1..100).find(|&depth| deep(depth).is_err()).unwrap();
     let said = deep(least).unwrap_err();
