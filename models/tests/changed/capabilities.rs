@@ -87,7 +87,7 @@ fn drawn_costs_bids_and_errors_are_the_same() {
         let whole = failure_aware_cost(&steps);
         effort.note(&(failure_cost(steps.iter().map(|it| it.cost)), whole));
         if let Some(it) = whole {
-            effort.note(&(it.numerator(), it.denominator(), it.rounded_up()));
+            effort.note(&(it.numerator(), it.denominator(), it.rounded_up(), it.to_string()));
         }
         let (a, b) = (draw.between(0, most), draw.between(0, 3));
         effort.note(&(Ratio::new(a.into(), b.into()), Ratio::from(a)));

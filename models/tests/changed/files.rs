@@ -240,10 +240,34 @@ fn folder(path: &str) -> Vec<String> {
     files.iter().map(|it| fs::read_to_string(it).unwrap()).collect()
 }
 
+/// Every escape of a text, and every part of a number.
+const ESCAPED: &str = r#"{
+ "format": "cotama-team-assignment/1", "name": "a \" b \\ c \/ d \u00e4 \ud83e\uddf9 e",
+ "kind": "simultaneous", "cost_denominator": 6, "robots": ["a\/b", "b", "c"],
+ "drawn_by": ["\b\f\n\r\t", -1.5e-3, 2E+7, 0.25, true, false, null, {"a": {}, "b": []}],
+ "tasks": [
+  {"name": "t\u0031", "skip_cost": 12, "cost": [3, null, 2]},
+  {"name": "t2", "skip_cost": null, "combine": "mean", "plans": [
+   {"name": "p", "extra_cost": 4, "roles": [
+    {"name": "x", "cost": [1, 2, 3]}, {"name": "y", "cost": [2, null, 1]}]},
+   {"name": "q", "roles": [{"name": "z", "cost": [null, 5, 9]}]}]},
+  {"name": "t3", "skip_cost": 7, "combine": "max", "plans": [
+   {"name": "p", "roles": [{"name": "x", "cost": [4, 4, 4]}]}]}]}"#;
+
+#[test]
+fn escapes_and_numbers_are_read_as_they_are_written() {
+    let instance = Instance::parse("escaped.json", ESCAPED).unwrap();
+    assert_eq!(instance.name, "a \" b \\ c / d \u{e4} \u{1f9f9} e");
+    assert_eq!((instance.robots[0].as_str(), instance.tasks[0].name.as_str()), ("a/b", "t1"));
+}
+
 #[test]
 fn instances_with_changes_are_refused_with_the_same_words_or_have_the_same_answer() {
     let (mut draw, mut effort) = (Draw::new(93), Effort::new(50));
-    let texts = [folder("teams"), folder("teams/broken")].concat();
+    let mut texts = [folder("teams"), folder("teams/broken")].concat();
+    for _ in 0..5 {
+        texts.push(ESCAPED.to_owned());
+    }
     for at in 0..2_000 {
         let text = with_changes(&mut draw, &texts[at % texts.len()]);
         match Instance::parse("changed.json", &text) {

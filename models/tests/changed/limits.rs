@@ -159,3 +159,23 @@ fn json_is_64_deep_and_no_more() {
     assert!(said.contains("nested too deeply"), "{said}");
     assert_eq!(least, 65);
 }
+
+/// A name of up to 64 characters may be meant for one that is known; a longer one is not compared.
+#[test]
+fn advice_is_given_for_names_of_64_characters_and_no_more() {
+    let mission = embedded::mission("patrol").unwrap().text.replace("\"L2\"", "\"LLL2\"");
+    let known = "L".repeat(63);
+    let said = |name: &str| {
+        let text = mission.replace("\"LLL2\"", &format!("\"{known}\""));
+        let text = text.replacen(
+            &format!("require_tio = \"{known}\""),
+            &format!("require_tio = \"{name}\""),
+            1,
+        );
+        Mission::parse("", &text).unwrap_err().to_string()
+    };
+    assert!(said(&"L".repeat(64)).contains("did you mean"));
+    for length in [65, 66, 70] {
+        assert!(!said(&"L".repeat(length)).contains("did you mean"), "{length}");
+    }
+}
