@@ -234,6 +234,22 @@ fn one_way_to_fill_a_role_is_enough_and_needs_no_more_than_it_says() {
     }
 }
 
+/// A set of robots is a word of 64 bits, of which one is for the end.
+#[test]
+fn coalitions_of_63_robots_are_looked_at_and_of_more_are_not() {
+    let entries: Vec<_> = (0..65).map(|it| Cost::new(70 - it)).collect();
+    let mut fixed = Fixed::<i32, 1, 1>::new();
+    for (robots, best) in [(62, 9), (63, 8), (64, 0), (65, 0)] {
+        let plans = [Plan { roles: Costs::new(&entries[..robots], robots).unwrap(), extra: 0 }];
+        let task = Task { skip: None, combine: Combine::Sum, plans: &plans };
+        let found = all_coalitions(&task, 1, &mut [None; 1], &mut fixed.memory());
+        let looked = if robots > 63 { 0 } else { robots as u64 };
+        assert_eq!(found.looked_at, looked, "{robots}");
+        let expected = (robots < 64).then(|| (best, 0, 1 << (robots - 1)));
+        assert_eq!(found.best, expected, "{robots}");
+    }
+}
+
 #[test]
 fn of_coalitions_that_cost_the_same_the_first_plan_and_the_first_robots_are_kept() {
     let entries = [Cost::new(4); 3];

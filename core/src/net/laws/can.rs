@@ -54,7 +54,7 @@ impl<const W: usize> Graph<W> {
     }
 
     /// The first class that rests and is not among these.
-    const fn left_out(&self, among: &[bool; MARKINGS]) -> Option<usize> {
+    pub(super) const fn left_out(&self, among: &[bool; MARKINGS]) -> Option<usize> {
         let mut class = 0;
         while class < self.count {
             if !among[class] && self.rests(class) {
@@ -66,7 +66,12 @@ impl<const W: usize> Graph<W> {
     }
 
     /// The classes that lead to the place, surely or perhaps: backwards from where it is marked.
-    const fn leading(&self, code: &Code<'_, W>, place: PlaceId, surely: bool) -> [bool; MARKINGS] {
+    pub(super) const fn leading(
+        &self,
+        code: &Code<'_, W>,
+        place: PlaceId,
+        surely: bool,
+    ) -> [bool; MARKINGS] {
         // How many outcomes of each move are open.
         let mut open = [0_u16; FIRINGS];
         let mut firing = 0;
@@ -111,7 +116,7 @@ impl<const W: usize> Graph<W> {
 
     /// Cuts the classes that do not surely lead there and have a move of which some outcome does;
     /// whether there was anything to cut.
-    const fn refine(&self, surely: &[bool; MARKINGS], cuts: &mut Cuts) -> bool {
+    pub(super) const fn refine(&self, surely: &[bool; MARKINGS], cuts: &mut Cuts) -> bool {
         let mut any = false;
         let (mut firing, mut last) = (0, NONE);
         while firing < self.fired {

@@ -9,6 +9,8 @@ mod judge;
 mod missing;
 mod moves;
 mod settling;
+#[cfg(all(test, feature = "alloc"))]
+mod tests;
 mod timed;
 mod way;
 mod words;

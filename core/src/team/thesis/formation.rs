@@ -30,8 +30,8 @@ impl Formed {
 /// best of all. Where the largest cost counts this is not always the best (spec. 8b): the roles are
 /// assigned by their sum.
 ///
-/// `entries` has room for roles times roles of the largest plan, `memory` as well. For up to 64
-/// robots.
+/// `entries` has room for roles times roles of the largest plan, `memory` as well. Plans for more
+/// than 63 robots are passed over.
 pub fn all_coalitions(
     task: &Task<'_>,
     denominator: u32,
