@@ -4,6 +4,7 @@ chosen at run time, so that a thousand of them need one build.
 
     tests/mutants/generated.py NAME            the sample of generated/NAME.txt, written there
     tests/mutants/generated.py NAME --missed   again those that were missed, after tests were added
+    tests/mutants/generated.py NAME --alone    builds those alone that were missed in a `const fn`
     tests/mutants/generated.py --table         writes generated/README.md anew
 
 The head of a list says what is run:
@@ -15,6 +16,10 @@ The head of a list says what is run:
     program: tests/stories players       who may kill, in this order; tests whose names hold a word
     compiled: tests/refused              instead: each is built alone, and must break the build of
                                          the crate's tests or this program
+
+What the compiler computes is computed without a mutant when all are built together: those that
+are missed in a `const fn` are judged with `--alone`, before tests are added. Then a constant that
+cannot be computed is no mutant: it is not built.
 
 `CRATE/doc` stands for the examples of a crate's documentation, which are compiled each time.
 
@@ -33,7 +38,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 
 sys.dont_write_bytecode = True
-from choice import CONST_MODULE, FEATURES, blamed, seeded, with_choice
+from choice import CONST_MODULE, FEATURES, blamed, functions, seeded, with_choice
 from lists import ROOT, SUITES, Defect
 from samples import COUNTS, List, table
 import run as runs
@@ -189,6 +194,30 @@ def examples(crate, target):
     return [*names, *command, *FEATURES_OF.get(package, []), "--"]
 
 
+def by_itself(sample, defect, built_before):
+    """How a mutant fares alone, as cargo-mutants builds it: constants are computed with it."""
+    runs.copy_workspace({defect.file})
+    runs.write(runs.COPY / defect.file, seeded((ROOT / defect.file).read_text(), defect))
+    if check(SUITES[sample.crate][0][0]):
+        return "not built"
+    built, errors = runs.build([defect])
+    if errors:
+        return "not built"
+    runner = runs.Runner({**built_before, **built})
+    for program, names in sample.programs:
+        failure = runner.first_failure(runner.programs[program], 0, names, 600, 100)
+        if failure:
+            print(f"  {program} {failure}", flush=True)
+            return "too long" if failure == "time" else "caught"
+    return "missed"
+
+
+def is_const(defect):
+    """Whether it is in a `const fn`."""
+    text = (ROOT / defect.file).read_text()
+    return any(it[0] is not None and it[2] < defect.at < it[3] for it in functions(text))
+
+
 def spent():
     """Seconds of computing of the programs that have run."""
     return sum(resource.getrusage(resource.RUSAGE_CHILDREN)[:2])
@@ -205,7 +234,7 @@ def main():
     found = listed(sample)
     defects = found
     again = "--missed" in sys.argv
-    if again:
+    if again or "--alone" in sys.argv:
         # Sources may have changed since, and with them what would be drawn.
         defects = list({sample.known(it).key(): it for it in found if sample.known(it)}.values())
         if len(defects) != len(sample.missed):
@@ -224,22 +253,30 @@ def main():
         counts, missed = dict.fromkeys(COUNTS, 0), []
         alone(sample, defects, counts, missed)
         return sample.write(len(found), counts, missed, again)
+    docs = {}
+    for program, names in sample.programs:
+        crate, _, target = program.partition("/")
+        if target == "doc":
+            docs[program] = ("env", runs.COPY / crate)
+            names[:] = examples(crate, runs.WORK / "build")
+    if "--alone" in sys.argv:
+        for defect in filter(is_const, defects):
+            runs.copy_workspace(set())
+            how = by_itself(sample, defect, docs)
+            print(f"{defect.file}:{defect.line}: {defect.what}: {how}", flush=True)
+            sample.judged_alone(defect, how)
+        return None
     viable(sample, defects)
     print(f"checked after {time.monotonic() - begin:.0f} s", flush=True)
     built, errors = runs.build(defects)
     if errors:
         sys.exit("\n".join(it["rendered"] for it in errors))
     print(f"built after {time.monotonic() - begin:.0f} s", flush=True)
-    for program, names in sample.programs:
-        crate, _, target = program.partition("/")
-        if target == "doc":
-            built[program] = ("env", runs.COPY / crate)
-            names[:] = examples(crate, runs.WORK / "build")
-    runner = runs.Runner(built)
+    runner = runs.Runner({**built, **docs})
     limits = []
     for program, names in sample.programs:
         start = spent()
-        if failure := runner.first_failure(built[program], 0, names, 1800):
+        if failure := runner.first_failure(runner.programs[program], 0, names, 1800):
             sys.exit(f"without a mutant, {program} {failure} fails")
         limits.append(round(5 + 5 * (spent() - start)))
     print(f"seconds at most: {limits}", flush=True)
@@ -254,7 +291,7 @@ def main():
             program, names = sample.programs[asked]
             limit = limits[asked]
             failure = runner.first_failure(
-                built[program], defect.number, names, 10 * limit, limit
+                runner.programs[program], defect.number, names, 10 * limit, limit
             )
             if failure:
                 killers[defect.file] = asked

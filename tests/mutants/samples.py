@@ -77,14 +77,28 @@ class List:
         else:
             self.all, self.counts = found, counts
             self.first = self.killed(), self.viable()
+        self.missed = [self.known(it) or Missed(it.file, it.what, it.source) for it in missed]
+        self.store()
+
+    def store(self):
+        """Writes the list as it is known."""
         lines = [*self.head, "", f"mutants: {self.all}"]
         lines += [f"{it}: {self.counts[it]}" for it in COUNTS]
         lines.append("first: {} of {}".format(*self.first))
-        for defect in missed:
-            known = self.known(defect)
-            lines += ["", f"survivor: {defect.file}: {defect.what}", f"- {defect.source}"]
-            lines += known.why if known else []
+        for it in self.missed:
+            lines += ["", f"survivor: {it.file}: {it.what}", f"- {it.source}", *it.why]
         self.path.write_text("\n".join(lines) + "\n")
+
+    def judged_alone(self, defect, how):
+        """Corrects what was found of a mutant that was missed, and writes the list."""
+        if how == "missed":
+            return
+        first, viable = self.first
+        self.first = (first, viable - 1) if how == "not built" else (first + 1, viable)
+        self.counts["missed"] -= 1
+        self.counts[how] += 1
+        self.missed.remove(self.known(defect))
+        self.store()
 
     def shorten(self, taken):
         """Makes it a sample of fewer."""
@@ -132,8 +146,8 @@ def table():
     path = FOLDER / "README.md"
     text = path.read_text().split("\n| ")[0].rstrip() + "\n"
     names = sorted(it.stem for it in FOLDER.glob("*.txt"))
-    text += "\n| list | mutants | drawn | built | killed at first | of all, at 95 % | killed now |\n"
-    text += "| --- " + "| ---: " * 6 + "|\n"
+    text += "\n| list | mutants | drawn | built | killed at first | of all, at 95 % | equivalent "
+    text += "| of others | killed now |\n| --- " + "| ---: " * 8 + "|\n"
     lists = [List(it) for it in names]
     for it in (it for it in lists if it.counts):
         drawn = min(it.taken or it.all, it.all)
@@ -141,7 +155,9 @@ def table():
         share = "all are drawn"
         if drawn < it.all:
             share = "{:.1f} to {:.1f} %".format(*interval(first, built))
+        same = sum("equivalent: " in "".join(missed.why) for missed in it.missed)
         cells = [it.name, it.all, drawn, built, f"{first} ({100 * first / built:.1f} %)", share,
+                 same, f"{100 * first / (built - same):.1f} %",
                  f"{now} ({100 * now / built:.1f} %)"]
         text += "| " + " | ".join(str(cell) for cell in cells) + " |\n"
     for it in (it for it in lists if it.missed):

@@ -7,7 +7,7 @@ use crate::{chance, pick};
 use cotama_core::player::Program;
 use cotama_core::units::Millis;
 use cotama_models::cotama::{
-    Body, Cause, Configuration, Decider, Flag, Flags, Health, Module, Modules, NoPlanLeft,
+    Body, Cause, Configuration, Decider, Flag, Flags, Health, Module, Modules, NoPlanLeft, NoPlans,
     Perceived, Plans, Why, Word, delivery, operator, recovering,
 };
 
@@ -168,4 +168,11 @@ fn each_transition_of_the_supervisors_has_its_name() {
     effort.note(&(Cause::default(), level.snapshot()));
     effort.next();
     effort.compare("tests/golden/changed_names.txt");
+}
+
+#[test]
+fn who_plans_nothing_is_never_over_and_never_short() {
+    let mut none = NoPlans;
+    assert_eq!((none.is_over(), none.configuration(), none.short()), (false, None, None));
+    assert_eq!(none.plan(Why::Margin(0), Modules::ALL), Ok(false));
 }

@@ -179,3 +179,37 @@ fn advice_is_given_for_names_of_64_characters_and_no_more() {
         assert!(!said(&"L".repeat(length)).contains("did you mean"), "{length}");
     }
 }
+
+/// More robots than a search can have: each task alone costs so much at least, added up.
+#[test]
+fn an_instance_that_is_too_large_has_a_bound_task_by_task() {
+    let robots: Vec<_> = (0..129).map(|it| format!("\"r{it}\"")).collect();
+    let row = |least: u32| {
+        let costs: Vec<_> = (0..129).map(|it| (least + it % 7).to_string()).collect();
+        format!("{{\"name\": \"role{least}\", \"cost\": [{}]}}", costs.join(", "))
+    };
+    let task = |name: &str, skip: &str, combine: &str, extra: u32, roles: &[u32]| {
+        let roles: Vec<_> = roles.iter().map(|it| row(*it)).collect();
+        format!(
+            "{{\"name\": \"{name}\", \"skip_cost\": {skip}, \"combine\": \"{combine}\", \
+             \"plans\": [{{\"name\": \"p\", \"extra_cost\": {extra}, \"roles\": [{}]}}]}}",
+            roles.join(", ")
+        )
+    };
+    // In sixths: sums 6 (2 + 3 + 5), means 3 (10 + 20) + 6 * 4, largest 6 * 9, left undone 6 * 8.
+    let tasks = [
+        task("sum", "null", "sum", 5, &[2, 3]),
+        task("mean", "null", "mean", 4, &[10, 20]),
+        task("max", "900", "max", 0, &[7, 9]),
+        task("skip", "8", "sum", 0, &[30]),
+    ];
+    let text = format!(
+        "{{\"format\": \"cotama-team-assignment/1\", \"name\": \"large\", \
+         \"kind\": \"simultaneous\", \"cost_denominator\": 6, \"robots\": [{}], \
+         \"tasks\": [{}]}}",
+        robots.join(", "),
+        tasks.join(", ")
+    );
+    let answer = Instance::parse("large.json", &text).unwrap().solve(1_000).unwrap();
+    assert_eq!((answer.cost(), answer.bound()), (None, Some(60 + 90 + 24 + 54 + 48)));
+}
