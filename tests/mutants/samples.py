@@ -89,14 +89,11 @@ class List:
             lines += ["", f"survivor: {it.file}: {it.what}", f"- {it.source}", *it.why]
         self.path.write_text("\n".join(lines) + "\n")
 
-    def judged_alone(self, defect, how):
-        """Corrects what was found of a mutant that was missed, and writes the list."""
-        if how == "missed":
-            return
-        first, viable = self.first
-        self.first = (first, viable - 1) if how == "not built" else (first + 1, viable)
+    def not_built(self, defect):
+        """One that was missed is no mutant, as the library is not built with it alone."""
+        self.first = self.first[0], self.first[1] - 1
         self.counts["missed"] -= 1
-        self.counts[how] += 1
+        self.counts["not built"] += 1
         self.missed.remove(self.known(defect))
         self.store()
 

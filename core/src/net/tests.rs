@@ -122,3 +122,11 @@ fn a_law_and_what_is_ignored_name_what_is_there() {
     assert_eq!(ignores(OwnedIgnored::new(go, A).guard(NOWHERE, 1)), bad);
     assert_eq!(ignores(OwnedIgnored::new(go, A).guard(B, 1).guard(B, 1)), bad);
 }
+
+#[test]
+fn what_is_said_of_a_place_and_of_a_transition_stays_with_it() {
+    let place = OwnedPlace::new("A", 1).doc("Waits.").at_most(2);
+    assert_eq!((place.doc.as_str(), place.name.as_str(), place.bound), ("Waits.", "A", 2));
+    let it = OwnedTransition::new("t").doc("Goes.").on(EventId(3)).within(1, None);
+    assert_eq!((it.doc.as_str(), it.name.as_str(), it.on), ("Goes.", "t", Some(EventId(3))));
+}

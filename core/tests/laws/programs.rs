@@ -320,3 +320,24 @@ fn more_than_eight_clocks_are_too_many() {
     assert!(verdict(&timers(8)).is_ok());
     assert_eq!(verdict(&timers(9)), Err((Culprit::TooLarge(Limit::Clocks), vec![])));
 }
+
+/// When one of eight ends, a ninth can run.
+#[test]
+fn a_ninth_timer_begins_when_one_of_eight_has_ended() {
+    let mut net = OwnedNet::new("timers", "");
+    for at in 0..9 {
+        net.place(OwnedPlace::new(&format!("P{at}"), u32::from(at < 8)).at_most(1)).unwrap();
+    }
+    for at in 0..9 {
+        let mut timer = OwnedTransition::new(&format!("t{at}")).take(PlaceId(at), 1);
+        if at == 0 {
+            timer = timer.give(PlaceId(8), 1);
+        }
+        let after = if at == 0 { 2 } else { 100 };
+        net.transition(timer.within(after, Some(after))).unwrap();
+    }
+    net.laws.push(OwnedLaw::NeverBoth(PlaceId(8), PlaceId(7)));
+    assert_eq!(verdict(&net), Err((Culprit::Both, vec![Step::Passes(2), fires(0)])));
+    net.laws = vec![OwnedLaw::NeverBoth(PlaceId(8), PlaceId(0))];
+    assert!(verdict(&net).is_ok());
+}

@@ -8,7 +8,7 @@ use cotama_models::fmeca::{Analysis, Set};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::infeasible::explain_within;
 use cotama_models::missions::{Constraint, Mission, MissionErrors, embedded};
-use cotama_models::team::instance::Instance;
+use cotama_models::team::instance::{Instance, Reason, Verdict};
 use std::fs;
 use std::ops::Range;
 use std::path::Path;
@@ -259,6 +259,28 @@ fn escapes_and_numbers_are_read_as_they_are_written() {
     let instance = Instance::parse("escaped.json", ESCAPED).unwrap();
     assert_eq!(instance.name, "a \" b \\ c / d \u{e4} \u{1f9f9} e");
     assert_eq!((instance.robots[0].as_str(), instance.tasks[0].name.as_str()), ("a/b", "t1"));
+}
+
+/// Two tasks that must be done, both by the second robot alone, and one that anybody can do.
+#[test]
+fn tasks_that_compete_for_one_robot_are_named_with_it() {
+    let task = |name: &str, cost: &str| {
+        format!("{{\"name\": \"{name}\", \"skip_cost\": null, \"cost\": {cost}}}")
+    };
+    let tasks = [
+        task("any", "[1, 1, 1, 1]"),
+        task("one", "[null, 2, null, null]"),
+        task("other", "[null, 3, null, null]"),
+    ];
+    let text = format!(
+        "{{\"format\": \"cotama-team-assignment/1\", \"name\": \"conflict\", \
+         \"kind\": \"simultaneous\", \"cost_denominator\": 1, \
+         \"robots\": [\"a\", \"b\", \"c\", \"d\"], \"tasks\": [{}]}}",
+        tasks.join(", ")
+    );
+    let answer = Instance::parse("conflict.json", &text).unwrap().solve(10_000).unwrap();
+    let expected = Verdict::Infeasible(Reason { tasks: vec![1, 2], robots: vec![1] });
+    assert_eq!(answer.verdict, expected);
 }
 
 #[test]
