@@ -9,6 +9,7 @@ use std::fmt::Write;
 use std::format;
 use std::string::String;
 
+#[allow(unreachable_pub)] // tests outside of the library read it too
 #[path = "../../../tests/common/draw.rs"]
 mod draw;
 
