@@ -149,6 +149,31 @@ fn assignments_bottlenecks_and_coalitions_are_the_same_with_prices_and_conflicts
     effort.compare("tests/golden/effort_assignments.txt");
 }
 
+/// Wide enough for columns to be looked at block by block.
+#[test]
+fn large_assignments_are_the_same_with_prices_and_conflicts() {
+    let (mut draw, mut effort) = (Draw::new(77), Effort::new(10));
+    let (mut narrow, mut wide) = (Fixed::<i32, 70, 300>::new(), Fixed::<i64, 70, 300>::new());
+    for _ in 0..100 {
+        let rows = 10 + below(&mut draw, 60) as usize;
+        let columns = rows + below(&mut draw, 230) as usize;
+        let most = [2, 30, 1_000_000][below(&mut draw, 3) as usize];
+        let missing = [0, 50, 90][below(&mut draw, 3) as usize];
+        let entries = table(&mut draw, rows, columns, most, missing);
+        let costs = Costs::new(&entries, columns).unwrap();
+        let mut memory = narrow.memory();
+        effort.note(&assign(&costs, &mut memory));
+        told(&mut effort, &costs, &memory);
+        effort.note(&bottleneck(&costs, &mut memory));
+        told(&mut effort, &costs, &memory);
+        let mut memory = wide.memory();
+        effort.note(&assign(&costs, &mut memory));
+        told(&mut effort, &costs, &memory);
+        effort.next();
+    }
+    effort.compare("tests/golden/effort_large_assignments.txt");
+}
+
 #[test]
 fn coalitions_and_greedy_rounds_are_the_same_robot_by_robot() {
     let (mut draw, mut effort) = (Draw::new(75), Effort::new(100));
