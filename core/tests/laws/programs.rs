@@ -2,7 +2,7 @@
 
 use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{
-    Culprit, EventId, Graph, Known, Limit, PlaceId, Step, TransitionId, Way, judge,
+    Arc, Culprit, EventId, Graph, Known, Limit, PlaceId, Role, Step, TransitionId, Way, judge,
 };
 use cotama_core::player::{Outcome, Packed, Player, Why};
 use cotama_core::system::{Component, Of, System};
@@ -340,4 +340,22 @@ fn a_ninth_timer_begins_when_one_of_eight_has_ended() {
     assert_eq!(verdict(&net), Err((Culprit::Both, vec![Step::Passes(2), fires(0)])));
     net.laws = vec![OwnedLaw::NeverBoth(PlaceId(8), PlaceId(0))];
     assert!(verdict(&net).is_ok());
+}
+
+/// What others do to the first place of all is a step on the way.
+#[test]
+fn a_shared_place_may_be_the_first_one() {
+    let mut net = OwnedNet::new("asked", "");
+    let flag = OwnedPlace { role: Role::Shared, ..OwnedPlace::new("flag", 0).at_most(1) };
+    let flag = net.place(flag).unwrap();
+    let absent =
+        OwnedPlace { role: Role::Complement(flag), ..OwnedPlace::new("not", 1).at_most(1) };
+    net.place(absent).unwrap();
+    let [here, there] = [("Here", 1), ("There", 0)]
+        .map(|(name, tokens)| net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap());
+    net.transition(step("goes", here, there).read(flag, 1)).unwrap();
+    net.laws.push(OwnedLaw::NeverBoth(there, flag));
+    assert_eq!(verdict(&net), Err((Culprit::Both, vec![Step::Raised(flag), fires(0)])));
+    net.laws = vec![OwnedLaw::Invariant { sum: vec![Arc { place: there, weight: 1 }], equals: 0 }];
+    assert_eq!(verdict(&net), Err((Culprit::Sum(1), vec![Step::Raised(flag), fires(0)])));
 }

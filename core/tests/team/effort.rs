@@ -6,7 +6,7 @@ use crate::tables::{below, table};
 use crate::teams::{Kind, Room, team};
 use cotama_core::team::joint::Outcome;
 use cotama_core::team::thesis::{State, all_coalitions, all_orderings, greedy};
-use cotama_core::team::{Amount, Costs, Fixed, Memory, Team, assign, bottleneck, coalition};
+use cotama_core::team::{Amount, Cost, Costs, Fixed, Memory, Team, assign, bottleneck, coalition};
 
 /// Notes the answer within so many steps, with room for so many coalitions.
 fn solve<const N: usize>(effort: &mut Effort, team: &Team<'_>, columns: usize, steps: u64) {
@@ -153,13 +153,22 @@ fn assignments_bottlenecks_and_coalitions_are_the_same_with_prices_and_conflicts
 #[test]
 fn large_assignments_are_the_same_with_prices_and_conflicts() {
     let (mut draw, mut effort) = (Draw::new(77), Effort::new(10));
-    let (mut narrow, mut wide) = (Fixed::<i32, 70, 300>::new(), Fixed::<i64, 70, 300>::new());
+    let (mut narrow, mut wide) = (Fixed::<i32, 90, 300>::new(), Fixed::<i64, 90, 300>::new());
     for _ in 0..100 {
-        let rows = 10 + below(&mut draw, 60) as usize;
-        let columns = rows + below(&mut draw, 230) as usize;
+        let rows = 10 + below(&mut draw, 80) as usize;
+        let columns = rows + below(&mut draw, 200) as usize;
         let most = [2, 30, 1_000_000][below(&mut draw, 3) as usize];
         let missing = [0, 50, 90][below(&mut draw, 3) as usize];
-        let entries = table(&mut draw, rows, columns, most, missing);
+        let mut entries = table(&mut draw, rows, columns, most, missing);
+        // In some the last rows have few columns among themselves, just enough or too few.
+        if below(&mut draw, 2) == 0 {
+            let own = rows / 8 - (below(&mut draw, 2) as usize).min(rows / 8);
+            for row in rows - rows / 8..rows {
+                for column in 0..columns {
+                    entries[row * columns + column] = Cost::new(1).filter(|_| column < own);
+                }
+            }
+        }
         let costs = Costs::new(&entries, columns).unwrap();
         let mut memory = narrow.memory();
         effort.note(&assign(&costs, &mut memory));
