@@ -359,3 +359,31 @@ fn a_shared_place_may_be_the_first_one() {
     net.laws = vec![OwnedLaw::Invariant { sum: vec![Arc { place: there, weight: 1 }], equals: 0 }];
     assert_eq!(verdict(&net), Err((Culprit::Sum(1), vec![Step::Raised(flag), fires(0)])));
 }
+
+/// As many markings as there can be: ten switches, and every law.
+#[test]
+fn every_law_is_judged_in_all_of_1_024_markings() {
+    let mut net = OwnedNet::new("switches", "");
+    for at in 0..10 {
+        let event = net.event(&format!("flip{at}"), "").unwrap();
+        let [off, on] = [("off", 1), ("on", 0)].map(|(name, tokens)| {
+            net.place(OwnedPlace::new(&format!("{name}{at}"), tokens).at_most(1)).unwrap()
+        });
+        net.transition(step("up", off, on).on(event)).unwrap();
+        net.transition(step("down", on, off).on(event)).unwrap();
+    }
+    let (off, on) = (PlaceId(18), PlaceId(19));
+    let sum = [off, on].map(|place| Arc { place, weight: 1 }).to_vec();
+    net.laws = vec![
+        OwnedLaw::Invariant { sum, equals: 1 },
+        OwnedLaw::NeverBoth(off, on),
+        OwnedLaw::Reachable(on),
+        OwnedLaw::AlwaysCan(on),
+        OwnedLaw::HandlesAll,
+        OwnedLaw::Settles,
+        OwnedLaw::DeadlockFree { end: None },
+        OwnedLaw::Deterministic,
+    ];
+    let all = Known::Explored { markings: 1_024, firings: 10_240, settle: 0 };
+    assert_eq!(verdict(&net), Ok(all));
+}
