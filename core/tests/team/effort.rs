@@ -91,8 +91,8 @@ fn conflicts_take_so_many_steps_and_name_the_same_tasks_and_robots() {
     effort.compare("tests/golden/effort_conflicts.txt");
 }
 
-/// As many robots as roles, or hardly more, and most of them can do little: a first solution is hard
-/// to find.
+/// As many robots as roles, or hardly more, and most of them can do little: a first solution is
+/// hard to find.
 #[test]
 fn tasks_that_need_nearly_all_robots_take_so_many_steps() {
     let (mut draw, mut effort) = (Draw::new(76), Effort::new(50));
