@@ -126,6 +126,24 @@ fn told<N: Amount>(effort: &mut Effort, costs: &Costs<'_>, memory: &Memory<'_, N
     }
 }
 
+/// An assignment and a bottleneck in 32 bits, and an assignment in 64.
+fn assigned<const R: usize, const C: usize>(
+    effort: &mut Effort,
+    costs: &Costs<'_>,
+    narrow: &mut Fixed<i32, R, C>,
+    wide: &mut Fixed<i64, R, C>,
+) {
+    let mut memory = narrow.memory();
+    effort.note(&assign(costs, &mut memory));
+    told(effort, costs, &memory);
+    effort.note(&bottleneck(costs, &mut memory));
+    told(effort, costs, &memory);
+    let mut memory = wide.memory();
+    effort.note(&assign(costs, &mut memory));
+    told(effort, costs, &memory);
+    effort.next();
+}
+
 #[test]
 fn assignments_bottlenecks_and_coalitions_are_the_same_with_prices_and_conflicts() {
     let (mut draw, mut effort) = (Draw::new(74), Effort::new(500));
@@ -136,15 +154,7 @@ fn assignments_bottlenecks_and_coalitions_are_the_same_with_prices_and_conflicts
         let missing = below(&mut draw, 70);
         let entries = table(&mut draw, rows, columns, most, missing);
         let costs = Costs::new(&entries, columns).unwrap();
-        let mut memory = narrow.memory();
-        effort.note(&assign(&costs, &mut memory));
-        told(&mut effort, &costs, &memory);
-        effort.note(&bottleneck(&costs, &mut memory));
-        told(&mut effort, &costs, &memory);
-        let mut memory = wide.memory();
-        effort.note(&assign(&costs, &mut memory));
-        told(&mut effort, &costs, &memory);
-        effort.next();
+        assigned(&mut effort, &costs, &mut narrow, &mut wide);
     }
     effort.compare("tests/golden/effort_assignments.txt");
 }
@@ -170,15 +180,7 @@ fn large_assignments_are_the_same_with_prices_and_conflicts() {
             }
         }
         let costs = Costs::new(&entries, columns).unwrap();
-        let mut memory = narrow.memory();
-        effort.note(&assign(&costs, &mut memory));
-        told(&mut effort, &costs, &memory);
-        effort.note(&bottleneck(&costs, &mut memory));
-        told(&mut effort, &costs, &memory);
-        let mut memory = wide.memory();
-        effort.note(&assign(&costs, &mut memory));
-        told(&mut effort, &costs, &memory);
-        effort.next();
+        assigned(&mut effort, &costs, &mut narrow, &mut wide);
     }
     effort.compare("tests/golden/effort_large_assignments.txt");
 }
