@@ -131,27 +131,12 @@ fn nets_with_many_timers_have_so_many_classes() {
     effort.compare("tests/golden/effort_timers.txt");
 }
 
-/// Calls the story with the system of these parts.
-fn with_system<R>(parts: &crate::systems::Parts, story: impl FnOnce(&System<'_>) -> R) -> R {
-    let views: Vec<_> = parts.nets.iter().map(OwnedNet::view).collect();
-    let nets: Vec<Net<'_>> = views.iter().map(|it| it.net()).collect();
-    let components: Vec<_> = nets.iter().map(|net| Component { name: net.name, net }).collect();
-    story(&System {
-        name: "random",
-        doc: "",
-        components: &components,
-        links: &parts.links,
-        bindings: &parts.bindings,
-        clears: &parts.clears,
-    })
-}
-
 #[test]
 fn random_systems_have_so_many_states_and_say_the_same_of_what_they_forget() {
     let (mut random, mut effort) = (Random(Draw::new(83)), Effort::new(50));
     for _ in 0..500 {
         let parts = parts(&mut random);
-        with_system(&parts, |system| {
+        parts.with_system(|system| {
             effort.note(&(words(system), slots(system), clocks(system), system.defect()));
             let Ok(packed) = Packed::<2, 0, 18>::of(system) else { return };
             let code = packed.code();
@@ -311,7 +296,7 @@ fn what_is_wrong_with_a_system_is_found_and_said() {
         for _ in 0..=random.below(3) {
             wrong_together(&mut random, &mut parts);
         }
-        with_system(&parts, |system| {
+        parts.with_system(|system| {
             let defect: Option<SystemDefect> = system.defect();
             effort.count("defects", u64::from(defect.is_some()));
             effort.note(&(defect, defect.map(|it| it.to_string())));

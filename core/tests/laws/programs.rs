@@ -342,22 +342,26 @@ fn a_ninth_timer_begins_when_one_of_eight_has_ended() {
     assert!(verdict(&net).is_ok());
 }
 
-/// What others do to the first place of all is a step on the way.
+/// What others do to the first place of all, or to its complement, is a step on the way.
 #[test]
-fn a_shared_place_may_be_the_first_one() {
-    let mut net = OwnedNet::new("asked", "");
-    let flag = OwnedPlace { role: Role::Shared, ..OwnedPlace::new("flag", 0).at_most(1) };
-    let flag = net.place(flag).unwrap();
-    let absent =
-        OwnedPlace { role: Role::Complement(flag), ..OwnedPlace::new("not", 1).at_most(1) };
-    net.place(absent).unwrap();
-    let [here, there] = [("Here", 1), ("There", 0)]
-        .map(|(name, tokens)| net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap());
-    net.transition(step("goes", here, there).read(flag, 1)).unwrap();
-    net.laws.push(OwnedLaw::NeverBoth(there, flag));
-    assert_eq!(verdict(&net), Err((Culprit::Both, vec![Step::Raised(flag), fires(0)])));
-    net.laws = vec![OwnedLaw::Invariant { sum: vec![Arc { place: there, weight: 1 }], equals: 0 }];
-    assert_eq!(verdict(&net), Err((Culprit::Sum(1), vec![Step::Raised(flag), fires(0)])));
+fn a_shared_place_or_its_complement_may_be_the_first_one() {
+    for (flag, absent) in [(PlaceId(0), PlaceId(1)), (PlaceId(1), PlaceId(0))] {
+        let mut net = OwnedNet::new("asked", "");
+        let shared = OwnedPlace { role: Role::Shared, ..OwnedPlace::new("flag", 0) };
+        let not = OwnedPlace { role: Role::Complement(flag), ..OwnedPlace::new("not", 1) };
+        let places = if flag < absent { [shared, not] } else { [not, shared] };
+        for place in places {
+            net.place(place.at_most(1)).unwrap();
+        }
+        let [here, there] = [("Here", 1), ("There", 0)]
+            .map(|(name, tokens)| net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap());
+        net.transition(step("goes", here, there).read(flag, 1)).unwrap();
+        net.laws.push(OwnedLaw::NeverBoth(there, flag));
+        assert_eq!(verdict(&net), Err((Culprit::Both, vec![Step::Raised(flag), fires(0)])));
+        let sum = vec![Arc { place: there, weight: 1 }];
+        net.laws = vec![OwnedLaw::Invariant { sum, equals: 0 }];
+        assert_eq!(verdict(&net), Err((Culprit::Sum(1), vec![Step::Raised(flag), fires(0)])));
+    }
 }
 
 /// As many markings as there can be: ten switches, and every law.

@@ -2,6 +2,7 @@
 
 use crate::draw::Draw;
 use crate::random::{Random, guarded};
+use cotama_core::__private::system::{Claim, check_laws};
 use cotama_core::net::owned::{OwnedIgnored, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{EventId, Net, OutputId, PlaceId, Role};
 use cotama_core::player::{Firing, Loaded, Observer, Packed, Player, Program as _, SETTLE};
@@ -34,6 +35,23 @@ pub(crate) struct Parts {
     pub(crate) links: Vec<Link>,
     pub(crate) bindings: Vec<Binding>,
     pub(crate) clears: Vec<Clear>,
+}
+
+impl Parts {
+    /// What the story says of the system of these parts.
+    pub(crate) fn with_system<R>(&self, story: impl FnOnce(&System<'_>) -> R) -> R {
+        let views: Vec<_> = self.nets.iter().map(OwnedNet::view).collect();
+        let nets: Vec<Net<'_>> = views.iter().map(|it| it.net()).collect();
+        let components: Vec<_> = nets.iter().map(|net| Component { name: net.name, net }).collect();
+        story(&System {
+            name: "random",
+            doc: "",
+            components: &components,
+            links: &self.links,
+            bindings: &self.bindings,
+            clears: &self.clears,
+        })
+    }
 }
 
 /// Two or three nets, with links, a flag of the first one that others share, pending places and
@@ -349,51 +367,44 @@ fn systems_handle_all_that_the_player_delivers() {
             break;
         }
         let parts = parts(&mut random);
-        let views: Vec<_> = parts.nets.iter().map(OwnedNet::view).collect();
-        let nets: Vec<Net<'_>> = views.iter().map(|it| it.net()).collect();
-        let components: Vec<_> = nets.iter().map(|net| Component { name: net.name, net }).collect();
-        let system = System {
-            name: "random",
-            doc: "",
-            components: &components,
-            links: &parts.links,
-            bindings: &parts.bindings,
-            clears: &parts.clears,
-        };
-        let packed = match Packed::<WORDS, 0, SLOTS>::of(&system) {
-            Ok(packed) => packed,
-            Err(SystemDefect::Overfills(_)) => {
-                count("never sound");
-                continue;
-            }
-            Err(defect) => panic!("{number}: {defect:?} {parts:#?}"),
-        };
-        let (code, program) = (packed.code(), packed.load(&system));
-        match (judge(&system, &code), played(&system, &program)) {
-            (Ok(states), Ok(expected)) => {
-                assert_eq!(states, expected, "{number}: {parts:#?}");
-                decided += 1;
-                count("handled");
-                let mut ignored = parts.nets.iter().flat_map(|it| &it.ignored);
-                count(if ignored.any(|it| !it.guard.is_empty()) { "guarded" } else { "plain" });
-                count(if states > 20 { "many states" } else { "few states" });
-            }
-            (Err(violation), Err((culprit, way, tokens))) => {
-                assert_eq!(violation.culprit, culprit, "{number}: {parts:#?}");
-                assert_eq!(violation.steps(), way, "{number}: {parts:#?}");
-                if let Culprit::Unanswered(event) = culprit {
-                    let there = Watch::new(system, &program, &violation.marking);
-                    assert_eq!(there.tokens, tokens, "{number}: {parts:#?}");
-                    let outside = Some(&Step::Offered(event)) == way.last();
-                    count(if outside { "forgotten from outside" } else { "forgotten inside" });
-                    decided += 1;
-                    count("forgotten");
-                } else {
-                    count("not explored");
+        parts.with_system(|system| {
+            let packed = match Packed::<WORDS, 0, SLOTS>::of(system) {
+                Ok(packed) => packed,
+                Err(SystemDefect::Overfills(_)) => {
+                    count("never sound");
+                    return;
                 }
+                Err(defect) => panic!("{number}: {defect:?} {parts:#?}"),
+            };
+            let (code, program) = (packed.code(), packed.load(system));
+            match (judge(system, &code), played(system, &program)) {
+                (Ok(states), Ok(expected)) => {
+                    assert_eq!(states, expected, "{number}: {parts:#?}");
+                    let claimed = check_laws(system, &code, &[Claim::HandlesAll]);
+                    assert_eq!(claimed, Some(states), "{number}: {parts:#?}");
+                    decided += 1;
+                    count("handled");
+                    let mut ignored = parts.nets.iter().flat_map(|it| &it.ignored);
+                    count(if ignored.any(|it| !it.guard.is_empty()) { "guarded" } else { "plain" });
+                    count(if states > 20 { "many states" } else { "few states" });
+                }
+                (Err(violation), Err((culprit, way, tokens))) => {
+                    assert_eq!(violation.culprit, culprit, "{number}: {parts:#?}");
+                    assert_eq!(violation.steps(), way, "{number}: {parts:#?}");
+                    if let Culprit::Unanswered(event) = culprit {
+                        let there = Watch::new(*system, &program, &violation.marking);
+                        assert_eq!(there.tokens, tokens, "{number}: {parts:#?}");
+                        let outside = Some(&Step::Offered(event)) == way.last();
+                        count(if outside { "forgotten from outside" } else { "forgotten inside" });
+                        decided += 1;
+                        count("forgotten");
+                    } else {
+                        count("not explored");
+                    }
+                }
+                (judged, played) => panic!("{number}: {judged:?} {played:?} {parts:#?}"),
             }
-            (judged, played) => panic!("{number}: {judged:?} {played:?} {parts:#?}"),
-        }
+        });
     }
     let of = |verdict| verdicts.get(verdict).copied().unwrap_or(0);
     assert!(of("handled") >= 200 && of("forgotten") >= 200, "{verdicts:?}");
