@@ -24,7 +24,15 @@ impl Field {
         (tokens as u64).wrapping_shl(self.shift as u32)
     }
 
-    /// Its tokens in a marking.
+    /// Its tokens in a marking; none when it lies beyond the marking.
+    ///
+    /// ```
+    /// # use cotama_core::player::Field;
+    /// let two_bits = |word| Field { word, shift: 4, width: 2 };
+    /// assert_eq!(two_bits(0).of(&[0x7F, 0]), 3);
+    /// assert_eq!(two_bits(1).of(&[0x7F, 0]), 0);
+    /// assert_eq!(two_bits(2).of(&[0x7F, 0]), 0);
+    /// ```
     #[inline]
     pub const fn of<const W: usize>(self, marking: &[u64; W]) -> u32 {
         if (self.word as usize) < W {
