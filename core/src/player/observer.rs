@@ -95,19 +95,16 @@ pub trait Observer<P: Names, M = ()> {
     fn on_fire(&mut self, firing: &Firing<'_, P, M>);
 
     /// A net ignored an event for good, with what it carries along.
-    fn on_ignore(&mut self, event: Of<EventId>, carries: M) {
-        let _ = (event, carries);
-    }
+    #[expect(unused_variables, reason = "the names say what is heard")]
+    fn on_ignore(&mut self, event: Of<EventId>, carries: M) {}
 
     /// Something was put into the mailbox of an event.
-    fn on_mail(&mut self, to: Of<EventId>, carries: M) {
-        let _ = (to, carries);
-    }
+    #[expect(unused_variables, reason = "the names say what is heard")]
+    fn on_mail(&mut self, to: Of<EventId>, carries: M) {}
 
     /// Something was taken out of the mailbox of an event, by an event that empties it.
-    fn on_clear(&mut self, mailbox: Of<EventId>, carries: M) {
-        let _ = (mailbox, carries);
-    }
+    #[expect(unused_variables, reason = "the names say what is heard")]
+    fn on_clear(&mut self, mailbox: Of<EventId>, carries: M) {}
 }
 
 /// Some observer of a system: one type for all of them, so that the code of a system is there once.
