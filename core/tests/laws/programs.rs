@@ -322,6 +322,19 @@ fn more_than_eight_clocks_are_too_many() {
 }
 
 /// When one of eight ends, a ninth can run.
+/// When all that wait for an event may fire, time changes nothing any more.
+#[test]
+fn eight_clocks_may_wait_for_good() {
+    let mut net = OwnedNet::new("waiting", "");
+    net.event("go", "").unwrap();
+    for at in 0..8 {
+        let place = net.place(OwnedPlace::new(&format!("P{at}"), 1).at_most(1)).unwrap();
+        let waits = OwnedTransition::new(&format!("t{at}")).take(place, 1).on(GO);
+        net.transition(waits.within(1, None)).unwrap();
+    }
+    assert_eq!(verdict(&net), Ok(Known::Explored { markings: 9, firings: 8, settle: 0 }));
+}
+
 #[test]
 fn a_ninth_timer_begins_when_one_of_eight_has_ended() {
     let mut net = OwnedNet::new("timers", "");
