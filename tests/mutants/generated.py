@@ -14,8 +14,8 @@ The head of a list says what is run:
     but: **/proofs.rs                    files left out
     sample: 600 19                       how many are drawn, with which seed; all without this line
     program: tests/stories players       who may kill, in this order; tests whose names hold a word
-    compiled: tests/refused              instead: each is built alone, and must break the build of
-                                         the crate's tests or this program
+    compiled: tests/refused              each is built alone, and must break the build of the
+                                         crate's tests, this program, or else one of those above
 
 What the compiler computes is computed without a mutant when all are built together: those that
 are missed in a `const fn` are built alone with `--alone`. Where a constant cannot be computed then,
@@ -47,6 +47,8 @@ import run as runs
 STOP = runs.WORK / "stop"
 # So many programs run at once.
 WORKERS = int(os.environ.get("WORKERS", "2"))
+# A compiler that computes for longer than so many seconds is ended.
+COMPILING = 100
 # With them the tests are built.
 FEATURES_OF = {"cotama-core": ["--features", "alloc"]}
 
@@ -103,10 +105,15 @@ def check(package, targets="--lib"):
     if targets == "--lib":
         # But a constant that is computed for ever is an error.
         environment["RUSTFLAGS"] = "--cap-lints allow"
-    run = subprocess.run(command, cwd=runs.COPY, env=environment, capture_output=True, text=True)
+    run = subprocess.run(
+        command, cwd=runs.COPY, env=environment, capture_output=True, text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (COMPILING, COMPILING + 5)),
+    )
     messages = [json.loads(it) for it in run.stdout.splitlines()]
     found = [it["message"] for it in messages if it["reason"] == "compiler-message"]
     errors = [it for it in found if it["level"] == "error"]
+    if run.returncode and not errors and "(signal: " in run.stderr:
+        return [{"message": "the compiler computes too long", "code": {"code": "E0080"}}]
     if run.returncode and not errors:
         sys.exit(run.stderr)
     return errors
@@ -140,8 +147,9 @@ def is_stopped(sample, run):
 def alone(sample, defects, counts, missed):
     """What the compiler runs: each is built by itself, without a choice."""
     package = SUITES[sample.crate][0][0]
+    programs = [(sample.compiled, []), *sample.programs]
     for defect in defects:
-        defect.suite = (SUITES[sample.crate][0], [sample.compiled])
+        defect.suite = (defect.suite[0], [it for it, _ in programs])
     library = f"{sample.crate}/src/lib.rs"
     # Nobody is to be warned of what the mutant does not use.
     quiet = "#![allow(warnings, clippy::all, clippy::pedantic, clippy::nursery)]\n"
@@ -160,22 +168,36 @@ def alone(sample, defects, counts, missed):
     if errors:
         sys.exit("\n".join(it["rendered"] for it in errors))
     runner = runs.Runner(built)
-    if failure := runner.first_failure(built[sample.compiled], 0, [], 1800):
-        sys.exit(f"without a mutant, {sample.compiled} {failure} fails")
+    for program, names in programs:
+        if failure := runner.first_failure(built[program], 0, names, 1800):
+            sys.exit(f"without a mutant, {program} {failure} fails")
+
+    def killer(defect):
+        """What fails, and how."""
+        if check(package, "--tests"):
+            return "caught", "the compiler"
+        # What runs as it was built before is not built again.
+        for number, (program, names) in enumerate(programs):
+            found = built
+            if number > 0:
+                found, errors = runs.build([defect], {program})
+                if errors:
+                    return "caught", f"the compiler of {program}"
+            if failure := runner.first_failure(found[program], 0, names, 600):
+                return "too long" if failure == "time" else "caught", f"{program} {failure}"
+        return "missed", ""
+
     for run, defect in enumerate(defects):
         if is_stopped(sample, run):
             break
         write(defect)
-        how = "caught"
-        said = "the compiler"
+        how, said = "caught", "the compiler"
         errors = check(package)
         # A constant of the library that panics is no mistake of the mutant's syntax or types.
         if any((it.get("code") or {}).get("code") != "E0080" for it in errors):
             how, said = "not built", errors[0]["message"].split("\n")[0]
-        elif not errors and not check(package, "--tests"):
-            failure = runner.first_failure(built[sample.compiled], 0, [], 300)
-            how = "too long" if failure == "time" else "caught" if failure else "missed"
-            said = f"{sample.compiled} {failure}"
+        elif not errors:
+            how, said = killer(defect)
         counts[how] += 1
         print(f"{defect.file}:{defect.line}: {defect.what}: {how}: {said}", flush=True)
         if how == "missed":
