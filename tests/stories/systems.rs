@@ -1,7 +1,9 @@
 //! Stories of nets that work together.
 
 use cotama_core::net::EventId;
-use cotama_core::player::{Kind, Observer, Outcome, Packed, Player, Program, Round, Snapshot, Why};
+use cotama_core::player::{
+    Checked, Kind, Observer, Outcome, Packed, Player, Program, RestoreError, Round, Snapshot, Why,
+};
 use cotama_core::system::{Of, System, SystemDefect};
 use cotama_core::units::Millis;
 use cotama_core::{net, system};
@@ -72,6 +74,23 @@ system! {
         links {
             maker.part => one.part & two.part mail 1;
             maker.flushed => one.flush & two.flush now;
+        }
+    }
+}
+
+system! {
+    /// Seventeen workers hear of each part: more happens at once than a player remembers.
+    pub mod crowd {
+        nets {
+            maker: maker, w0: worker, w1: worker, w2: worker, w3: worker, w4: worker, w5:
+            worker, w6: worker, w7: worker, w8: worker, w9: worker, w10: worker, w11:
+            worker, w12: worker, w13: worker, w14: worker, w15: worker, w16: worker
+        }
+        links {
+            maker.part => w0.part & w1.part & w2.part & w3.part & w4.part & w5.part & w6.part &
+                w7.part & w8.part & w9.part & w10.part & w11.part & w12.part &
+                w13.part & w14.part & w15.part & w16.part mail 1;
+            maker.flushed => w0.flush now;
         }
     }
 }
@@ -253,6 +272,31 @@ fn a_system_that_does_not_fit_together_says_why() {
     assert!(played.offer_carrying(Millis(0), &MAKE.id(), 1, &mut ()).fired());
 }
 
+/// Counts what happens.
+#[derive(Default)]
+struct Tally {
+    fired: usize,
+    mailed: Vec<u16>,
+}
+
+impl Observer<crowd::Program> for Tally {
+    fn on_fire(&mut self, _: &crowd::Firing<'_>) {
+        self.fired += 1;
+    }
+
+    fn on_mail(&mut self, to: Of<EventId>, (): ()) {
+        self.mailed.push(to.component);
+    }
+}
+
+#[test]
+fn however_much_happens_at_once_it_is_told_once() {
+    let (mut player, mut tally) = (crowd::Player::new(), Tally::default());
+    let make = crowd::Event::maker(maker::Event::make);
+    assert!(player.offer_with(Millis(0), &make, &mut tally).fired());
+    assert_eq!((tally.fired, tally.mailed), (1, (1..18).collect()));
+}
+
 /// A system that is stored comes back with its clocks and all that waits.
 #[test]
 fn a_line_that_is_stored_goes_on_where_it_was() {
@@ -265,9 +309,15 @@ fn a_line_that_is_stored_goes_on_where_it_was() {
     let stored = Snapshot::read(&flash[..written]).unwrap();
 
     let now = Millis(1_000);
-    let mut again =
-        line::Checked::<u8>::restore(cotama_core::player::Checked::default(), now, &stored)
-            .unwrap();
+    let restored = |stored| line::Checked::<u8>::restore(Checked::default(), now, stored);
+    // A mailbox with less room than it has left is no mailbox of this line.
+    let program = line::Program;
+    let [mailbox] = program.code().mailboxes else { panic!("one event is mailed") };
+    let mut less = stored;
+    let room = mailbox.room.unwrap();
+    less.marking[usize::from(room.word)] -= room.tokens(1);
+    assert_eq!(restored(&less).err(), Some(RestoreError::Marking));
+    let mut again = restored(&stored).unwrap();
     assert_eq!(line::state::worker(&again), worker::State::Busy);
     assert_eq!(again.waiting(&PART), 1);
     assert_eq!(again.advance(Millis(1_019)).fired, 0);

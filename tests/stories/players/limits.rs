@@ -2,7 +2,7 @@
 
 use super::{Played, load, nets, with_size_of};
 use cotama_core::net::owned::{OwnedNet, OwnedPlace, OwnedTransition};
-use cotama_core::net::{EventId, PlaceId, TransitionId};
+use cotama_core::net::{Defect, EventId, PlaceId, TransitionId};
 use cotama_core::player::{
     Advanced, CATCH_UP, Checked, Loaded, Outcome, Packed, Player, SETTLE, Stepped, Why,
 };
@@ -204,4 +204,16 @@ fn every_call_returns_even_where_a_net_never_rests() {
         endless += u32::from(is_endless);
     }
     assert!(endless > 100, "{endless}");
+}
+
+#[test]
+fn a_place_starts_with_at_most_65_535_tokens() {
+    let stock = |tokens| {
+        let mut net = OwnedNet::new("stock", "");
+        net.place(OwnedPlace::new("Parts", tokens)).unwrap();
+        let view = net.view();
+        Packed::<1, 0>::alone(&view.net()).err()
+    };
+    assert_eq!(stock(65_535), None);
+    assert_eq!(stock(65_536), Some(Defect::Place { place: 0 }));
 }

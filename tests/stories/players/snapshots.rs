@@ -1,6 +1,7 @@
 //! What a player stores comes back as it was, and what is damaged breaks no law.
 
 use super::{Act, Log, Played, clocks, delay, nets, systems, with_size_of, words};
+use cotama_core::checksum::crc32;
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Law, PlaceId, Role, Within};
 use cotama_core::player::{
@@ -286,6 +287,11 @@ fn a_snapshot_of_the_wrong_length_or_with_a_damaged_byte_is_none() {
         assert_eq!(stored.write(&mut room).map(<[u8]>::len), Some(24));
         assert_eq!(Snapshot::<1, 1, 0, u16>::read(&room), Some(stored));
         assert_eq!(Snapshot::<1, 1, 0, u16>::read(&room[..23]), None);
+        let mut longer = [0; 32];
+        longer[..20].copy_from_slice(&room[..20]);
+        let checksum = crc32(&longer[..28]);
+        longer[28..].copy_from_slice(&checksum.to_le_bytes());
+        assert_eq!(Snapshot::<1, 1, 0, u16>::read(&longer), None);
         for at in 0..room.len() {
             for bits in 1..=u8::MAX {
                 let mut damaged = room;
@@ -293,6 +299,16 @@ fn a_snapshot_of_the_wrong_length_or_with_a_damaged_byte_is_none() {
                 assert_eq!(Snapshot::<1, 1, 0, u16>::read(&damaged), None, "{at} {bits}");
             }
         }
+    });
+}
+
+#[test]
+fn a_snapshot_in_no_state_is_refused() {
+    with_lamp(&lamp(), |program| {
+        let mut stored = Restored::<'_, 1, 1, 0>::start(program, Millis(0), &mut ()).snapshot();
+        stored.marking[0] -= program.code().fields[0].tokens(1);
+        let refused = Restored::<'_, 1, 1, 0>::restore(program, Millis(0), &stored).err();
+        assert_eq!(refused, Some(RestoreError::Marking));
     });
 }
 
