@@ -11,6 +11,7 @@ mod effort;
 #[path = "../common/effort.rs"]
 #[allow(unreachable_pub)] // as above
 mod efforts;
+mod limits;
 mod missing;
 mod programs;
 mod random;

@@ -2,16 +2,16 @@
 
 use cotama_core::net::owned::{OwnedIgnored, OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{
-    Arc, Culprit, EventId, Graph, Known, Limit, PlaceId, Role, Step, TransitionId, Way, judge,
+    Arc, Culprit, EventId, Graph, Known, PlaceId, Role, Step, TransitionId, Way, judge,
 };
 use cotama_core::player::{Outcome, Packed, Player, Why};
 use cotama_core::system::{Component, Of, System};
 use cotama_core::units::Millis;
 
 const A: PlaceId = PlaceId(0);
-const B: PlaceId = PlaceId(1);
+pub(crate) const B: PlaceId = PlaceId(1);
 const C: PlaceId = PlaceId(2);
-const GO: EventId = EventId(0);
+pub(crate) const GO: EventId = EventId(0);
 const BACK: EventId = EventId(1);
 
 /// Places `A` (marked), `B`, `C`, events `go` and `back`.
@@ -30,19 +30,19 @@ fn net(transitions: Vec<OwnedTransition>, law: OwnedLaw) -> OwnedNet {
     net
 }
 
-fn step(name: &str, from: PlaceId, to: PlaceId) -> OwnedTransition {
+pub(crate) fn step(name: &str, from: PlaceId, to: PlaceId) -> OwnedTransition {
     OwnedTransition::new(name).take(from, 1).give(to, 1)
 }
 
 /// What is wrong, and the way there.
-fn verdict(net: &OwnedNet) -> Result<Known, (Culprit, Vec<Step>)> {
+pub(crate) fn verdict(net: &OwnedNet) -> Result<Known, (Culprit, Vec<Step>)> {
     let view = net.view();
     let packed = Packed::<1, 9>::alone(&view.net()).unwrap();
     let violation = judge(&view.net(), &packed.code());
     violation.map_err(|it| (it.culprit, Way::steps(&it.way).to_vec()))
 }
 
-fn fires(at: u32) -> Step {
+pub(crate) fn fires(at: u32) -> Step {
     Step::Fires(TransitionId(at))
 }
 
@@ -286,73 +286,6 @@ fn what_comes_again_and_again_grows_and_what_came_once_does_not() {
     let bound = |grows| Culprit::Bound { place: B, tokens: 2, transition: TransitionId(0), grows };
     assert_eq!(beyond(true), (bound(true), vec![go; 2]));
     assert_eq!(beyond(false), (bound(false), vec![go; 2]));
-}
-
-/// A transition on an event is one move, a place that others might change is two.
-#[test]
-fn more_than_16_384_moves_are_too_many() {
-    let loops = |count: u32| {
-        let mut net = OwnedNet::new("loops", "");
-        net.event("go", "").unwrap();
-        for (name, tokens) in [("A", 1), ("B", 0), ("C", 0)] {
-            net.place(OwnedPlace::new(name, tokens).at_most(1)).unwrap();
-        }
-        for at in 0..count {
-            net.transition(step(&format!("t{at}"), B, B).on(GO)).unwrap();
-        }
-        net
-    };
-    assert!(verdict(&loops(16_378)).is_ok());
-    assert_eq!(verdict(&loops(16_379)), Err((Culprit::TooLarge(Limit::Parts), vec![])));
-}
-
-#[test]
-fn more_than_eight_clocks_are_too_many() {
-    let timers = |count: u32| {
-        let mut net = OwnedNet::new("timers", "");
-        for at in 0..count {
-            let place = net.place(OwnedPlace::new(&format!("P{at}"), 1).at_most(1)).unwrap();
-            let timer = OwnedTransition::new(&format!("t{at}")).take(place, 1);
-            net.transition(timer.within(at, Some(at))).unwrap();
-        }
-        net
-    };
-    assert!(verdict(&timers(8)).is_ok());
-    assert_eq!(verdict(&timers(9)), Err((Culprit::TooLarge(Limit::Clocks), vec![])));
-}
-
-/// When one of eight ends, a ninth can run.
-/// When all that wait for an event may fire, time changes nothing any more.
-#[test]
-fn eight_clocks_may_wait_for_good() {
-    let mut net = OwnedNet::new("waiting", "");
-    net.event("go", "").unwrap();
-    for at in 0..8 {
-        let place = net.place(OwnedPlace::new(&format!("P{at}"), 1).at_most(1)).unwrap();
-        let waits = OwnedTransition::new(&format!("t{at}")).take(place, 1).on(GO);
-        net.transition(waits.within(1, None)).unwrap();
-    }
-    assert_eq!(verdict(&net), Ok(Known::Explored { markings: 9, firings: 8, settle: 0 }));
-}
-
-#[test]
-fn a_ninth_timer_begins_when_one_of_eight_has_ended() {
-    let mut net = OwnedNet::new("timers", "");
-    for at in 0..9 {
-        net.place(OwnedPlace::new(&format!("P{at}"), u32::from(at < 8)).at_most(1)).unwrap();
-    }
-    for at in 0..9 {
-        let mut timer = OwnedTransition::new(&format!("t{at}")).take(PlaceId(at), 1);
-        if at == 0 {
-            timer = timer.give(PlaceId(8), 1);
-        }
-        let after = if at == 0 { 2 } else { 100 };
-        net.transition(timer.within(after, Some(after))).unwrap();
-    }
-    net.laws.push(OwnedLaw::NeverBoth(PlaceId(8), PlaceId(7)));
-    assert_eq!(verdict(&net), Err((Culprit::Both, vec![Step::Passes(2), fires(0)])));
-    net.laws = vec![OwnedLaw::NeverBoth(PlaceId(8), PlaceId(0))];
-    assert!(verdict(&net).is_ok());
 }
 
 /// What others do to the first place of all, or to its complement, is a step on the way.
