@@ -3,17 +3,10 @@
 
 use std::fmt::{Debug, Write};
 
-/// A sum of bits of a text (FNV-1a, 64 bits: Fowler, Noll, Vo).
-struct Digest(u64);
+#[path = "digest.rs"]
+mod digest;
 
-impl Write for Digest {
-    fn write_str(&mut self, text: &str) -> std::fmt::Result {
-        for byte in text.bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
-        }
-        Ok(())
-    }
-}
+use digest::Digest;
 
 /// Lines, each of so many instances: their counts added up, and a digest of all that was noted.
 pub struct Effort {
@@ -26,8 +19,8 @@ pub struct Effort {
 
 impl Effort {
     pub fn new(each: usize) -> Self {
-        let (text, counts, digest) = (String::new(), Vec::new(), Digest(0xCBF2_9CE4_8422_2325));
-        Self { text, each, instances: 0, counts, digest }
+        let (text, counts) = (String::new(), Vec::new());
+        Self { text, each, instances: 0, counts, digest: Digest::EMPTY }
     }
 
     /// Adds to what is counted under this name.
@@ -58,7 +51,7 @@ impl Effort {
             for (name, count) in self.counts.drain(..) {
                 write!(self.text, "{name} {count}, ").expect("a string takes all");
             }
-            let digest = std::mem::replace(&mut self.digest, Self::new(1).digest);
+            let digest = std::mem::replace(&mut self.digest, Digest::EMPTY);
             writeln!(self.text, "{:016x} of {first}..{}", digest.0, self.instances)
                 .expect("a string takes all");
         }

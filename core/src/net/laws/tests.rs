@@ -9,23 +9,15 @@ use std::fmt::Write;
 use std::format;
 use std::string::String;
 
+#[allow(unreachable_pub)] // other tests read it too
+#[path = "../../../tests/common/digest.rs"]
+mod digest;
 #[allow(unreachable_pub)] // tests outside of the library read it too
 #[path = "../../../tests/common/draw.rs"]
 mod draw;
 
+use digest::Digest;
 use draw::Draw;
-
-/// A sum of bits of a text (FNV-1a, 64 bits: Fowler, Noll, Vo).
-struct Digest(u64);
-
-impl Write for Digest {
-    fn write_str(&mut self, text: &str) -> std::fmt::Result {
-        for byte in text.bytes() {
-            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
-        }
-        Ok(())
-    }
-}
 
 /// An interval of some milliseconds, mostly of one.
 fn some(draw: &mut Draw, it: OwnedTransition) -> OwnedTransition {
@@ -92,7 +84,7 @@ fn zones_are_divided_where_they_were() {
 
 /// How often zones are divided for the laws of drawn nets, and a digest of where.
 fn divided() -> (String, u64) {
-    let (mut draw, mut digest) = (Draw::new(131), Digest(0xCBF2_9CE4_8422_2325));
+    let (mut draw, mut digest) = (Draw::new(131), Digest::EMPTY);
     let (mut rounds, mut classes, mut cut, mut open) = (0, 0, 0, 0);
     for _ in 0..2_000 {
         let owned = timers(&mut draw);
