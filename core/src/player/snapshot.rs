@@ -2,7 +2,6 @@
 //! laws.
 
 use super::code::{Code, NONE};
-use super::field::Field;
 use super::player::Player;
 use super::program::{Checked, Program};
 use crate::checksum::crc32;
@@ -267,19 +266,16 @@ impl<P: Program<W, C, S>, const W: usize, const C: usize, const S: usize, M: Cop
         if S > 0 || player.settled(code) { Ok(player) } else { Err(RestoreError::NotSettled) }
     }
 
-    /// Whether mailboxes and the complements that the system needs hold together what they can.
+    /// Whether places and the complements that the system makes for them hold together what they
+    /// can. Of the complements that nets have, and so of the room in mailboxes, [`Code::kept`] says
+    /// so.
     fn complements(&self, code: &Code<'_, W>) -> bool {
-        let held = |field: Field| field.of(&self.marking);
-        let sums_to = |a: u32, b: u32, bound: u32| a.checked_add(b) == Some(bound);
-        let made = |&(place, field): &(u16, Field)| {
-            let place = code.fields.get(usize::from(place));
-            place.is_none_or(|it| sums_to(held(*it), held(field), it.of(&code.bounds)))
-        };
-        code.mailboxes
-            .iter()
-            .filter_map(|it| Some((it, it.room?)))
-            .all(|(it, room)| sums_to(held(it.waiting), held(room), u32::from(it.capacity)))
-            && code.complements.iter().all(made)
+        code.complements.iter().all(|&(place, field)| {
+            code.fields.get(usize::from(place)).is_none_or(|it| {
+                let (held, bound) = (it.of(&self.marking), it.of(&code.bounds));
+                held.checked_add(field.of(&self.marking)) == Some(bound)
+            })
+        })
     }
 }
 
