@@ -30,7 +30,9 @@ from lists import ALL, LISTS, ROOT, read_list, table, write_killers
 WORK = Path(os.environ.get("CARGO_TARGET_DIR", ROOT / "target")) / "defects"
 COPY = WORK / "workspace"
 # They compile a crate of their own, or read texts; they ask nothing of the code that runs.
-SKIPPED = ["first_program", "doc_examples", "claims", "seeded_defects"]
+SKIPPED = [
+    "first_program", "doc_examples", "claims", "seeded_defects", "certificates::small",
+]
 # How a run ends that hangs, or that a panic does not end.
 ENDS = ["time", "a crash"]
 NAMED_SECONDS = float(os.environ.get("SECONDS_PER_TEST", "60"))

@@ -38,7 +38,7 @@ fn all() -> BTreeMap<String, u64> {
         all.insert(format!("defects.{list}"), seeded.count() as u64);
         all.insert(format!("defects.{list}.killed"), killed.count() as u64);
     }
-    for list in ["checker", "core", "models"] {
+    for list in ["checker", "core", "language", "models"] {
         let text = fs::read_to_string(root().join(format!("tests/mutants/generated/{list}.txt")));
         let text = text.expect("a list of generated mutants");
         let count = |key: &str| {
@@ -51,6 +51,17 @@ fn all() -> BTreeMap<String, u64> {
         let first = text.lines().find_map(|it| it.strip_prefix("first: ")).expect("the first run");
         let first = first.split(' ').next().and_then(|it| it.parse().ok()).expect("a number");
         all.insert(format!("generated.{list}.first"), first);
+    }
+    let mutants = root().join("verification/tests/golden/rounds/mutants.txt");
+    let mutants = fs::read_to_string(mutants).expect("what each mutant of the delivery breaks");
+    for (name, word) in [
+        ("", " - "),
+        (".breaking", " - breaks "),
+        (".refused", " - refused: "),
+        (".harmless", " - harmless: "),
+    ] {
+        let count = mutants.lines().filter(|it| it.contains(word)).count();
+        all.insert(format!("mutants.delivery{name}"), count as u64);
     }
     all
 }
@@ -97,7 +108,8 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
     for name in figures.keys() {
         assert!(shown.contains(name), "no page shows `{name}`");
         let is_asserted = asserted.contains(&format!("\"{name}\""));
-        let is_counted = name.starts_with("defects.") || name.starts_with("generated.");
+        let counted = ["defects.", "generated.", "mutants."];
+        let is_counted = counted.iter().any(|it| name.starts_with(it));
         assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }
 }

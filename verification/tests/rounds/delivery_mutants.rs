@@ -56,7 +56,6 @@ const HARMLESS: &[(&str, &[&str])] = &[
     ),
     ("without sonars there is no localisation by particles either", &["pf.a1: without sonar"]),
     ("with localisation the line before it fires", &["pf.a2: without !mcl"]),
-    ("with sonars one of the lines before it fires", &["pf.a3: without !sonar"]),
     (
         "it never fires: all particles are there",
         &[
@@ -259,13 +258,28 @@ fn mutants_of_each_kind_break_a_requirement() {
 }
 
 #[test]
-#[ignore = "13 minutes of one core when compiled with --release: 561 mutants"]
+#[ignore = "40 minutes of one core when compiled with --release: 781 mutants"]
 fn every_mutant_breaks_a_requirement_or_is_known_to_be_harmless() {
     let all = mutants(delivery::SYSTEM, SUPERVISORS);
-    let table = table(&all.iter().collect::<Vec<_>>());
-    let of = |known: &str| table.lines().filter(|it| it.contains(known)).count();
-    assert_eq!(of(" - survives"), 0, "{table}");
-    let never = table.lines().filter(|it| it.ends_with(" - harmless: it never fires")).count();
-    let named = HARMLESS.iter().map(|it| it.1.len()).sum::<usize>();
-    assert_eq!(of(" - harmless: ") - never, named, "{table}");
+    golden("mutants.txt", &table(&all.iter().collect::<Vec<_>>()));
+}
+
+/// The table takes too long to be made each time: here it is seen to be one of today's nets.
+#[test]
+fn the_table_says_of_every_mutant_what_it_breaks_or_why_it_is_harmless() {
+    let all = mutants(delivery::SYSTEM, SUPERVISORS);
+    let table = include_str!("../golden/rounds/mutants.txt");
+    assert_eq!(table.lines().count(), all.len());
+    for (mutant, line) in all.iter().zip(table.lines()) {
+        let begins = format!("{}: {} - ", mutant.kind, mutant.name);
+        let known = line.strip_prefix(&begins).unwrap_or_else(|| panic!("{begins}: {line}"));
+        match (known.strip_prefix("harmless: "), harmless(mutant)) {
+            (None, None) => {
+                assert!(known.starts_with("breaks ") || known.starts_with("refused: "), "{line}");
+            }
+            (told, why) => assert_eq!(told, why, "{line}"),
+        }
+    }
+    let named: Vec<_> = HARMLESS.iter().flat_map(|it| it.1).collect();
+    assert!(named.iter().all(|name| all.iter().any(|it| it.name == **name)));
 }
