@@ -188,7 +188,7 @@ class Runner:
             program, test = defect.by.split(" ", 1)
             if program in programs:
                 # A name that ends in `::` is a module, for one of whose tests it may do as well.
-                names = [test] if test.endswith("::") else ["--exact", test]
+                names = [test] if test.endswith("::") else ["--exact", "--include-ignored", test]
                 run = programs[program]
                 failure = self.first_failure(run, defect.number, names, NAMED_SECONDS)
                 if failure == "no such test":
