@@ -82,14 +82,14 @@ system! {
     /// Seventeen workers hear of each part: more happens at once than a player remembers.
     pub mod crowd {
         nets {
-            maker: maker, w0: worker, w1: worker, w2: worker, w3: worker, w4: worker, w5:
-            worker, w6: worker, w7: worker, w8: worker, w9: worker, w10: worker, w11:
-            worker, w12: worker, w13: worker, w14: worker, w15: worker, w16: worker
+            maker: maker, w0: worker, w1: worker, w2: worker, w3: worker, w4: worker,
+            w5: worker, w6: worker, w7: worker, w8: worker, w9: worker, w10: worker,
+            w11: worker, w12: worker, w13: worker, w14: worker, w15: worker, w16: worker
         }
         links {
-            maker.part => w0.part & w1.part & w2.part & w3.part & w4.part & w5.part & w6.part &
-                w7.part & w8.part & w9.part & w10.part & w11.part & w12.part &
-                w13.part & w14.part & w15.part & w16.part mail 1;
+            maker.part => w0.part & w1.part & w2.part & w3.part & w4.part & w5.part &
+                w6.part & w7.part & w8.part & w9.part & w10.part & w11.part &
+                w12.part & w13.part & w14.part & w15.part & w16.part mail 1;
             maker.flushed => w0.flush now;
         }
     }

@@ -72,7 +72,6 @@ fn more_than_eight_clocks_are_too_many() {
     assert_eq!(verdict(&timers(9)), Err((Culprit::TooLarge(Limit::Clocks), vec![])));
 }
 
-/// When one of eight ends, a ninth can run.
 /// When all that wait for an event may fire, time changes nothing any more.
 #[test]
 fn eight_clocks_may_wait_for_good() {
@@ -86,6 +85,7 @@ fn eight_clocks_may_wait_for_good() {
     assert_eq!(verdict(&net), Ok(Known::Explored { markings: 9, firings: 8, settle: 0 }));
 }
 
+/// When one of eight ends, a ninth can run.
 #[test]
 fn a_ninth_timer_begins_when_one_of_eight_has_ended() {
     let mut net = OwnedNet::new("timers", "");
