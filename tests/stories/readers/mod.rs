@@ -12,9 +12,12 @@ mod verification;
 /// Two tests of each reader.
 macro_rules! readers {
     ($($name:ident: $read:ident, [$($word:literal),* $(,)?];)*) => {
-        mod of { $(
-            mod $name {
-                const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
+        pub(super) mod of {
+            /// All of them.
+            pub(crate) const ALL: &[cotama_fuzz::Reader] = &[$($name::READER),*];
+
+            $( mod $name {
+                pub(super) const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
                     name: stringify!($name),
                     words: &[$($word),*],
                     read: super::super::$read,
@@ -30,8 +33,24 @@ macro_rules! readers {
                 fn reads_or_refuses_a_million_mutants() {
                     READER.run_a_million();
                 }
-            }
-        )* }
+            } )*
+        }
     };
 }
 use readers;
+
+/// All readers but those of the program.
+pub(crate) fn all() -> impl Iterator<Item = cotama_fuzz::Reader> {
+    models::of::ALL.iter().chain(verification::of::ALL).copied()
+}
+
+#[test]
+fn every_folder_of_the_corpus_has_its_reader() {
+    let folders = std::fs::read_dir(concat!(env!("CARGO_MANIFEST_DIR"), "/corpora")).unwrap();
+    let mut folders: Vec<_> =
+        folders.map(|it| it.unwrap().file_name().into_string().unwrap()).collect();
+    folders.sort();
+    let mut names: Vec<_> = all().map(|it| it.name).chain(["instances", "steps"]).collect();
+    names.sort_unstable();
+    assert_eq!(folders, names);
+}
