@@ -265,8 +265,10 @@ fn what_nothing_else_wants_waits_until_it_is_needed() {
     assert_eq!(lifted(&before, &after, ""), "h");
     assert!(is_dead(&before, &run(&before, &ids(&before, "h")).unwrap()));
     stays(joint, rule, StutterInvariantLtl, &["a"]);
-    // Another wants the token that `h` takes; `h` gives elsewhere too; `h` needs nothing.
+    // Another wants the token that `h` takes, or one of two; `h` gives elsewhere too, or needs
+    // nothing.
     stays("a:1 b:1 p c | h: a -> p; f: b p -> c; k: ?a b -> c", rule, Deadlock, &[]);
+    stays("a:1 b:1 d:1 p c | h: a d -> p; f: b p -> c; k: b d -> c", rule, Deadlock, &[]);
     stays("a:1 b:1 p c | h: a -> p c; f: b p -> c", rule, Deadlock, &[]);
     stays("b:1 p c | h: -> p; f: b p -> c", rule, Deadlock, &[]);
     // The two that `f` takes may come from different givers.
