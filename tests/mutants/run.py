@@ -215,6 +215,13 @@ def check_texts(defects):
         sys.exit("\n".join(wrong))
 
 
+def programs_with_sources(crate):
+    """The roots of test programs that hold a source file of the crate itself."""
+    holds = [it for it in (ROOT / crate / "tests").glob("*/*.rs")
+             if '#[path = "../../src/' in it.read_text()]
+    return sorted({str(it.parent.relative_to(ROOT) / "main.rs") for it in holds})
+
+
 def seed(defects):
     """Writes the copy with all of the defects that can be chosen, and no other."""
     files, changed = {}, {}
@@ -224,9 +231,9 @@ def seed(defects):
     for name, those in files.items():
         changed[name] = with_choice((ROOT / name).read_text(), those)
     for crate in {it.split("/")[0] for it in files}:
-        name = f"{crate}/src/lib.rs"
-        changed[name] = changed.get(name) or (ROOT / name).read_text()
-        changed[name] += MODULE
+        for name in [f"{crate}/src/lib.rs", *programs_with_sources(crate)]:
+            changed[name] = changed.get(name) or (ROOT / name).read_text()
+            changed[name] += MODULE
     copy_workspace(changed)
     for name, text in changed.items():
         write(COPY / name, text)

@@ -236,3 +236,25 @@ fn nobody_is_asked_who_cannot_be_reached() {
     }
     assert_eq!(asked, 31_104);
 }
+
+/// What a plan withdraws leads the adapter to the path following that the plan has chosen.
+#[test]
+fn the_adapter_comes_to_every_path_following_that_can_be_planned() {
+    use cotama_models::cotama::Configuration::{
+        FollowingDegraded, FollowingDvz, FollowingOdometric, FollowingOptimal,
+    };
+    let mut planned_for = [0; 4];
+    for lost in (0..=u8::MAX).filter_map(Losses::from_bits) {
+        let left = lost.available();
+        let lacking = Losses::lacking(left);
+        let followings = [FollowingOptimal, FollowingOdometric, FollowingDvz, FollowingDegraded];
+        for (count, planned) in planned_for.iter_mut().zip(followings) {
+            if planned.runs_on(left) {
+                let withdrawn = lacking.beside(planned);
+                assert_eq!(lacking.union(withdrawn).following(), planned, "{lacking}: {planned:?}");
+                *count += 1;
+            }
+        }
+    }
+    assert_eq!(planned_for, [8, 16, 8, 64]);
+}

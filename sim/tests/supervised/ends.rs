@@ -7,7 +7,7 @@ use cotama_models::cotama::FailureMode::{self, Bat2, Mot4, Odo1, Pwr1};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_sim::run::{Outcome, Reason};
-use cotama_sim::supervised::{Injection, Run, Script, Supervised, When};
+use cotama_sim::supervised::{Injection, PERIOD, Run, Script, Supervised, When};
 use cotama_sim::trace::Record;
 
 fn script(mode: FailureMode, x_mm: u64) -> Script {
@@ -85,7 +85,12 @@ fn a_limit_that_cannot_be_kept_is_asked_about_when_it_drives() {
         _ => None,
     });
     let limit = mission.limits[0] - margin.unwrap().unsigned_abs() - 1;
-    let asked = run(&within(limit, mission.limits[1]), &Script::default());
+    let short = within(limit, mission.limits[1]);
+    let asked = run(&short, &Script::default());
+    // No period is passed over when samples are asked for.
+    let supervised = Supervised::new(&short).unwrap();
+    let each = supervised.run_recorded(&Script::default(), PERIOD, &mut Vec::new()).unwrap();
+    assert_eq!(each, asked);
     let received = asked.fired.iter().find(|it| it.net == "gs" && it.transition == "g3").unwrap();
     let hard = asked.fired.iter().find(|it| it.net == "cs").unwrap();
     assert_eq!((received.at, hard.at), (Millis(166_200), Millis(167_100)));

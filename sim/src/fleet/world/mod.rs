@@ -4,6 +4,8 @@ mod auctioneer;
 mod awards;
 mod bidding;
 mod robot;
+#[cfg(test)]
+mod tests;
 mod working;
 
 use super::allocate::Allocator;
