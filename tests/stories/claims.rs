@@ -1,9 +1,14 @@
 //! The figures of the pages are those that tests assert: each stands in one file, or is counted.
+//! The page of claims is written from them and from `tests/claims.toml`.
 //!
 //! A page shows a figure in front of a comment that names it, `110,346<!--=delivery.states-->`;
 //! with `UPDATE_GOLDEN=1` the numbers are written anew.
 
+mod commands;
+mod page;
+
 use cotama_golden::figures;
+use page::Claims;
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -99,6 +104,10 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         cotama_golden::compare(&path, &page);
         shown.extend(names);
     }
+    let claims = Claims::read();
+    let (page, names) = claims.page(&figures);
+    cotama_golden::compare(root().join("docs/claims.md"), &page);
+    shown.extend(names);
     // Not kept for nothing: a page shows it, and a test reads it.
     let mut asserted = String::new();
     for folder in ["models/tests", "sim/tests", "verification/tests", "cli/tests", "tests/stories"]
@@ -112,6 +121,14 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         let is_counted = counted.iter().any(|it| name.starts_with(it));
         assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }
+}
+
+#[test]
+fn a_claim_has_its_words_and_names_what_is_there() {
+    let claims = Claims::read();
+    let mut wrong = claims.defects();
+    wrong.extend(claims.claims.iter().flat_map(commands::defects));
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// The text of all sources below a folder.
