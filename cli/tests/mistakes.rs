@@ -211,7 +211,7 @@ fn who_interrupts_a_long_check_finds_no_file() {
 fn who_interrupts_a_check_in_json_reads_what_is_decided() {
     use std::os::unix::process::ExitStatusExt;
     if interruptions_are_ignored() {
-        eprintln!("SKIPPED: interruptions do not reach this process");
+        cotama_golden::skipped("interruptions do not reach this process");
         return;
     }
     let folder = Folder::new("mistakes_interrupted_json");

@@ -5,9 +5,11 @@ mod figures;
 
 pub use figures::{figure, figures};
 
+use std::ffi::OsStr;
 use std::fs;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
 use std::sync::atomic::{AtomicU32, Ordering::Relaxed};
 
 /// Compares what a test found with a kept file. A relative path starts at the folder of the
@@ -96,7 +98,44 @@ pub fn folder_or_skip(named: Option<PathBuf>, skips: bool) -> Result<Option<Path
 /// sets 0, as `.ci/run` does.
 #[must_use]
 pub fn skips() -> bool {
-    std::env::var_os("COTAMA_SKIP_PUBLIC").is_some_and(|it| it == "1")
+    is_skip(std::env::var_os("COTAMA_SKIP_PUBLIC").as_deref())
+}
+
+/// What this value of `COTAMA_SKIP_PUBLIC` says: skipped is what lacks only where it is 1.
+#[must_use]
+pub fn is_skip(value: Option<&OsStr>) -> bool {
+    value.is_some_and(|it| it == "1")
+}
+
+/// Whether a tool that is no part of the project is there; where it is not, that is said loudly,
+/// and `what` is not tested.
+///
+/// # Panics
+/// When it cannot be run and the test is not to be skipped.
+#[must_use]
+#[track_caller]
+pub fn has_tool(tool: &str, what: &str) -> bool {
+    let runs = |it: &mut Command| it.stdout(Stdio::null()).stderr(Stdio::null()).status().is_ok();
+    match tool_or_skip(runs(Command::new(tool).arg("-V")), skips()) {
+        Ok(true) => true,
+        Ok(false) => {
+            skipped(&format!("{tool} is not installed to test {what} with"));
+            false
+        }
+        Err(why) => panic!("{tool}: {why}"),
+    }
+}
+
+/// Whether a tool is there, or lacks and that is no mistake.
+///
+/// # Errors
+/// That there must be one.
+pub fn tool_or_skip(is_there: bool, skips: bool) -> Result<bool, &'static str> {
+    match (is_there, skips) {
+        (true, _) => Ok(true),
+        (false, true) => Ok(false),
+        (false, false) => Err("it is not installed; COTAMA_SKIP_PUBLIC=1 skips this test"),
+    }
 }
 
 /// Says what a test does not test here, and why.

@@ -57,6 +57,8 @@ fn all() -> BTreeMap<String, u64> {
         let first = first.split(' ').next().and_then(|it| it.parse().ok()).expect("a number");
         all.insert(format!("generated.{list}.first"), first);
     }
+    count_harnesses(&mut all);
+    count_mistakes(&mut all);
     let mutants = root().join("verification/tests/golden/rounds/mutants.txt");
     let mutants = fs::read_to_string(mutants).expect("what each mutant of the delivery breaks");
     for (name, word) in [
@@ -69,6 +71,42 @@ fn all() -> BTreeMap<String, u64> {
         all.insert(format!("mutants.delivery{name}"), count as u64);
     }
     all
+}
+
+/// The harnesses of the table on their page, and how they are run; the bugs planted for them.
+fn count_harnesses(all: &mut BTreeMap<String, u64>) {
+    let page = fs::read_to_string(root().join("docs/proofs.md")).expect("the harnesses");
+    let table = page.split("## What holds").nth(1).expect("the table");
+    let words = |it: &str| it.split_whitespace().collect::<Vec<_>>().join(" ");
+    let entries: Vec<_> = table.split("\n- `").skip(1).map(words).collect();
+    let of = |word: &str| entries.iter().filter(|it| it.contains(word)).count() as u64;
+    all.insert("proofs.harnesses".into(), entries.len() as u64);
+    all.insert("proofs.exhaustive".into(), of("*exhaustive ("));
+    all.insert("proofs.sampled".into(), of("*sampled ("));
+    all.insert("proofs.symbolic".into(), of("machine code, all"));
+    let bugs = fs::read_to_string(root().join("tests/proofs/bugs.txt")).expect("the bugs");
+    let bugs = bugs.lines().filter(|it| it.starts_with("harness: ")).count();
+    all.insert("proofs.bugs".into(), bugs as u64);
+}
+
+/// The small mistakes in the nets, and what becomes of them.
+fn count_mistakes(all: &mut BTreeMap<String, u64>) {
+    let lists = fs::read_dir(root().join("models/tests/golden/nets")).expect("golden lists");
+    let lists = lists.map(|it| it.expect("a list").path());
+    let lists = lists.filter(|it| it.to_string_lossy().ends_with("_mutants.txt"));
+    for list in lists.map(|it| fs::read_to_string(it).expect("a list")) {
+        let counted = |line: &str| line.split(' ').find_map(|it| it.parse::<u64>().ok());
+        for (name, words) in [
+            ("mistakes", " mutants"),
+            ("mistakes.laws", " caught by laws"),
+            ("mistakes.equivalent", " equivalent"),
+            ("mistakes.table", " seen only in the table of events"),
+            ("mistakes.unnoticed", " survive"),
+        ] {
+            let line = list.lines().find(|it| it.ends_with(words) && !it.starts_with(' '));
+            *all.entry(name.to_owned()).or_default() += line.and_then(counted).expect(name);
+        }
+    }
 }
 
 /// With commas between thousands.
@@ -104,20 +142,26 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         cotama_golden::compare(&path, &page);
         shown.extend(names);
     }
-    let claims = Claims::read();
-    let (page, names) = claims.page(&figures);
+    let (page, names) = page::page(&figures);
     cotama_golden::compare(root().join("docs/claims.md"), &page);
     shown.extend(names);
     // Not kept for nothing: a page shows it, and a test reads it.
     let mut asserted = String::new();
-    for folder in ["models/tests", "sim/tests", "verification/tests", "cli/tests", "tests/stories"]
-    {
+    for folder in [
+        "models/tests",
+        "sim/tests",
+        "verification/tests",
+        "cli/tests",
+        "tests/stories",
+        "tests/measure",
+    ] {
         sources(&root().join(folder), &mut asserted);
     }
     for name in figures.keys() {
         assert!(shown.contains(name), "no page shows `{name}`");
-        let is_asserted = asserted.contains(&format!("\"{name}\""));
-        let counted = ["defects.", "generated.", "mutants."];
+        let reads = [format!("\"{name}\""), format!("figure {name})")];
+        let is_asserted = reads.iter().any(|it| asserted.contains(it));
+        let counted = ["defects.", "generated.", "mistakes", "mutants.", "proofs."];
         let is_counted = counted.iter().any(|it| name.starts_with(it));
         assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }
@@ -131,14 +175,17 @@ fn a_claim_has_its_words_and_names_what_is_there() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The text of all sources below a folder.
-fn sources(folder: &Path, text: &mut String) {
-    for path in fs::read_dir(folder).expect("a folder").map(|it| it.expect("an entry").path()) {
-        if path.is_dir() {
-            sources(&path, text);
-        } else if path.extension().is_some_and(|it| it == "rs") {
-            *text += &fs::read_to_string(path).expect("a source");
-        }
+/// The text of a file, or of all sources below a folder.
+pub(super) fn sources(path: &Path, text: &mut String) {
+    if path.is_dir() {
+        let entries = fs::read_dir(path).expect("a folder").map(|it| it.expect("an entry").path());
+        let is_source = |it: &PathBuf| {
+            let kind = it.extension().and_then(|it| it.to_str());
+            it.is_dir() || kind.is_some_and(|it| ["rs", "sh", "py"].contains(&it))
+        };
+        entries.filter(is_source).for_each(|it| sources(&it, text));
+    } else {
+        *text += &fs::read_to_string(path).unwrap_or_default();
     }
 }
 

@@ -1,4 +1,5 @@
-//! What claims name is there: commands, the tests that these choose, files and folders.
+//! What claims name is there: commands, the tests that these choose, files and folders, and in
+//! these the numbers of the claim.
 
 use super::page::Claim;
 use super::{root, sources};
@@ -17,7 +18,37 @@ pub(super) fn defects(claim: &Claim) -> Vec<String> {
             wrong.push(format!("{}: there is no {place}", claim.id));
         }
     }
+    let mut text = String::new();
+    for place in claim.places.iter().flat_map(|it| spread(it)) {
+        sources(&root().join(place), &mut text);
+    }
+    for number in numbers(&claim.words()).filter(|it| it.len() > 2 && !stands_in(&text, it)) {
+        wrong.push(format!("{}: {number} stands in none of the files that it names", claim.id));
+    }
     wrong
+}
+
+/// The whole numbers of a claim, without the commas of their thousands; those with a point, and
+/// powers, are none.
+fn numbers(text: &str) -> impl Iterator<Item = String> {
+    let words = text.split(|it: char| !it.is_ascii_alphanumeric() && !"_,.^{}".contains(it));
+    words.map(|it| it.trim_matches(['.', ',']).replace(',', "")).filter(|it| {
+        let is_digit = |it: u8| it.is_ascii_digit();
+        !it.is_empty() && it.bytes().all(is_digit)
+    })
+}
+
+/// Whether the number is in the text, however its thousands are divided there.
+fn stands_in(text: &str, number: &str) -> bool {
+    let divided = |by: &str| {
+        let parts = number.as_bytes().rchunks(3).rev().map(String::from_utf8_lossy);
+        parts.collect::<Vec<_>>().join(by)
+    };
+    let is_alone = |(at, form): (usize, &str)| {
+        let digit = |it: Option<char>| it.is_some_and(|it| it.is_ascii_digit());
+        !digit(text[..at].chars().next_back()) && !digit(text[at + form.len()..].chars().next())
+    };
+    ["", "_", ","].iter().any(|by| text.match_indices(&divided(by)).any(is_alone))
 }
 
 /// `a/{b,c}` are two paths.
@@ -101,6 +132,16 @@ fn folder_of(package: &str) -> Result<&str, String> {
         "cotama-robot" => Ok("firmware/robot"),
         _ => package.strip_prefix("cotama-").ok_or_else(|| format!("no package {package}")),
     }
+}
+
+#[test]
+fn numbers_are_found_however_their_thousands_are_divided() {
+    let read: Vec<_> = numbers("20,000 of 1,234, 10^6; {a.b} 3.5, in 2.").collect();
+    assert_eq!(read, ["20000", "1234", "2"]);
+    for text in ["0..20_000 {", "20000u32", "of 20,000.", "(1, 20_000)"] {
+        assert!(stands_in(text, "20000"), "{text}");
+    }
+    assert!(!stands_in("120_000", "20000") && !stands_in("20_0001", "20000"));
 }
 
 #[test]

@@ -59,13 +59,16 @@ struct Before {
 }
 
 impl Claims {
+    /// As they are written, the names of figures in braces.
     pub(super) fn read() -> Self {
-        let text = fs::read_to_string(root().join("tests/claims.toml")).expect("the claims");
-        toml::from_str(&text).unwrap_or_else(|error| panic!("tests/claims.toml: {error}"))
+        Self::of(&text())
     }
 
-    /// The page, and the names of the figures that it shows.
-    pub(super) fn page(&self, figures: &BTreeMap<String, u64>) -> (String, BTreeSet<String>) {
+    fn of(text: &str) -> Self {
+        toml::from_str(text).unwrap_or_else(|error| panic!("tests/claims.toml: {error}"))
+    }
+
+    fn page(&self) -> String {
         let mut page = String::from(BEGIN);
         let known: Vec<_> = self.claims.iter().flat_map(|it| &it.known).collect();
         page += "\n| known by | says | claims |\n| --- | --- | ---: |\n";
@@ -88,7 +91,7 @@ impl Claims {
             let of: Vec<_> = of.iter().map(|it| format!("**{it}**")).collect();
             page += &wrapped(&format!("{} {said}", of.join(", ")), "- ", "  ");
         }
-        filled(&page, figures)
+        page
     }
 
     /// What breaks the order of the page, or its vocabulary.
@@ -127,6 +130,11 @@ impl Claims {
 }
 
 impl Claim {
+    /// All that it says, the names of figures in braces.
+    pub(super) fn words(&self) -> String {
+        format!("{} {} {}", self.claim, self.known.join(" "), self.how)
+    }
+
     fn write(&self, page: &mut String) {
         *page += &wrapped(&format!("**{}** {}", self.id, self.claim), "- ", "  ");
         let known = format!("*Known:* {}. {}", self.known.join("; "), self.how);
@@ -165,6 +173,18 @@ for `cargo run --release --`.
 const BEFORE: &str = "Claims that said more than was known, what they said, and why they say \
     something else now. The wrong ones were found by tests that looked where none had looked.";
 
+/// The page, and the names of the figures that it shows.
+pub(super) fn page(figures: &BTreeMap<String, u64>) -> (String, BTreeSet<String>) {
+    let (text, names) = filled(&text(), figures);
+    (Claims::of(&text).page(), names)
+}
+
+/// The file, without the lines that speak of it.
+fn text() -> String {
+    let text = fs::read_to_string(root().join("tests/claims.toml")).expect("the claims");
+    text.lines().filter(|it| !it.starts_with('#')).flat_map(|it| [it, "\n"]).collect()
+}
+
 /// Whether a claim is known by this word.
 fn is_of(word: &str, known: &str) -> bool {
     match word.strip_suffix("(…)") {
@@ -197,7 +217,7 @@ fn filled(text: &str, figures: &BTreeMap<String, u64>) -> (String, BTreeSet<Stri
     while let Some((before, behind)) = rest.split_once('{') {
         page += before;
         match behind.split_once('}') {
-            Some((name, behind)) if name.contains('.') && !name.contains(',') => {
+            Some((name, behind)) if !name.contains(',') => {
                 let figure = figures.get(name).unwrap_or_else(|| panic!("no figure `{name}`"));
                 page += &grouped(*figure);
                 names.insert(name.to_owned());
