@@ -20,6 +20,12 @@ fn short(name: &str) -> String {
     name.replace("cotama_", "").replace("::proofs::", "::")
 }
 
+/// Where it stands: a room before those in it.
+fn by_room(name: &str) -> (String, String) {
+    let (room, own) = name.rsplit_once("::").unwrap_or(("", name));
+    (room.to_string(), own.to_string())
+}
+
 fn is_replay() -> bool {
     std::env::var_os("KANI_SHIM_REPLAY").is_some()
 }
@@ -84,7 +90,7 @@ fn main() -> ExitCode {
         (0..threads).for_each(|_| _ = scope.spawn(work));
     });
     let mut done = done.into_inner().expect("no thread panics");
-    done.sort_by_key(|it| short(it.0.harness.name));
+    done.sort_by_key(|it| by_room(&short(it.0.harness.name)));
     let failed = done.iter().filter(|it| verdict(it.0, &it.1).is_err()).count();
     println!("{} harnesses, {failed} not as they must be", done.len());
     if let Some(file) = table
