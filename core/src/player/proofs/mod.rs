@@ -1,12 +1,14 @@
 //! The executor against the textbook of Petri nets, over time, with mailboxes, and after a restore.
 
 mod executor;
+mod ignored;
 mod mailboxes;
 mod refinement;
 mod snapshots;
 mod timing;
 
 pub use executor::*;
+pub use ignored::*;
 pub use mailboxes::*;
 pub use refinement::*;
 pub use snapshots::*;
@@ -72,6 +74,21 @@ crate::net! {
             turn on right: Other => Turned read Turned;
             turn_first on right: Other * 2 => Turned * 2;
         }
+    }
+}
+
+crate::net! {
+    /// A gate that may be forced by those who have paid, and shuts by itself.
+    pub mod gate {
+        places { Shut: 1, Open, Paid: 0 of 2, Owed: 2 of 2 }
+        events { turn, pay, knock }
+        transitions {
+            turn on turn: Shut => Open within 2..=3 ms;
+            force on turn: Shut & Paid => Open & Owed within 1..=1 ms priority 1;
+            pay on pay: Open & Owed => Open & Paid within 1..=2 ms;
+            shut: Open => Shut within 4..=4 ms;
+        }
+        ignore { knock in Shut; turn in Open; turn in Paid; }
     }
 }
 

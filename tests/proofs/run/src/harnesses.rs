@@ -98,7 +98,8 @@ fn core(all: &mut Vec<Listed>) {
     });
     list!(all, cotama_core::player {
         Exhaustive: an_event_fires_what_the_textbook_says sums_of_tokens_are_conserved
-            an_ignored_event_changes_nothing settling_ends_within_its_bound
+            an_ignored_event_changes_nothing an_ignored_event_leaves_clocks_alone
+            an_event_is_ignored_for_the_reason_that_is_said settling_ends_within_its_bound
             a_checked_net_settles_from_anywhere comparing_words_is_comparing_places
             a_step_without_conflict_is_an_interleaving
             time_can_be_told_in_any_portions the_player_wakes_when_something_fires
