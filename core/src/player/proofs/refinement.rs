@@ -18,6 +18,8 @@ struct Rule {
     /// Its event; by itself without one.
     on: Option<u32>,
     take: [u32; 2],
+    /// No place is both taken from and read.
+    read: [u32; 2],
     give: [u32; 2],
     priority: i16,
 }
@@ -33,10 +35,22 @@ fn arcs(weights: [u32; 2]) -> ([Arc; 2], usize) {
     }
 }
 
-/// The tokens after a rule, if it can fire: it has what it takes, and there is room for the result.
+/// Any arc into a transition: up to `most` are taken, or what is beyond that is read.
+fn any_need<const BITS: usize>(most: u32) -> [u32; 2] {
+    match u32::from(few::<BITS>()) {
+        it if it <= most => [it, 0],
+        it => [0, it - most],
+    }
+}
+
+/// The tokens after a rule, if it can fire: it has what it takes and reads, and there is room for
+/// the result.
 fn fired(rule: &Rule, tokens: [u32; 2]) -> Option<[u32; 2]> {
     let mut after = tokens;
     for place in 0..2 {
+        if tokens[place] < rule.read[place] {
+            return None;
+        }
         after[place] = tokens[place].checked_sub(rule.take[place])? + rule.give[place];
         if after[place] > BOUNDS[place] {
             return None;
@@ -57,18 +71,21 @@ fn first(rules: [Rule; 2], on: Option<u32>, tokens: [u32; 2]) -> Option<(u32, [u
     })
 }
 
-/// For every net of two transitions over two places in every marking, the executor answers an
-/// event as the textbook does, and lets fire by itself what the textbook lets fire.
+/// For every net of two transitions over two places in every marking, with arcs that take, read and
+/// give, the executor answers an event as the textbook does, and lets fire by itself what the
+/// textbook lets fire.
 #[kani::proof]
 #[kani::unwind(9)]
 pub fn the_executor_refines_the_textbook() {
     let weights = || [u32::from(few::<1>()), u32::from(few::<1>())];
-    let heavy = || [u32::from(few::<2>()), u32::from(few::<1>())];
+    let (a, b) = (any_need::<3>(3), any_need::<2>(1));
+    let (c, d) = (any_need::<2>(1), any_need::<2>(1));
     let rules = [
-        Rule { on: Some(0), take: heavy(), give: weights(), priority: 0 },
+        Rule { on: Some(0), take: [a[0], b[0]], read: [a[1], b[1]], give: weights(), priority: 0 },
         Rule {
             on: if kani::any() { Some(0) } else { None },
-            take: weights(),
+            take: [c[0], d[0]],
+            read: [c[1], d[1]],
             give: weights(),
             priority: i16::from(few::<1>()),
         },
@@ -78,15 +95,15 @@ pub fn the_executor_refines_the_textbook() {
 
     let place = |bound| Place { name: "", doc: "", initial: 0, bound, role: Role::Data };
     let places = BOUNDS.map(place);
-    let lists = rules.map(|it| (arcs(it.take), arcs(it.give)));
+    let lists = rules.map(|it| (arcs(it.take), arcs(it.read), arcs(it.give)));
     let transition = |at: usize| Transition {
         name: "",
         doc: "",
         line: 0,
         on: rules[at].on.map(EventId),
         take: &lists[at].0.0[..lists[at].0.1],
-        read: &[],
-        give: &lists[at].1.0[..lists[at].1.1],
+        read: &lists[at].1.0[..lists[at].1.1],
+        give: &lists[at].2.0[..lists[at].2.1],
         emits: &[],
         within: None,
         priority: rules[at].priority,
@@ -133,8 +150,13 @@ pub fn the_executor_refines_the_textbook() {
             assert!(ended.is_none_or(|count| count == settled));
             kani::cover!(settled > 1, "one follows the other");
             kani::cover!(rule == 1, "by priority or as the only one");
+            kani::cover!(rules[0].read == [2, 1] && rule == 0, "two places are read");
         }
-        (Outcome::Ignored { .. }, None) => assert!(has(&player) == tokens),
+        (Outcome::Ignored { .. }, None) => {
+            assert!(has(&player) == tokens);
+            let alone = [Rule { read: [0; 2], ..rules[0] }, rules[1]];
+            kani::cover!(first(alone, Some(0), tokens).is_some(), "only what is read lacks");
+        }
         _ => unreachable!(),
     }
 }
