@@ -23,6 +23,8 @@ mod first;
 mod load;
 mod oracle;
 mod prices;
+#[cfg(kani)]
+pub mod proofs;
 mod root;
 mod search;
 mod solve;

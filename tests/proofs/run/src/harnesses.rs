@@ -96,6 +96,10 @@ fn core(all: &mut Vec<Listed>) {
             a_coalition_is_the_cheapest;
         Sampled: a_cost_is_its_number;
     });
+    list!(all, cotama_core::team::joint {
+        Exhaustive: all_tasks_at_once_cost_the_least
+            the_bound_of_all_tasks_holds_whatever_the_budget;
+    });
     list!(all, cotama_core::player {
         Exhaustive: an_event_fires_what_the_textbook_says sums_of_tokens_are_conserved
             an_ignored_event_changes_nothing an_ignored_event_leaves_clocks_alone
