@@ -1,6 +1,14 @@
 //! The checker of certificates accepts what is true, of all small nets, whatever evidence it is
 //! given.
 
+mod cases;
+mod parts;
+mod runs;
+
+pub use cases::*;
+pub use parts::*;
+pub use runs::*;
+
 use super::{Case, Certificate, Evidence, Fact, Formula, Linear, Question, Refutation, verify};
 use crate::proofs::Small;
 use crate::pt::Pt;

@@ -145,7 +145,9 @@ fn verification(all: &mut Vec<Listed>) {
     });
     list!(all, root::certificate {
         Exhaustive: a_verdict_by_all_markings_is_true a_trace_shows_where_it_leads
-            a_refutation_by_an_inequality_is_true a_refutation_by_a_trap_is_true;
+            a_refutation_by_an_inequality_is_true a_refutation_by_a_trap_is_true
+            a_run_is_shown_by_itself growth_is_without_end a_refutation_by_a_split_is_true
+            a_refutation_by_a_cut_is_true each_or_one_of_several_parts_is_so;
     });
     list!(all, root::pnml {
         Exhaustive: numbers_fit_or_are_refused limits_are_kept any_byte_anywhere_is_answered;
