@@ -11,7 +11,10 @@ SUITES = {
     "sim": (["cotama-sim"], ["sim/"]),
     "cli": (["cotama"], ["cli/"]),
     "verification": (["cotama-verification"], ["verification/engines"]),
-    "decisional": (["cotama-sim", "cotama-models"], ["sim/supervised", "models/supervised"]),
+    "decisional": (
+        ["cotama-sim", "cotama-models"],
+        ["sim/supervised", "models/supervised", "models/cotama_data"],
+    ),
 }
 ALL = [
     "core", "models", "sim", "cli", "structural", "reductions", "explicit", "stubborn", "temporal",
