@@ -36,6 +36,27 @@ fn a_repair_of_what_works_is_no_reason_to_look_for_a_better_plan() {
     assert_eq!(replans(lost), [PlanCause::Hardware { hardware: 1, units: 1 }, PlanCause::Room]);
 }
 
+/// Both lasers are lost and repaired, where 863.623 J are left, and the rule finds no better plan. In
+/// the wide hall a tenth of the power is saved, and soon it would.
+#[test]
+fn a_refused_better_plan_is_not_asked_for_again_until_it_is_paid_for() {
+    let mission = patrol();
+    let body = r#"power_error_permille = { "H2" = -100 }
+        event = [{ x_mm = 59000, kind = "fault", hardware = "laser", units_lost = 2 },
+        { x_mm = 60000, kind = "repair", hardware = "laser", units_back = 2 }]"#;
+    let plans = |growth: u64| {
+        let upward = Some(Upward { growth: [0, growth], reserve: [0, 0] });
+        let end = run(&mission, &Options { upward, ..under(&mission, body) });
+        assert_eq!((end.outcome, end.plans[1].after), (Outcome::Completed, [72_076, 863_623]));
+        end.plans[1..].iter().map(|it| (it.cause, it.x_mm)).collect::<Vec<_>>()
+    };
+    let lost = (PlanCause::Hardware { hardware: 1, units: 2 }, 59_000);
+    // The repair was a reason once, and what is saved is none.
+    assert_eq!(plans(1_000_000_000_000), [lost]);
+    assert_eq!(plans(20_000)[..2], [lost, (PlanCause::Room, 69_735)]);
+    assert_eq!(plans(150_000), [lost, (PlanCause::Room, 98_025)]);
+}
+
 /// On the last activity, of which nothing is left but itself.
 #[test]
 fn hardware_that_only_the_current_activity_needs_is_missed() {
@@ -258,6 +279,7 @@ fn the_most_replans_are_made_and_not_one_less() {
     let lost = Event { x, kind: EventKind::Fault { hardware: laser, units: 1 } };
     let back = Event { x, kind: EventKind::Repair { hardware: laser, units: 1 } };
     let upward = Some(Upward { growth: [60_000, 600_000], reserve: [5_000, 30_000] });
+    assert_eq!(MAX_REPLANS, 10_000);
     // In the second run the last replan is not upwards, and no better one is looked for.
     for (first, reason) in [(vec![], Some(Reason::TooManyReplans)), (vec![lost], None)] {
         let events = [first, [lost, back].repeat(6_000)].concat();
