@@ -211,8 +211,8 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
                 Some(Outcome::Failed)
             }
             Objective::Done => Some(self.accomplished()),
-            // The micro-controller has stopped it: safe by itself.
-            _ if !self.thinks() && self.robot.speed().0 == 0 => Some(Outcome::Safe),
+            // Safe by itself.
+            _ if self.is_left_standing() => Some(Outcome::Safe),
             Objective::Safe if self.robot.speed().0 == 0 => Some(Outcome::Safe),
             _ if self.now >= LONGEST => Some(Outcome::Failed),
             _ => None,
@@ -248,6 +248,16 @@ impl<'m, P: Program<W, CLOCKS, S>, const W: usize, const S: usize> World<'m, P, 
     /// Whether the laptop is up, and its scheduler.
     fn thinks(&self) -> bool {
         !self.failures.iter().any(|it| it.motion() == Motion::Mindless)
+    }
+
+    /// Whether the laptop is down and the robot stands: nothing was commanded, or the
+    /// micro-controller commands nothing any more. Until then who is held up may go on.
+    fn is_left_standing(&self) -> bool {
+        let long_since = |it: &Failure| {
+            it.motion() == Motion::Mindless && self.now.0 >= it.since.0 + FIRMWARE_WATCHDOG.0
+        };
+        let is_stopped = self.decider.permit().is_none() || self.failures.iter().any(long_since);
+        !self.thinks() && self.robot.speed().0 == 0 && is_stopped
     }
 
     /// How a mission ends whose objectives are done.

@@ -3,7 +3,7 @@
 
 use super::delivery;
 use cotama_core::units::{Millimetres, Millis};
-use cotama_models::cotama::FailureMode::{self, Bat2, Mot4, Odo1, Pwr1};
+use cotama_models::cotama::FailureMode::{self, Bat2, Col1, Mot4, Odo1, Pwr1};
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_sim::run::{Outcome, Reason};
@@ -45,6 +45,26 @@ fn nothing_moves_for_a_minute_after_a_mission_was_ended() {
         assert!(!run.moved_when_safe, "{mode:?}");
         assert_eq!(run, self::run(&mission, &script(mode, 5_000)), "to watch changes nothing");
     }
+}
+
+/// Somebody touches it for 5 s, and the laptop goes down after 4: when he is gone a second is left in
+/// which the last command is obeyed.
+#[test]
+fn who_is_held_up_when_the_laptop_goes_down_is_safe_when_the_micro_controller_stops_it() {
+    let mission = delivery();
+    let supervised = Supervised::new(&mission).unwrap();
+    let held = script(Col1, 5_000);
+    let since = run(&mission, &held).conduct[0].injected;
+    let ends = |after: u64| {
+        let down = Injection::new(When::At(Millis(since.0 + after)), Pwr1);
+        let script = Script { injections: vec![held.injections[0], down], answers: Vec::new() };
+        let (run, way) = supervised.run_and_watch(&script, Millis(60_000)).unwrap();
+        assert_eq!((run.outcome, way), (Outcome::Safe, Millimetres(0)));
+        (run.time.0 - since.0, run.x.0)
+    };
+    assert_eq!([1_000, 2_000, 3_000].map(ends), [(3_000, 5_010), (4_000, 5_010), (5_000, 5_010)]);
+    // It speeds up for a second, to 150 mm/s, and stands half a second later.
+    assert_eq!(ends(4_000), (6_500, 5_160));
 }
 
 /// The delivery with these limits.
