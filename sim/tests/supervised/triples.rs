@@ -7,8 +7,9 @@ use cotama_models::missions::Mission;
 use cotama_sim::run::Outcome;
 use cotama_sim::streams::{Stream, Streams};
 use cotama_sim::supervised::{
-    Conduct, Effect, Injection, Motion, Run, Script, Supervised, When, effect,
+    Conduct, Effect, Fired, Injection, Motion, PERIOD, Run, Script, Supervised, When, effect,
 };
+use cotama_sim::trace::Record;
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
@@ -33,20 +34,45 @@ fn injection(stream: &mut Stream) -> Injection {
     Injection { part: one(stream, Module::ALL), ..Injection::new(when, mode) }
 }
 
+/// From 300 mm/s to standing.
+const BRAKING: Millimetres = Millimetres(150);
+
+fn runs_away(mode: FailureMode) -> bool {
+    matches!(effect(mode), Effect { motion: Motion::Runaway, .. })
+}
+
+/// How far the robot went once the power of its motors was cut, if it was.
+fn way_after_halt(supervised: &Supervised<'_>, run: &Run, script: &Script) -> Option<Millimetres> {
+    let halted = |it: &&Fired| it.net == "gs" && it.transition.starts_with("abort.");
+    // A round is taken at the end of its period.
+    let at = run.fired.iter().find(halted)?.at.0 + PERIOD.0;
+    let mut records: Vec<Record> = Vec::new();
+    assert_eq!(&supervised.run_recorded(script, PERIOD, &mut records).unwrap(), run);
+    let then = records.iter().find_map(|it| match it {
+        Record::Sample(it) if it.t_us >= at * 1_000 => Some(it.x_mm),
+        _ => None,
+    });
+    Some(Millimetres(run.x.0 - then.unwrap()))
+}
+
 /// What must hold of every run, whatever fails, and of how far the robot still goes in a minute
 /// after its end; whether it also stopped in time.
-fn judge(run: &Run, way: Millimetres, script: &Script) -> bool {
+fn judge(supervised: &Supervised<'_>, run: &Run, way: Millimetres, script: &Script) -> bool {
     assert!(!run.moved_when_safe, "M1: {script:?}");
-    let runs_away =
-        |it: &Injection| matches!(effect(it.mode), Effect { motion: Motion::Runaway, .. });
-    let runs_away = script.injections.iter().any(runs_away);
-    // Motors that run away when the laptop is down are stopped by nobody.
+    let may_run_away = script.injections.iter().any(|it| runs_away(it.mode));
+    let ran_away = run.conduct.iter().any(|it| runs_away(it.mode));
     let was_ended = run.fired.iter().any(|it| it.net == "gs" && it.transition == "secured");
-    let stays = run.outcome == Outcome::Safe && (was_ended || !runs_away);
+    // Motors that run away when the laptop is down are stopped by nobody.
+    let is_down = run.outcome == Outcome::Safe && !was_ended;
+    let stays = run.outcome == Outcome::Safe && !(is_down && may_run_away);
     assert!(!stays || way == Millimetres(0), "{way} after {script:?}");
-    if !runs_away {
-        assert!(run.braked <= Millimetres(150), "M2: {} after {script:?}", run.braked);
-    }
+    // They obey when their power is cut, not when they are told to stop.
+    let halted = if ran_away { way_after_halt(supervised, run, script) } else { None };
+    let braked = halted.unwrap_or(run.braked);
+    assert!(
+        braked <= BRAKING || (is_down && ran_away && halted.is_none()),
+        "M2: {braked} after {script:?}"
+    );
     // What is done too late or with too much energy is done all the same.
     assert!(
         run.outcome != Outcome::Failed || run.x == Millimetres(80_000),
@@ -109,7 +135,7 @@ fn campaign(mission: &Mission, runs: u64) -> Campaign {
         let injections = (0..3).map(|_| injection(&mut stream)).collect();
         let script = Script { injections, answers: Vec::new() };
         let (run, way) = supervised.run_and_watch(&script, Millis(60_000)).unwrap();
-        let in_time = judge(&run, way, &script);
+        let in_time = judge(&supervised, &run, way, &script);
         *outcomes.entry((run.outcome, in_time)).or_default() += 1;
         if !in_time {
             *late.entry(explained(&supervised, &script, &run)).or_default() += 1;
