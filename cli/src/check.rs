@@ -87,10 +87,11 @@ fn once(args: &CheckArgs, screen: &Screen) -> Result<Exit, Failure> {
         screen.print(&render::check::head(name, timed, &subject.notes, width))?;
     }
     let plain = Checker::new(&subject.model);
+    let mut shares = budget.among(asked.properties.len());
     for (position, property) in asked.properties.iter().enumerate() {
         let watched = asked.watched.get(position).and_then(Option::as_ref);
         let requirement = asked.requirements.get(position);
-        let budget = budget.share(asked.properties.len() - position);
+        let budget = shares.next();
         progress.begin(position + 1, asked.properties.len(), &property.name);
         let show = |it| progress.show(it);
         let options = Options {
