@@ -184,6 +184,7 @@ fn the_table_follows_from_the_two_rules_but_for_seven_cells() {
     assert_eq!((settled, unsettled), (5_868, 14_292));
 }
 
+/// CS2.
 #[test]
 fn a_higher_severity_never_gives_a_weaker_event() {
     const SEVERITIES: [Severity; 4] =

@@ -348,7 +348,7 @@ requirements! {
                   time at most.",
         tested in "core/src/executive/tests/watchdogs.rs";
     WD5 Inferred "A job that was skipped publishes nothing.",
-        tested in "verification/tests/tpn/watchdog.rs";
+        tested in "core/src/executive/tests/watchdogs.rs";
     WD6 Inferred "A job in time ends the count.",
         tested in "verification/tests/tpn/watchdog.rs";
     DP1 Assumed "Between two rounds the robot may move only in path following and teleoperation.",

@@ -29,7 +29,8 @@ pub struct Requirement {
     pub said: &'static [Said],
     /// What transitions look at.
     pub guarded: &'static [Guarded],
-    /// The file of the tests that show the rest.
+    /// The file of the tests that show the rest, in which a comment of one of them has its short
+    /// name.
     pub tests: Option<&'static str>,
 }
 
