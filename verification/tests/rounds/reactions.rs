@@ -9,10 +9,13 @@
 //! where nothing needs to react. Here rounds are counted exactly, over every marking in which a
 //! fault can come and whatever comes after it; that the longest time is the number of rounds times
 //! the period is checked with state classes of the net with time.
+//!
+//! That a fault is recorded says two things: what was raised and reported has been read in that
+//! round (CS3), and nothing comes of it later, however long nothing else comes from outside.
 
 use crate::delivery::explored;
 use crate::golden;
-use cotama_core::net::{Arc, PlaceId};
+use cotama_core::net::{Arc, PlaceId, TransitionId};
 use cotama_models::cotama::{Class, RULES, Report, Rule, delivery};
 use cotama_verification::explicit::Graph;
 use cotama_verification::flat::{Part, rounds};
@@ -25,6 +28,9 @@ use std::fmt::Write;
 
 /// The executive's loop.
 const PERIOD_MS: u32 = 100;
+
+/// From detection to the decision, and to the answer.
+const MOST_MS: [u32; 2] = [100, 200];
 
 /// By the event from outside, the report whose rows of the FMECA it stands for. A hard failure
 /// without one can be that of any row that is answered by the local supervisor.
@@ -47,7 +53,9 @@ const MODES: [&str; 5] =
     ["ls.Planning", "ls.Following", "ls.HandOver", "ls.Teleprogrammed", "ls.Teleoperated"];
 
 /// A decision: what waits, in whose turn it is read, and where the reader is afterwards.
-const DECISIONS: [(&str, &str, &[&str]); 9] = [
+type Decision = (&'static str, &'static str, &'static [&'static str]);
+
+const DECISIONS: [Decision; 9] = [
     ("adapter (fewer particles)", "pf.adapt_rt.waiting", &["pf.Reduced", "pf.Reactive", "pf.Off"]),
     ("adapter (odometry)", "pf.adapt_mcl.waiting", &["pf.Odometric", "pf.Degraded", "pf.Off"]),
     ("adapter (no avoidance)", "pf.adapt_sonar.waiting", &["pf.Degraded", "pf.Off"]),
@@ -70,6 +78,10 @@ const DECISIONS: [(&str, &str, &[&str]); 9] = [
 struct Explored {
     pt: Pt,
     graph: Graph,
+    /// Transitions in which nothing comes from outside.
+    silence: BTreeSet<TransitionId>,
+    /// What is raised or reported, and not read yet.
+    unread: Vec<usize>,
 }
 
 impl Explored {
@@ -83,6 +95,21 @@ impl Explored {
             state = self.graph.successors(state)[0];
         }
         state
+    }
+
+    /// After how many rounds of silence something is decided, where all nets have had their turns,
+    /// and what; none where nothing ever is, since the rounds repeat themselves.
+    fn decided(&self, after: u32) -> Option<(u32, u32, &'static Decision)> {
+        let (mut state, mut before) = (self.to_outside(after), BTreeSet::new());
+        while before.insert(state) {
+            if let Some(decision) = DECISIONS.iter().find(|it| self.marked(state, it.1)) {
+                return Some((before.len() as u32, state, decision));
+            }
+            let mut next = self.graph.transitions(state).into_iter();
+            let silent = next.position(|it| self.silence.contains(&it)).unwrap();
+            state = self.to_outside(self.graph.successors(state)[silent]);
+        }
+        None
     }
 
     /// After every event from outside, all nets have had their turns again.
@@ -118,8 +145,17 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
     let rounds = rounds(&delivery::SYSTEM).unwrap();
     let net = rounds.net().unwrap();
     let (pt, graph) = explored(&rounds);
-    let it = Explored { pt, graph };
-    let event = |transition: cotama_core::net::TransitionId| {
+    let is_silent = |id: &TransitionId| {
+        rounds.part(*id) == Some(Part::Outside) && net.transitions[id.0 as usize].on.is_none()
+    };
+    let silence = (0..net.transitions.len() as u32).map(TransitionId).filter(is_silent).collect();
+    let is_unread = |name: &str| {
+        name.ends_with(".waiting") && (name.starts_with("cs.") || name.contains("_flag."))
+    };
+    let unread: Vec<_> = (0..pt.places.len()).filter(|&it| is_unread(&pt.places[it])).collect();
+    assert_eq!(unread.len(), 27);
+    let it = Explored { pt, graph, silence, unread };
+    let event = |transition: TransitionId| {
         net.transitions[transition.0 as usize].on.map(|on| net.events[on.0 as usize].name.as_str())
     };
     // By class and mode: each decision, with rounds until it is made and until it is obeyed.
@@ -136,13 +172,19 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
             else {
                 continue;
             };
-            let decided = it.to_outside(after);
-            let decision = DECISIONS.iter().find(|decision| it.marked(decided, decision.1));
+            let marking = it.graph.marking(it.to_outside(after));
+            assert!(
+                it.unread.iter().all(|&of| marking[of] == 0),
+                "{} is not read",
+                CLASSES[class].0
+            );
             let cell = cells.entry((class, mode)).or_default();
-            let (name, told) =
-                decision.map_or(("recorded", 0), |of| (of.0, it.rounds_until(decided, of.2)));
+            // What is recorded has been read, and comes to nothing.
+            let (name, decided, told) = it
+                .decided(after)
+                .map_or(("recorded", 1, 0), |of| (of.2.0, of.0, it.rounds_until(of.1, of.2.2)));
             let worst = cell.entry(name).or_default();
-            *worst = (1, told.max(worst.1));
+            *worst = (decided.max(worst.0), told.max(worst.1));
         }
     }
     let mut table =
@@ -152,6 +194,9 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
         let (fault, mode) =
             (event.split('.').nth(1).unwrap(), MODES[mode].split('.').nth(1).unwrap());
         for (decision, (decided, told)) in cell {
+            let [decision_ms, answer_ms] = [decided, decided + told].map(|it| it * PERIOD_MS);
+            let in_time = decision_ms <= MOST_MS[0] && answer_ms <= MOST_MS[1];
+            assert!(in_time, "{fault} in {mode}: {decision} after {decided} and {told} rounds");
             let detected = latency(report);
             let decided = detected + decided * PERIOD_MS;
             let reaction = if decision == "recorded" {
@@ -164,6 +209,27 @@ fn every_fault_in_every_mode_has_its_worst_reaction() {
         }
     }
     golden("reactions.txt", &table);
+}
+
+/// The table, that is: detection, decision and answer, the last but for what is recorded.
+#[test]
+fn the_table_says_that_every_decision_takes_100_ms_and_every_answer_200_ms() {
+    let table = include_str!("../golden/rounds/reactions.txt");
+    let (mut decided, mut recorded) = (0, 0);
+    for line in table.lines().skip(1) {
+        let (what, times) = line.rsplit_once("; ").unwrap();
+        let times: Vec<_> = times.split(' ').map(|it| it.parse::<u32>().ok()).collect();
+        let [Some(detected), Some(decision), answer] = times[..] else { panic!("{line}") };
+        let after = [Some(decision), answer].map(|it| it.map(|it| it - detected));
+        if what.ends_with(": recorded") {
+            assert_eq!(after, [Some(MOST_MS[0]), None], "{line}");
+            recorded += 1;
+        } else {
+            assert_eq!(after, MOST_MS.map(Some), "{line}");
+            decided += 1;
+        }
+    }
+    assert_eq!((decided, recorded), (37, 53));
 }
 
 /// The net of rounds with time: a round begins each period and takes none, what is outside acts
@@ -189,7 +255,7 @@ fn timed(event: &str, mode: &str) -> TimeNet {
     let (clock, due) = (place("clock", 1), place("due", 0));
     let round = rounds.round();
     let mut transitions = Vec::new();
-    for (it, id) in untimed.transitions().iter().zip((0..).map(cotama_core::net::TransitionId)) {
+    for (it, id) in untimed.transitions().iter().zip((0..).map(TransitionId)) {
         let on =
             net.transitions[id.0 as usize].on.map(|on| net.events[on.0 as usize].name.as_str());
         let mut it = it.clone();
@@ -221,7 +287,7 @@ fn longest(event: &str, mode: &str, reaction: &str) -> Time {
     let net = timed(&format!("faults.{event}"), mode);
     let from = net.transitions().iter().position(|it| it.name.starts_with("faults.")).unwrap();
     let to = net.place(reaction).unwrap();
-    match bound(&net, cotama_core::net::TransitionId(from as u32), to, &Limits::default()) {
+    match bound(&net, TransitionId(from as u32), to, &Limits::default()) {
         Response::Between { max, .. } => max,
         other => panic!("{other:?}"),
     }
