@@ -125,7 +125,8 @@ fn answered(id: &str, text: &str, model: &Model, checker: &Checker<'_>, verified
     let is_short = matches!(answer.evidence, Evidence::Refutation(_));
     let certificate = answer.certificate(model.pt(), &property);
     if let (true, Ok(certificate)) = (verified || is_short, &certificate) {
-        assert!(verify(&certificate.text()).unwrap().verdict, "{id}");
+        let verified = verify(&certificate.text()).unwrap_or_else(|error| panic!("{id}: {error}"));
+        assert!(verified.verdict, "{id}");
     }
     let evidence = match answer.evidence {
         _ if certificate.is_err() => "uncertified",
