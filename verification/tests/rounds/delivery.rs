@@ -204,10 +204,10 @@ fn with_a_graph<'t>(known: impl Iterator<Item = &'t str>) -> Vec<&'t str> {
     lines.filter(|it| it.contains(&"graph")).map(|it| it[0]).collect()
 }
 
-/// What the small checker is to be convinced of by hand, beside what is known today: all that are
-/// asked are quick, or certified, or have more than 500,000 markings.
+/// What the small checker is asked for by hand, beside what is known today: all that are asked are
+/// quick, or certified, or have more than 500,000 markings.
 #[test]
-fn the_requirements_that_the_small_checker_believes_are_those_of_the_golden_file() {
+fn the_certificates_for_the_small_checker_are_those_of_the_golden_file() {
     let quick = REQUIREMENTS.iter().filter_map(|it| it.asked).filter(is_quick);
     assert_eq!(quick.count(), AT_ONCE);
     let others: Vec<_> = REQUIREMENTS.iter().filter(|it| is_other(it)).map(|it| it.id).collect();
