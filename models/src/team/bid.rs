@@ -115,7 +115,7 @@ impl Bid {
             let bid = Self::for_plan(robot, plan, |at| cost(number, at), |_, _| 0)?;
             Some(Self { plan: number, ..bid })
         };
-        let bids = role.plans.iter().enumerate().filter_map(bid);
+        let bids = (0..role.plans.len()).zip(role.plans).filter_map(bid);
         bids.min_by_key(|it| (it.cost, core::cmp::Reverse(it.success)))
     }
 

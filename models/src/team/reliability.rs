@@ -122,8 +122,23 @@ impl Reliability {
 /// assert_eq!(by_reliability(&mut of([900, 700]), &mut of([700, 950])), Ordering::Less);
 /// ```
 pub fn by_reliability(one: &mut [Probability], other: &mut [Probability]) -> Ordering {
-    one.sort_unstable();
-    other.sort_unstable();
+    sort(one);
+    sort(other);
     let order = one.iter().zip(other.iter()).map(|(a, b)| a.cmp(b)).find(|it| it.is_ne());
     order.unwrap_or_else(|| other.len().cmp(&one.len()))
+}
+
+/// Sorts the members of a coalition in rising order, by insertion: they are few, and the library's
+/// sort can panic over an order that is none.
+fn sort(list: &mut [Probability]) {
+    for sorted in 1..list.len() {
+        for at in (0..sorted).rev() {
+            let pair = list.get_disjoint_mut([at, at.wrapping_add(1)]);
+            let Ok([one, next]) = pair else { return };
+            if *one <= *next {
+                break;
+            }
+            core::mem::swap(one, next);
+        }
+    }
 }

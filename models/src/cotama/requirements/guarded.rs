@@ -29,7 +29,7 @@ impl Guarded {
     /// ```
     pub fn unguarded<'s>(self, system: &System<'s>) -> impl Iterator<Item = &'s str> {
         let system = *system;
-        let component = system.components.iter().zip(0_u16..).find(|it| it.0.name == self.net);
+        let component = system.components.iter().zip(0..=u16::MAX).find(|it| it.0.name == self.net);
         component.into_iter().flat_map(move |(it, component)| {
             let net = it.net;
             let goes = move |arcs: &[Arc], to: &str| {

@@ -212,10 +212,10 @@ impl core::error::Error for RemainingError {}
 /// The buffers that [`remaining`] may need for these activities: candidates and lists.
 #[must_use]
 pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
-    let mut candidates = 0;
+    let mut candidates = 0_usize;
     let mut activity = 0;
     while activity < activities.len() {
-        candidates += activities[activity].alternatives.len();
+        candidates = candidates.saturating_add(activities[activity].alternatives.len());
         activity += 1;
     }
     (candidates, activities.len())
@@ -253,9 +253,9 @@ pub fn remaining<'c, 'l>(
     lists: &'l mut [&'c [Candidate<2>]],
 ) -> Result<&'l [&'c [Candidate<2>]], RemainingError> {
     let lists = lists.get_mut(..activities.len()).ok_or(RemainingError::BufferTooSmall)?;
-    for (index, (activity, list)) in activities.iter().zip(lists.iter_mut()).enumerate() {
-        let mut count = 0;
-        for (id, alternative) in activity.alternatives.iter().enumerate() {
+    for (index, (activity, list)) in (0..usize::MAX).zip(activities.iter().zip(lists.iter_mut())) {
+        let mut count = 0_usize;
+        for (id, alternative) in (0..usize::MAX).zip(activity.alternatives) {
             if !available.covers(alternative.needs) {
                 continue;
             }
@@ -263,12 +263,14 @@ pub fn remaining<'c, 'l>(
             let candidate = u16::try_from(id).ok().and_then(|id| alternative.candidate(rest, id));
             let place = candidates.get_mut(count).ok_or(RemainingError::BufferTooSmall)?;
             *place = candidate.ok_or(RemainingError::TooLarge { activity: index })?;
-            count += 1;
+            count = count.saturating_add(1);
         }
         if count == 0 {
             return Err(RemainingError::NoCandidates { activity: index });
         }
-        let (filled, free) = core::mem::take(&mut candidates).split_at_mut(count);
+        let memory = core::mem::take(&mut candidates);
+        let (filled, free) =
+            memory.split_at_mut_checked(count).ok_or(RemainingError::BufferTooSmall)?;
         *list = filled;
         candidates = free;
     }
