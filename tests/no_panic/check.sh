@@ -1,40 +1,46 @@
 #!/usr/bin/env bash
 # Proves that no operation of the executor can panic or needs a heap, for every model that ships;
-# and the same of most other operations of core. Those of which the compiler cannot see it are named
-# as open.
+# and the same of every other public function of core and of models that a target may call. Those of
+# which the compiler cannot see it are named as open.
 #
 #   tests/no_panic/check.sh [TARGET]
 #
 # Links each root of this crate alone: it links exactly if its code holds no panic. With a TARGET of
 # Cortex-M the compiler is Debian's (see .ci/install-thumb). Exit status 1 when a root can panic,
-# when a canary cannot, or when a net of the models has no roots, or a system.
+# when a canary cannot, when a net of the models has no roots, or a system, and when a public
+# function has no root and left_out.txt does not say why. roots.txt lists the roots, functions.txt
+# the functions that they call: `UPDATE_GOLDEN=1 tests/no_panic/check.sh` writes both.
 set -euo pipefail
+export LC_ALL=C
 here=$(realpath "$(dirname "$0")")
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-$here/../../target}")/no_panic
 cd "$here"
 target=${1:-}
-build=(cargo build --quiet --locked --release)
+build=(cargo build --quiet --locked)
 # The compiler's own division of 128 bits has tables for unwinding, which nothing here does.
-nm=nm link=(cc -nostartfiles "-Wl,--gc-sections,--defsym=rust_eh_personality=0") pass=-Wl,
+nm=nm objdump=objdump link=(cc -nostartfiles "-Wl,--gc-sections,--defsym=rust_eh_personality=0") pass=-Wl,
 if [ -n "$target" ]; then
     export PATH=/usr/bin:/bin
     unset CARGO RUSTC RUSTDOC RUSTFLAGS RUSTUP_TOOLCHAIN
     CARGO_TARGET_DIR+=/debian
     build+=(--target "$target")
-    nm=arm-none-eabi-nm link=(arm-none-eabi-ld --gc-sections) pass=
+    nm=arm-none-eabi-nm objdump=arm-none-eabi-objdump
+    link=(arm-none-eabi-ld --gc-sections) pass=
 fi
 export CARGO_TARGET_DIR
 
 # The canary of the heap: with it the crate must not build, and for this reason.
-if said=$("${build[@]}" --features canary-heap 2>&1) ||
+if said=$("${build[@]}" --release --features canary-heap 2>&1) ||
     ! grep -qF "no global memory allocator found" <<<"$said"; then
     printf 'canary_heap builds, or fails for another reason: this check is blind\n%s\n' "$said" >&2
     exit 1
 fi
 printf '%-28s %s\n' canary_heap "refused, there is no heap"
 
+"${build[@]}" --release
 "${build[@]}"
-library=$CARGO_TARGET_DIR/${target:+$target/}release/libcotama_no_panic.a
+libraries=$CARGO_TARGET_DIR/${target:+$target/}
+library=$libraries/release/libcotama_no_panic.a
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -75,24 +81,63 @@ if ! diff "$work/shipped" "$work/rooted"; then
     echo "the nets and systems of models/src (<) and those that have roots (>) differ" >&2
     failed=1
 fi
-# Every public operation of core that a robot may call while it runs is named by a root, or by
-# left_out.txt with its reason. Names are compared, not types.
-find ../../core/src -name '*.rs' ! -path '*/tests/*' ! -path '*/proofs/*' \
-    ! -name 'tests.rs' ! -name 'proofs.rs' \
-    ! -path '*/laws/*' ! -path '*/net/[lsov]*' ! -path '*/system/source.rs' -exec awk '
-    FNR == 1 { tests = 0 } /^mod tests \{/ { tests = 1 }
-    !tests && /^(    )?pub (const )?fn [a-z0-9_]+/
-' {} + | sed -E 's/^ *pub (const )?fn ([a-z0-9_]+).*/\2/' | sort -u >"$work/public"
-grep -ohE '[.:][a-z0-9_]+\b|\b[a-z0-9_]+\(' src/*.rs | tr -d '.:(' | sort -u >"$work/named"
-sed -n 's/^\([a-z0-9_]*\): ..*/\1/p' left_out.txt | sort -u >"$work/left_out"
-if ! diff <(comm -23 "$work/public" "$work/named") "$work/left_out"; then
-    echo "operations of core without a root (<) and those that left_out.txt names (>) differ" >&2
+# Every public function of core and of models, as both are compiled for a target, is called by a
+# root itself, or left_out.txt says why not: compared by path and type, see functions.py.
+for crate in core models; do
+    ./functions.py public "cotama_$crate" "../../$crate/src/lib.rs" >"$work/public_$crate"
+done
+sort "$work"/public_* >"$work/public"
+"$objdump" -r "$libraries/debug/libcotama_no_panic.a" 2>/dev/null |
+    sed -E 's/^RELOCATION RECORDS FOR \[\.text\.((unlikely|hot|startup)\.)*/& /' | c++filt |
+    ./functions.py called cotama_core cotama_models >"$work/called"
+comm -12 "$work/public" "$work/called" >"$work/functions"
+
+# without_root FILE: what is wrong if the functions in the file are those that have a root.
+without_root() {
+    local name pattern matched
+    comm -23 "$work/public" "$1" >"$work/without"
+    : >"$work/explained"
+    while IFS= read -r pattern; do
+        matched=
+        while read -r name; do
+            # shellcheck disable=SC2053 # the name of a module or type ends with *
+            [[ $name == $pattern ]] && matched=1 && echo "$name" >>"$work/explained"
+        done <"$work/without"
+        [ -n "$matched" ] || echo "left_out.txt names $pattern, which has a root or is gone"
+    done < <(sed -nE 's/^([a-zA-Z0-9_:*]+): .+/\1/p' left_out.txt)
+    sort -u "$work/explained" | comm -23 "$work/without" - | sed 's/$/ has no root/'
+}
+without_root "$work/functions" >"$work/wrong"
+if [ -s "$work/wrong" ]; then
+    cat "$work/wrong" >&2
     failed=1
 fi
+# The canaries of the comparison: of each crate one function less has a root.
+for crate in core models; do
+    less=$(grep -m1 "^cotama_$crate::" "$work/functions")
+    grep -vxF "$less" "$work/functions" >"$work/less"
+    if without_root "$work/less" | grep -qxF "$less has no root"; then
+        printf '%-28s %s\n' "canary_without_root_$crate" "refused, $less has no root"
+    else
+        echo "a function of $crate without a root is not seen: this check is blind" >&2
+        failed=1
+    fi
+done
+# The golden lists: of roots, and of functions that have one, the same on every target.
+sed -n '/^root_/p' "$work/names" >"$work/roots"
+for list in roots functions; do
+    [ -z "${UPDATE_GOLDEN:-}" ] || cp "$work/$list" "$list.txt"
+    if ! diff "$list.txt" "$work/$list"; then
+        echo "$list.txt (<) is not what is checked (>); UPDATE_GOLDEN=1 writes it" >&2
+        failed=1
+    fi
+done
 for canary in index overflow; do
     grep -qx "canary_$canary" "$work/names" || { echo "canary_$canary is gone" >&2; failed=1; }
 done
 [ "$roots" -gt 0 ] || failed=1
+echo "$(wc -l <"$work/public") public functions: $(wc -l <"$work/functions") called by roots," \
+    "$(wc -l <"$work/explained") left out"
 echo "$roots roots without panics and without a heap" \
     "(${target:-this machine}, $(rustc -V | cut -d' ' -f1,2))"
 exit $failed

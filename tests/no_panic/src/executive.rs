@@ -4,7 +4,8 @@
 //! An executive comes as its caller can leave it at worst: at any time, with any jobs under way.
 
 use cotama_core::executive::{
-    Executive, Happening, Latest, NotRunning, Overruns, Task, TaskError, TaskSet, Unschedulable,
+    Executive, Happening, Latest, NotRunning, Overruns, Request, Task, TaskError, TaskSet,
+    Unschedulable, Watchdog,
 };
 use cotama_core::units::Micros;
 use cotama_models::cotama::Configuration;
@@ -88,4 +89,19 @@ fn root_executive_most_particles(
     memory: &mut [Task; MOST],
 ) -> Result<Option<u32>, LoadError> {
     load::most_particles(configuration, load, memory)
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_request(
+    executive: &mut Executive<N>,
+    task: usize,
+    request: Request,
+    now: Micros,
+) -> (bool, Option<Watchdog>) {
+    (executive.request(task, request, now), executive.watchdog(task))
+}
+
+#[unsafe(no_mangle)]
+fn root_executive_task(period: Micros, cost: Micros, any: &Task) -> (Task, Micros) {
+    (Task::new(period, cost), any.budget())
 }

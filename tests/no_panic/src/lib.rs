@@ -14,13 +14,23 @@ extern crate alloc;
 
 mod allocation;
 mod canaries;
+mod codes;
+mod decider;
 mod decisional_level;
+mod decisions;
+mod declared;
+mod diagnosis;
 mod executive;
 mod models;
+mod modules;
 mod on_time;
 mod readers;
+mod sets;
 mod systems;
+mod tables;
 mod team;
+mod team_models;
+mod units;
 
 use core::panic::PanicInfo;
 

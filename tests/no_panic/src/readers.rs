@@ -14,13 +14,16 @@ use cotama_core::net::Ignored;
 use cotama_core::player::{Advanced, Outcome};
 use cotama_core::problem::Problem;
 use cotama_core::team::{Cost, Costs, Fixed, Team};
-use cotama_core::units::{
-    Micros, Millijoules, Millimetres, MillimetresPerSecond, Millis, Milliwatts, mul_div_half_up,
-};
+use cotama_core::units::{Micros, Millis};
 use cotama_models::nets::{charger, door};
 
 const A: usize = 2;
 const N: usize = 8;
+
+#[unsafe(no_mangle)]
+fn root_shortfall_new(axis: usize, limit: u64, least: u64) -> Option<Shortfall> {
+    Shortfall::new(axis, limit, least)
+}
 
 #[unsafe(no_mangle)]
 fn root_read_shortfall(of: &Shortfall) -> [u64; 4] {
@@ -75,7 +78,7 @@ fn root_read_executive(
     of: &Executive<N>,
     task: usize,
 ) -> (Micros, Option<u8>, Option<Micros>, Option<bool>, Micros) {
-    let budget = of.tasks().get(task).map_or(Micros(0), Task::budget);
+    let budget = of.tasks().get(task).map_or(Micros(0), |it| it.budget());
     (of.now(), of.misses(task), of.used(task), of.is_active(task), budget)
 }
 
@@ -99,24 +102,13 @@ fn root_response_times(
 fn root_read_costs(of: Costs<'_>, limit: Cost, row: usize, column: usize) -> Option<u32> {
     let below = of.below(limit);
     let within = row < below.rows() && column < below.columns();
-    below.cost(row, column).filter(|_| within).map(Cost::get)
+    below.cost(row, column).filter(|_| within).map(|it| it.get())
 }
 
 #[unsafe(no_mangle)]
-fn root_read_team(of: &Team<'_>) -> (u32, usize, usize, usize) {
-    (of.denominator(), of.tasks().len(), of.plans(), of.roles())
-}
-
-#[unsafe(no_mangle)]
-fn root_units(a: u64, b: u64, c: u64) -> [Option<u64>; 6] {
-    [
-        Millis(a).checked_add(Millis(b)).map(|it| it.0),
-        Millis(a).checked_sub(Millis(b)).map(|it| it.0),
-        mul_div_half_up(a, b, c),
-        Millis::to_travel(Millimetres(a), MillimetresPerSecond(b)).map(|it| it.0),
-        Micros::from_millis(Millis(a)).map(|it| it.0),
-        Millijoules::spent(Milliwatts(a), Millis(b)).map(|it| it.0),
-    ]
+fn root_read_team(of: &Team<'_>) -> (u32, u64, [usize; 4]) {
+    let counts = [of.robots(), of.tasks().len(), of.plans(), of.roles()];
+    (of.denominator(), of.most(), counts)
 }
 
 #[unsafe(no_mangle)]

@@ -7,8 +7,8 @@ use cotama_core::allocation::MemoryError;
 use cotama_core::team::joint::{Joint, JointMemory, Solved};
 use cotama_core::team::thesis::{Formed, Rounds, Shares, State};
 use cotama_core::team::{
-    Bottleneck, Coalition, Cost, Costs, Flaw, Memory, RobotSet, Task, Team, TeamError, Unassigned,
-    assign, bottleneck, coalition, conflict, is_least, thesis,
+    Bottleneck, Coalition, Cost, Costs, Fixed, Flaw, Memory, Plan, RobotSet, Task, Team, TeamError,
+    Unassigned, assign, bottleneck, coalition, conflict, is_least, thesis,
 };
 
 /// Robots of a team.
@@ -134,4 +134,29 @@ fn root_team_pruning(
 ) -> Option<bool> {
     let first = thesis::has_union(roles, robots) && thesis::has_roles(roles, robots);
     Some(first && thesis::has_matching(roles, robots, entries, memory)?)
+}
+
+#[unsafe(no_mangle)]
+fn root_team_cost(task: &Task<'_>, plan: &Plan<'_>, denominator: u32, roles: &[Cost]) -> u64 {
+    task.cost(plan, denominator, roles.iter().copied())
+}
+
+#[unsafe(no_mangle)]
+fn root_team_joint_in_conflict(joint: &Joint<'_, N>, task: usize) -> bool {
+    joint.in_conflict(task)
+}
+
+#[unsafe(no_mangle)]
+fn root_team_fixed() -> (Fixed<i64, N, N>, Shares<N>) {
+    (Fixed::new(), Shares::new())
+}
+
+#[unsafe(no_mangle)]
+fn root_team_memory_read(
+    memory: &Memory<'_, i32>,
+    column: usize,
+    size: (usize, usize),
+) -> (Option<usize>, [usize; 2]) {
+    let sizes = [Memory::<i32>::words(size.0, size.1), Memory::<i32>::amounts(size.1)];
+    (memory.row(column), sizes)
 }
