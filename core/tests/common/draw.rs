@@ -1,20 +1,38 @@
-//! Seeded numbers for tests. Integers only, so that a seed gives the same on every machine.
+//! Numbers for tests, of a seed or steered by bytes. Integers only, so that the same seed or bytes
+//! give the same on every machine.
+
+use std::sync::Arc;
 
 /// A small deterministic generator (`SplitMix64`: Steele, Lea, Flood, OOPSLA 2014).
 #[derive(Clone, Debug)]
-pub struct Draw(u64);
+pub struct Draw {
+    state: u64,
+    /// Bytes that are drawn first, and how many of them were.
+    bytes: Option<(Arc<[u8]>, usize)>,
+}
 
 impl Draw {
     /// A generator for this seed.
     #[must_use]
     pub const fn new(seed: u64) -> Self {
-        Self(seed)
+        Self { state: seed, bytes: None }
+    }
+
+    /// Numbers of these bytes, each of as few as it needs, so that a change of one byte changes one
+    /// number; when they are used up, those of the seed 0.
+    #[must_use]
+    #[allow(dead_code)] // only the tests across the crates are steered
+    pub fn steered(bytes: &[u8]) -> Self {
+        Self { state: 0, bytes: Some((bytes.into(), 0)) }
     }
 
     /// The next 64 bits.
     pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
+        if let Some(given) = self.given(u64::MAX) {
+            return given;
+        }
+        self.state = self.state.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.state;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
         z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
         z ^ (z >> 31)
@@ -22,6 +40,23 @@ impl Draw {
 
     /// A number from `low` to `high`, both included.
     pub fn between(&mut self, low: u64, high: u64) -> u64 {
-        low + ((u128::from(self.bits()) * u128::from(high - low + 1)) >> 64) as u64
+        let count = u128::from(high - low + 1);
+        if let Some(given) = self.given(high - low) {
+            return low + (u128::from(given) % count) as u64;
+        }
+        low + ((u128::from(self.bits()) * count) >> 64) as u64
+    }
+
+    /// So many of the bytes as a number up to `most` has, the lowest first; none when too few are
+    /// left.
+    fn given(&mut self, most: u64) -> Option<u64> {
+        let (bytes, drawn) = self.bytes.as_mut()?;
+        let length = most.checked_ilog2().map_or(0, |it| it as usize / 8 + 1);
+        let Some(given) = bytes.get(*drawn..*drawn + length) else {
+            self.bytes = None;
+            return None;
+        };
+        *drawn += length;
+        Some(given.iter().rev().fold(0, |sum, &byte| sum << 8 | u64::from(byte)))
     }
 }

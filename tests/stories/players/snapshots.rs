@@ -1,11 +1,11 @@
 //! What a player stores comes back as it was, and what is damaged breaks no law.
 
-use super::{Act, Log, Played, clocks, delay, nets, systems, with_size_of, words};
+use super::{Act, Log, Played, delay, nets, systems, with_size_of};
 use cotama_core::checksum::crc32;
 use cotama_core::net::owned::{OwnedLaw, OwnedNet, OwnedPlace, OwnedTransition};
 use cotama_core::net::{Law, PlaceId, Role, Within};
 use cotama_core::player::{
-    Checked, Loaded, Packed, Player, Program, RestoreError, Snapshot, Stored,
+    Checked, Loaded, Packed, Player, Program, RestoreError, Snapshot, Stored, clocks, words,
 };
 use cotama_core::system::{Of, System};
 use cotama_core::units::Millis;

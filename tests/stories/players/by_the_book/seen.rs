@@ -8,45 +8,45 @@ use cotama_tests::textbook::{Game, Told};
 
 /// How often a story has seen what.
 #[derive(Debug, Default)]
-pub(super) struct Seen {
-    pub(super) fired: u32,
-    pub(super) settled: u32,
-    pub(super) by_itself: u32,
-    pub(super) on_purpose: u32,
-    pub(super) not_enabled: u32,
-    pub(super) too_early: u32,
-    pub(super) too_late: u32,
-    pub(super) full: u32,
-    pub(super) endless: u32,
-    pub(super) bounded: u32,
-    pub(super) state_machines: u32,
-    pub(super) words: [u32; 5],
-    pub(super) systems: Together,
+pub(crate) struct Seen {
+    pub(crate) fired: u32,
+    pub(crate) settled: u32,
+    pub(crate) by_itself: u32,
+    pub(crate) on_purpose: u32,
+    pub(crate) not_enabled: u32,
+    pub(crate) too_early: u32,
+    pub(crate) too_late: u32,
+    pub(crate) full: u32,
+    pub(crate) endless: u32,
+    pub(crate) bounded: u32,
+    pub(crate) state_machines: u32,
+    pub(crate) words: [u32; 5],
+    pub(crate) systems: Together,
 }
 
 /// What happens only where nets work together.
 #[derive(Debug, Default)]
-pub(super) struct Together {
-    pub(super) refused: u32,
+pub(crate) struct Together {
+    pub(crate) refused: u32,
     /// Transitions of other nets that an offered event made fire: by a rendezvous, or by
     /// themselves.
-    pub(super) met: u32,
-    pub(super) enabled: u32,
-    pub(super) ignored: u32,
-    pub(super) mailed: u32,
-    pub(super) cleared: u32,
+    pub(crate) met: u32,
+    pub(crate) enabled: u32,
+    pub(crate) ignored: u32,
+    pub(crate) mailed: u32,
+    pub(crate) cleared: u32,
     /// What was read in rounds.
-    pub(super) read: u32,
-    pub(super) unread: u32,
-    pub(super) waiting: u32,
+    pub(crate) read: u32,
+    pub(crate) unread: u32,
+    pub(crate) waiting: u32,
     /// What was due, or enabled without an interval, and waited for room in a mailbox.
-    pub(super) blocked: u32,
-    pub(super) blocked_at_once: u32,
+    pub(crate) blocked: u32,
+    pub(crate) blocked_at_once: u32,
 }
 
 impl Seen {
     /// A story that saw too little would prove nothing.
-    pub(super) fn assert_enough(&self) {
+    pub(crate) fn assert_enough(&self) {
         let outcomes = [self.fired, self.settled, self.on_purpose, self.not_enabled, self.full];
         assert!(outcomes.iter().all(|&it| it > 5_000), "{self:?}");
         let nets = [self.endless, self.bounded, self.state_machines];
@@ -55,7 +55,7 @@ impl Seen {
     }
 
     /// The same of nets that work together.
-    pub(super) fn assert_enough_together(&self) {
+    pub(crate) fn assert_enough_together(&self) {
         let outcomes = [self.fired, self.settled, self.on_purpose, self.not_enabled, self.full];
         let timed = [self.by_itself, self.too_early, self.too_late];
         let it = &self.systems;
@@ -67,7 +67,7 @@ impl Seen {
         assert!(self.words[2] > 1_000 && self.words[4] > 500, "{self:?}");
     }
 
-    pub(super) fn outcome<T>(&mut self, outcome: &Outcome<T>) {
+    pub(crate) fn outcome<T>(&mut self, outcome: &Outcome<T>) {
         let of = match outcome {
             Outcome::Fired { settled, .. } => {
                 self.settled += u32::from(*settled > 0);
@@ -87,7 +87,7 @@ impl Seen {
     }
 
     /// What was told because of this.
-    pub(super) fn told(&mut self, act: Act, told: &[Told], system: &System<'_>) {
+    pub(crate) fn told(&mut self, act: Act, told: &[Told], system: &System<'_>) {
         let at_once = |of: Of<TransitionId>| {
             let net = system.components[usize::from(of.component)].net;
             net.transitions[of.id.0 as usize].within.is_none()
@@ -108,14 +108,14 @@ impl Seen {
         }
     }
 
-    pub(super) fn round(&mut self, round: Round) {
+    pub(crate) fn round(&mut self, round: Round) {
         self.systems.read += round.fired;
         self.systems.unread += round.ignored;
         self.systems.waiting += round.waiting;
     }
 
     /// What can fire by itself and has not.
-    pub(super) fn blocked(&mut self, game: &Game<'_>) {
+    pub(crate) fn blocked(&mut self, game: &Game<'_>) {
         let waits = |timed: bool| {
             let mut lines = game.book.lines.iter().enumerate();
             lines.any(|(at, it)| {
