@@ -4,7 +4,7 @@ use crate::mutant::mutant;
 use crate::random::Random;
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::time::{Duration, Instant};
@@ -96,6 +96,23 @@ impl Reader {
         assert!(memory.is_none_or(|it| it < MAX_MEMORY_KIB), "{}: {said}", self.name);
     }
 
+    /// That a file of the corpus is what the program writes: one of bytes, which nobody types. With
+    /// `UPDATE_GOLDEN` set it is written first.
+    ///
+    /// # Panics
+    /// When it is not, or cannot be written or read.
+    pub fn keeps(&self, file: &str, written: &[u8]) {
+        let path = folder(self.name).join(file);
+        if env::var_os("UPDATE_GOLDEN").is_some() {
+            let made =
+                fs::create_dir_all(folder(self.name)).and_then(|()| fs::write(&path, written));
+            made.unwrap_or_else(|it| panic!("{}: {it}", path.display()));
+        }
+        let kept = fs::read(&path).unwrap_or_else(|it| panic!("{}: {it}", path.display()));
+        let name = self.name;
+        assert!(kept == written, "{name}: {file} is another; UPDATE_GOLDEN=1 writes it anew");
+    }
+
     fn mutant(&self, number: u64, texts: &[Vec<u8>]) -> Vec<u8> {
         // The numbers of two readers are other mutants.
         let seed = self.name.bytes().fold(number, |sum, it| sum.wrapping_mul(31) + u64::from(it));
@@ -138,9 +155,13 @@ fn watch(at: &AtomicU64, name: &str, ended: &std::sync::mpsc::Receiver<()>) {
     }
 }
 
+fn folder(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name)
+}
+
 /// The texts of a reader, by the names of their files.
 fn corpus(name: &str) -> Vec<(String, Vec<u8>)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../corpora").join(name);
+    let folder = folder(name);
     let files = fs::read_dir(&folder).unwrap_or_else(|it| panic!("{}: {it}", folder.display()));
     let mut files: Vec<_> = files.map(|it| it.expect("an entry of the folder").path()).collect();
     files.sort();

@@ -2,11 +2,12 @@
 //! place, and what is read is what is written again.
 //!
 //! A thousand mutants each here; a million each in a release build, which says what it found:
-//! `cargo test --release -p cotama-tests --test stories readers -- --ignored`. Texts of the
-//! allocation problem and words for `simulate` have their readers in the program.
+//! `cargo test --release -p cotama-tests --test stories readers -- --ignored`. What only the program
+//! reads has its readers there.
 
 mod checks;
 mod models;
+mod stored;
 mod verification;
 
 /// Two tests of each reader.
@@ -16,8 +17,8 @@ macro_rules! readers {
             /// All of them.
             pub(crate) const ALL: &[cotama_fuzz::Reader] = &[$($name::READER),*];
 
-            $( mod $name {
-                pub(super) const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
+            $( pub(super) mod $name {
+                pub(in super::super) const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
                     name: stringify!($name),
                     words: &[$($word),*],
                     read: super::super::$read,
@@ -39,9 +40,15 @@ macro_rules! readers {
 }
 use readers;
 
+/// The folders of what is read elsewhere: by players, by the program.
+#[cfg(test)]
+const ELSEWHERE: [&str; 9] =
+    ["games", "campaigns", "instances", "runs", "steps", "flash", "frames", "served", "states"];
+
 /// All readers but those of the program.
 pub(crate) fn all() -> impl Iterator<Item = cotama_fuzz::Reader> {
-    models::of::ALL.iter().chain(verification::of::ALL).copied()
+    let readers = [models::of::ALL, stored::of::ALL, verification::of::ALL];
+    readers.into_iter().flatten().copied()
 }
 
 #[test]
@@ -50,7 +57,7 @@ fn every_folder_of_the_corpus_has_its_reader() {
     let mut folders: Vec<_> =
         folders.map(|it| it.unwrap().file_name().into_string().unwrap()).collect();
     folders.sort();
-    let mut names: Vec<_> = all().map(|it| it.name).chain(["games", "instances", "steps"]).collect();
+    let mut names: Vec<_> = all().map(|it| it.name).chain(ELSEWHERE).collect();
     names.sort_unstable();
     assert_eq!(folders, names);
 }

@@ -1,10 +1,11 @@
-//! Missions, faults, FMECAs, teams, traces.
+//! Missions, faults, FMECAs, teams, traces, requirements.
 
 use super::checks::{errors, is_place, text};
 use cotama_models::fmeca::Analysis;
 use cotama_models::missions::faults::Faults;
 use cotama_models::missions::{Mission, embedded};
 use cotama_models::team::instance::Instance;
+use cotama_sim::campaign::requirement::Requirement;
 use cotama_sim::trace::Trace;
 use std::sync::LazyLock;
 
@@ -30,6 +31,10 @@ super::readers! {
     ];
     traces: traces, [
         "null", "[]", "{}", "\"kind\":", "\"end\"", "\"t_us\":0", "\n{}", "true", "\\u0000",
+    ];
+    requirements: requirement, [
+        "completed", "in-time", "never ", "gs.abort", "AG ", "<=", "time", "energy", "requests",
+        "18446744073709551615", ".", "\"", " ",
     ];
 }
 
@@ -134,6 +139,25 @@ fn traces(bytes: &[u8]) -> bool {
         Err(found) => {
             is_place(&text, found.line, found.column);
             assert!(!found.message.is_empty());
+            false
+        }
+    }
+}
+
+/// It is written as it was read; what is not read has no lines, so the text itself is its place.
+fn requirement(bytes: &[u8]) -> bool {
+    let text = text(bytes);
+    match text.parse::<Requirement>() {
+        Ok(requirement) => {
+            let written = requirement.to_string();
+            assert_eq!(written.parse::<Requirement>().as_ref(), Ok(&requirement));
+            assert!(!requirement.words().is_empty());
+            true
+        }
+        Err(error) => {
+            let error = error.to_string();
+            assert!(error.starts_with(&format!("`{}`", text.escape_debug())), "{error}");
+            assert!(!error.contains(char::is_control), "{error}");
             false
         }
     }
