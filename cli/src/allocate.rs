@@ -1,6 +1,6 @@
 //! `cotama allocate`: one bare allocation problem.
 
-mod instance;
+pub(crate) mod instance;
 
 use crate::answers::{AllocateAnswer, Status};
 use crate::args::{AllocateArgs, AllocatorName, Objective as Wanted};

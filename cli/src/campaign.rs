@@ -22,6 +22,8 @@ use std::path::Path;
 use store::Store;
 
 mod merge;
+#[cfg(any(test, feature = "fuzz"))]
+pub(crate) mod mutants;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod progress;

@@ -33,6 +33,8 @@ mod new;
 mod output;
 mod plan;
 mod progress;
+#[cfg(any(test, feature = "fuzz"))]
+pub mod readers;
 mod render;
 mod replay;
 mod run;

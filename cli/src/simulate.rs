@@ -3,7 +3,7 @@
 mod interactive;
 mod refusal;
 mod session;
-mod step;
+pub(crate) mod step;
 
 use crate::answers::model::SimulateAnswer;
 use crate::args::SimulateArgs;

@@ -148,12 +148,13 @@ impl Instance {
     }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
+/// Mutants of instances, for tests and fuzz targets.
+#[cfg(any(test, feature = "fuzz"))]
+pub(crate) mod mutants {
+    use super::{Failure, Instance};
     use cotama_fuzz::Reader;
 
-    const READER: Reader = Reader {
+    pub(crate) const READER: Reader = Reader {
         name: "instances",
         words: &[
             "[",

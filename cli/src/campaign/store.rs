@@ -7,7 +7,7 @@ use crate::exit::Failure;
 use crate::input::{self, plain};
 use crate::output;
 use cotama_sim::campaign::results::Header;
-use cotama_sim::campaign::run::Line;
+use cotama_sim::campaign::run::{Line, Shard};
 use cotama_sim::campaign::strategy::BLOCK;
 use std::fs::{File, OpenOptions};
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom, Write};
@@ -63,7 +63,8 @@ impl Store {
         let file = options.create(true).truncate(false).read(true).write(true).open(&path);
         let mut file = file.map_err(|error| wrong(&error))?;
         let (mut end, mut blocks) = (0, 0);
-        let mut reader = Lines::new(&path, file.try_clone().map_err(|error| wrong(&error))?);
+        let there = file.try_clone().map_err(|error| wrong(&error))?;
+        let mut reader = Lines::new(&path, BufReader::new(there));
         for block in header.shard.blocks(header.runs) {
             match reader.block(block, header.runs)? {
                 Block::Whole(lines, bytes) => {
@@ -103,9 +104,13 @@ impl Store {
 /// The header of a folder of results.
 pub(super) fn header(folder: &Path) -> Result<Header, Failure> {
     let path = folder.join("campaign.json").display().to_string();
-    let text = input::text(&path, "a campaign", HEADER_BYTES)?;
-    let header: Header = serde_json::from_str(&text).map_err(|error| {
-        Failure::of(&path, format!("this is no campaign: {error}"))
+    header_in(&path, &input::text(&path, "a campaign", HEADER_BYTES)?)
+}
+
+/// The header in a text, which is that of this file.
+pub(super) fn header_in(path: &str, text: &str) -> Result<Header, Failure> {
+    let header: Header = serde_json::from_str(text).map_err(|error| {
+        Failure::of(path, format!("this is no campaign: {error}"))
             .help("`cotama campaign MISSION --out DIR` writes one")
     })?;
     let settings = header.settings();
@@ -117,7 +122,12 @@ pub(super) fn header(folder: &Path) -> Result<Header, Failure> {
             header.version.escape_debug(),
             env!("CARGO_PKG_VERSION")
         );
-        return Err(Failure::of(&path, message).help("run it again with this version"));
+        return Err(Failure::of(path, message).help("run it again with this version"));
+    }
+    let Shard { index, of } = header.shard;
+    if !(1..=of).contains(&index) {
+        let message = format!("shard {index}/{of}: its number is not one of the shards");
+        return Err(Failure::of(path, message).help("run this shard again in a new folder"));
     }
     Ok(header)
 }
@@ -131,17 +141,13 @@ pub(super) enum Block {
 }
 
 /// The lines of results, read block by block.
-pub(super) struct Lines {
+pub(super) struct Lines<R = BufReader<File>> {
     path: PathBuf,
-    reader: BufReader<File>,
+    reader: R,
     number: u64,
 }
 
 impl Lines {
-    pub(super) fn new(path: &Path, file: File) -> Self {
-        Self { path: path.to_owned(), reader: BufReader::new(file), number: 0 }
-    }
-
     /// The results of a folder.
     pub(super) fn of(folder: &Path) -> Result<Self, Failure> {
         let path = folder.join("runs.jsonl");
@@ -150,7 +156,14 @@ impl Lines {
             Failure::of(path.display().to_string(), message)
                 .help("run the shard, or give the folder of its results")
         })?;
-        Ok(Self::new(&path, file))
+        Ok(Self::new(&path, BufReader::new(file)))
+    }
+}
+
+impl<R: BufRead> Lines<R> {
+    /// Those that are read here; the path is only for messages.
+    pub(super) fn new(path: &Path, reader: R) -> Self {
+        Self { path: path.to_owned(), reader, number: 0 }
     }
 
     /// The next block, which must be this one.
@@ -198,7 +211,7 @@ impl Lines {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use cotama_sim::campaign::run::{Settings, Shard};
+    use cotama_sim::campaign::run::Settings;
     use std::fs;
 
     #[test]
@@ -213,5 +226,22 @@ mod tests {
         let runs = fs::read_to_string(folder.join("runs.jsonl")).unwrap();
         fs::remove_dir_all(&folder).unwrap();
         assert_eq!(runs, "a block\nanother\n");
+    }
+    #[test]
+    fn a_header_whose_shard_is_none_of_the_shards_is_refused() {
+        let said = |index, of| {
+            let shard = Shard { index, of };
+            let header = Header::new(("own", ""), &Settings::new(false), "usual", shard);
+            let text = serde_json::to_string(&header).unwrap();
+            match header_in("campaign.json", &text) {
+                Err(Failure::Message { message, .. }) => Some(message),
+                _ => None,
+            }
+        };
+        assert_eq!(said(3, 3), None);
+        for (index, of) in [(0, 3), (4, 3), (2, 0), (0, 0)] {
+            let message = format!("shard {index}/{of}: its number is not one of the shards");
+            assert_eq!(said(index, of), Some(message));
+        }
     }
 }

@@ -221,27 +221,17 @@ mod tests {
     fn comments_and_empty_lines_are_left_out() {
         assert_eq!(lines("# a\n\n b \r\nc # d\n"), ["b", "c # d"]);
     }
+}
 
-    /// A script, and each of its lines as if typed by hand.
-    fn read(bytes: &[u8]) -> bool {
-        let net = net(&["Call", "Blocked", "Blown", "a@2", "+1", "a,b"]);
-        let view = net.view();
-        let net = view.net();
-        let lines = lines(&String::from_utf8_lossy(bytes));
-        let script = Words::new(&net, false, true).script(&lines);
-        if let Ok(steps) = &script {
-            assert!(steps.is_sorted_by_key(|it| it.at));
-        }
-        let by_hand = Words::new(&net, true, false).loose();
-        for line in &lines {
-            if let Ok(step) = by_hand.step(line, Millis(7)) {
-                assert!(step.at >= Millis(7) && step.events.len() <= 1);
-            }
-        }
-        script.is_ok()
-    }
+/// Mutants of scripts, for tests and fuzz targets.
+#[cfg(any(test, feature = "fuzz"))]
+pub(crate) mod mutants {
+    use super::{Words, lines};
+    use cotama_core::net::owned::OwnedNet;
+    use cotama_core::units::Millis;
+    use cotama_fuzz::Reader;
 
-    const READER: cotama_fuzz::Reader = cotama_fuzz::Reader {
+    pub(crate) const READER: Reader = Reader {
         name: "steps",
         words: &[
             "Call\n",
@@ -257,6 +247,28 @@ mod tests {
         ],
         read,
     };
+
+    /// A script, and each of its lines as if typed by hand.
+    fn read(bytes: &[u8]) -> bool {
+        let mut net = OwnedNet::new("n", "");
+        for name in ["Call", "Blocked", "Blown", "a@2", "+1", "a,b"] {
+            net.event(name, "").expect("few events");
+        }
+        let view = net.view();
+        let net = view.net();
+        let lines = lines(&String::from_utf8_lossy(bytes));
+        let script = Words::new(&net, false, true).script(&lines);
+        if let Ok(steps) = &script {
+            assert!(steps.is_sorted_by_key(|it| it.at));
+        }
+        let by_hand = Words::new(&net, true, false).loose();
+        for line in &lines {
+            if let Ok(step) = by_hand.step(line, Millis(7)) {
+                assert!(step.at >= Millis(7) && step.events.len() <= 1);
+            }
+        }
+        script.is_ok()
+    }
 
     #[test]
     fn reads_or_refuses_a_thousand_mutants() {
