@@ -3,7 +3,7 @@
 //!
 //! A thousand mutants each here; a million each in a release build, which says what it found:
 //! `cargo test --release -p cotama-tests --test stories readers -- --ignored`. What only the program
-//! reads has its readers there.
+//! or the firmware reads has its readers there.
 
 mod checks;
 mod models;
@@ -40,12 +40,12 @@ macro_rules! readers {
 }
 use readers;
 
-/// The folders of what is read elsewhere: by players, by the program.
+/// The folders of what is read elsewhere: by players, by the program, by the firmware.
 #[cfg(test)]
 const ELSEWHERE: [&str; 9] =
     ["games", "campaigns", "instances", "runs", "steps", "flash", "frames", "served", "states"];
 
-/// All readers but those of the program.
+/// All readers but those of the program and of the firmware.
 pub(crate) fn all() -> impl Iterator<Item = cotama_fuzz::Reader> {
     let readers = [models::of::ALL, stored::of::ALL, verification::of::ALL];
     readers.into_iter().flatten().copied()
