@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Type-checks every proof harness and runs it with the stand-in for Kani: on all inputs where those
-# are few enough, else on a sample. docs/proofs.md says more.
+# are few enough, else on a sample. Fuzz targets are type-checked, on stable and without libFuzzer.
+# docs/proofs.md says more.
 #
 #   tests/proofs/check.sh                     all of them, and compares the table in docs/proofs.md
 #   UPDATE_GOLDEN=1 tests/proofs/check.sh     writes the table anew
@@ -27,13 +28,15 @@ if [ $# -gt 0 ]; then
 fi
 
 cargo fmt --check
-for alone in kani kani-macros symbolic; do
+for alone in fuzz kani kani-macros symbolic; do
     cargo fmt --check --manifest-path "../$alone/Cargo.toml"
 done
 cargo test --quiet --locked -p kani --lib
 cargo clippy --quiet --locked --no-default-features -- -D warnings
 (cd "$root" && cargo clippy --quiet --locked --lib -p cotama-core -p cotama-models \
     -p cotama-verification -- -D warnings)
+cargo check --quiet --locked --manifest-path ../fuzz/Cargo.toml \
+    --no-default-features --features models,verification
 table=$CARGO_TARGET_DIR/table.md
 cargo run --quiet --locked -- --table "$table"
 
