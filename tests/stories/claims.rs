@@ -171,7 +171,7 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
 fn a_claim_has_its_words_and_names_what_is_there() {
     let claims = Claims::read();
     let mut wrong = claims.defects();
-    wrong.extend(claims.claims.iter().flat_map(commands::defects));
+    wrong.extend(claims.all.iter().flat_map(commands::defects));
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

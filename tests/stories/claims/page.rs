@@ -26,7 +26,8 @@ const WORDS: [(&str, &str); 11] = [
 #[serde(deny_unknown_fields)]
 pub(super) struct Claims {
     topics: Vec<Topic>,
-    pub(super) claims: Vec<Claim>,
+    #[serde(rename = "claims")]
+    pub(super) all: Vec<Claim>,
     before: Vec<Before>,
 }
 
@@ -41,7 +42,8 @@ struct Topic {
 #[serde(deny_unknown_fields)]
 pub(super) struct Claim {
     pub(super) id: String,
-    claim: String,
+    #[serde(rename = "claim")]
+    says: String,
     known: Vec<String>,
     #[serde(default)]
     how: String,
@@ -70,7 +72,7 @@ impl Claims {
 
     fn page(&self) -> String {
         let mut page = String::from(BEGIN);
-        let known: Vec<_> = self.claims.iter().flat_map(|it| &it.known).collect();
+        let known: Vec<_> = self.all.iter().flat_map(|it| &it.known).collect();
         page += "\n| known by | says | claims |\n| --- | --- | ---: |\n";
         for (word, says) in WORDS {
             let count = known.iter().filter(|it| is_of(word, it)).count();
@@ -79,7 +81,7 @@ impl Claims {
         }
         for Topic { letter, title } in &self.topics {
             let _ = write!(page, "\n## {title}\n");
-            for claim in self.claims.iter().filter(|it| it.id.starts_with(*letter)) {
+            for claim in self.all.iter().filter(|it| it.id.starts_with(*letter)) {
                 page += "\n";
                 claim.write(&mut page);
             }
@@ -101,7 +103,7 @@ impl Claims {
             let (letter, number) = it.id.split_at(1);
             (letter.to_owned(), number.parse::<u32>().expect("a letter and a number"))
         };
-        let order: Vec<_> = self.claims.iter().map(number).collect();
+        let order: Vec<_> = self.all.iter().map(number).collect();
         if !order.is_sorted_by(|a, b| a < b) {
             wrong.push("not in the order of ids".into());
         }
@@ -110,7 +112,7 @@ impl Claims {
         if !letters.into_iter().eq(topics) {
             wrong.push("topics are not the letters".into());
         }
-        for claim in &self.claims {
+        for claim in &self.all {
             if claim.known.is_empty() || claim.run.is_empty() || claim.places.is_empty() {
                 wrong.push(format!("{}: no word, no command or no place", claim.id));
             }
@@ -121,7 +123,7 @@ impl Claims {
             }
         }
         for id in self.before.iter().flat_map(|it| &it.of) {
-            if !self.claims.iter().any(|it| it.id == *id) {
+            if !self.all.iter().any(|it| it.id == *id) {
                 wrong.push(format!("there is no claim {id}"));
             }
         }
@@ -132,11 +134,11 @@ impl Claims {
 impl Claim {
     /// All that it says, the names of figures in braces.
     pub(super) fn words(&self) -> String {
-        format!("{} {} {}", self.claim, self.known.join(" "), self.how)
+        format!("{} {} {}", self.says, self.known.join(" "), self.how)
     }
 
     fn write(&self, page: &mut String) {
-        *page += &wrapped(&format!("**{}** {}", self.id, self.claim), "- ", "  ");
+        *page += &wrapped(&format!("**{}** {}", self.id, self.says), "- ", "  ");
         let known = format!("*Known:* {}. {}", self.known.join("; "), self.how);
         let places: Vec<_> = self.places.iter().map(|it| format!("`{it}`")).collect();
         *page += &wrapped(&known, "  ", "  ");
@@ -201,7 +203,8 @@ fn wrapped(text: &str, first: &str, others: &str) -> String {
         if !begins && line.chars().count() + 1 + word.chars().count() > 100 {
             lines += &line;
             lines += "\n";
-            line = others.to_owned();
+            line.clear();
+            line += others;
         } else if !begins {
             line += " ";
         }
