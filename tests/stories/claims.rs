@@ -59,6 +59,7 @@ fn all() -> BTreeMap<String, u64> {
     }
     count_harnesses(&mut all);
     count_mistakes(&mut all);
+    count_roots(&mut all);
     let mutants = root().join("verification/tests/golden/rounds/mutants.txt");
     let mutants = fs::read_to_string(mutants).expect("what each mutant of the delivery breaks");
     for (name, word) in [
@@ -87,6 +88,15 @@ fn count_harnesses(all: &mut BTreeMap<String, u64>) {
     let bugs = fs::read_to_string(root().join("tests/proofs/bugs.txt")).expect("the bugs");
     let bugs = bugs.lines().filter(|it| it.starts_with("harness: ")).count();
     all.insert("proofs.bugs".into(), bugs as u64);
+}
+
+/// The roots that the linker is asked about, and the public functions that they call.
+fn count_roots(all: &mut BTreeMap<String, u64>) {
+    for list in ["roots", "functions"] {
+        let path = root().join(format!("tests/no_panic/{list}.txt"));
+        let lines = fs::read_to_string(path).expect("a list").lines().count();
+        all.insert(format!("no-panic.{list}"), lines as u64);
+    }
 }
 
 /// The small mistakes in the nets, and what becomes of them.
@@ -161,7 +171,7 @@ fn a_figure_of_a_page_is_the_one_that_a_test_asserts() {
         assert!(shown.contains(name), "no page shows `{name}`");
         let reads = [format!("\"{name}\""), format!("figure {name})")];
         let is_asserted = reads.iter().any(|it| asserted.contains(it));
-        let counted = ["defects.", "generated.", "mistakes", "mutants.", "proofs."];
+        let counted = ["defects.", "generated.", "mistakes", "mutants.", "no-panic.", "proofs."];
         let is_counted = counted.iter().any(|it| name.starts_with(it));
         assert!(is_asserted || is_counted, "no test asserts `{name}`");
     }

@@ -129,7 +129,7 @@ fn is_tested(words: &[&str]) -> Result<(), String> {
 fn folder_of(package: &str) -> Result<&str, String> {
     match package {
         "cotama" => Ok("cli"),
-        "cotama-robot" => Ok("firmware/robot"),
+        "robot" => Ok("firmware/robot"),
         _ => package.strip_prefix("cotama-").ok_or_else(|| format!("no package {package}")),
     }
 }
