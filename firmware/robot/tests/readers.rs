@@ -190,8 +190,8 @@ fn found(bytes: &[u8; 2 * PAGE]) -> Option<(u32, Vec<u8>)> {
     found
 }
 
-/// Flash as it is; then with both pages made whole, of which the later one is found. Whether anything
-/// was found as it was.
+/// Flash as it is; then with both pages made whole, of which the later one is found. Whether
+/// anything was found as it was.
 fn read_flash(bytes: &[u8]) -> bool {
     let mut pages = pages(bytes);
     let as_it_is = found(&pages);

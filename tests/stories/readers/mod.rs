@@ -2,8 +2,8 @@
 //! place, and what is read is what is written again.
 //!
 //! A thousand mutants each here; a million each in a release build, which says what it found:
-//! `cargo test --release -p cotama-tests --test stories readers -- --ignored`. What only the program
-//! or the firmware reads has its readers there.
+//! `cargo test --release -p cotama-tests --test stories readers -- --ignored`. What only the
+//! program or the firmware reads has its readers there.
 
 mod checks;
 mod models;
