@@ -18,7 +18,8 @@ cd "$here"
 target=${1:-}
 build=(cargo build --quiet --locked)
 # The compiler's own division of 128 bits has tables for unwinding, which nothing here does.
-nm=nm objdump=objdump link=(cc -nostartfiles "-Wl,--gc-sections,--defsym=rust_eh_personality=0") pass=-Wl,
+nm=nm objdump=objdump pass=-Wl,
+link=(cc -nostartfiles "-Wl,--gc-sections,--defsym=rust_eh_personality=0")
 if [ -n "$target" ]; then
     export PATH=/usr/bin:/bin
     unset CARGO RUSTC RUSTDOC RUSTFLAGS RUSTUP_TOOLCHAIN

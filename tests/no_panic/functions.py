@@ -7,13 +7,14 @@
 `public` reads the source as it is compiled for a target: it walks from `lib.rs` along the `mod`
 lines, and passes over modules, items and methods below a `#[cfg]` that asks for a feature, for
 tests or for proofs (`not(...)` of one of them holds). A function counts that is `pub` without
-`(crate)`, alone or in an `impl` of a type; so does one that a macro of the crate makes, wherever the
-macro is invoked. Those below `#[doc(hidden)]` do not, nor do methods of traits.
+`(crate)`, alone or in an `impl` of a type; so does one that a macro of the crate makes, wherever
+the macro is invoked. Those below `#[doc(hidden)]` do not, nor do methods of traits.
+What `net!` and `system!` make is none of the list: check.sh asks for roots of each of them.
 
 `called` reads the demangled relocations of a build without optimization, in which each call of a
-function is one to its symbol: a function counts that a root, or a closure or observer of this crate,
-calls itself. So what the compiler resolved is compared, with its type, not the text of the roots. A
-function that a root only hands on as a value is called elsewhere, and does not count.
+function is one to its symbol: a function counts that a root, or a closure or observer of this
+crate, calls itself. So what the compiler resolved is compared, with its type, not the text of the
+roots. A function that a root only hands on as a value is called elsewhere, and does not count.
 """
 
 import re

@@ -1,5 +1,5 @@
-//! Every operation of the executor, for every model that ships, linked against a panic that cannot
-//! be linked.
+//! Every operation of the executor, for every model that ships, and every other public function of
+//! core and of models that a target may call, linked against a panic that cannot be linked.
 //!
 //! The panic handler calls a function that exists nowhere. A root that links can therefore not
 //! panic, in the code that this compiler made of it, whatever its arguments: markings, clocks and

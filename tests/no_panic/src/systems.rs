@@ -39,9 +39,9 @@ impl<P: Names> Observer<P, Message> for Seen {
     }
 }
 
-/// The roots of systems; see those of nets.
+/// The roots of systems, and of the state of each of its nets; see those of nets.
 macro_rules! roots {
-    ($($name:ident: $module:path;)*) => {$(
+    ($($name:ident: $module:path { $($component:ident)+ })*) => {$(
         mod $name {
             use super::{
                 Advanced, EventId, Message, Millis, Of, Outcome, PlaceId, RestoreError, Round, Seen,
@@ -108,13 +108,31 @@ macro_rules! roots {
             fn waiting(player: &Player, event: Of<EventId>) -> u32 {
                 player.waiting(&event)
             }
+
+            mod state {
+                use super::{Player, system};
+
+                $(
+                    #[unsafe(export_name = concat!(
+                        "root_", stringify!($name), "_state_", stringify!($component)
+                    ))]
+                    fn $component(player: &Player) -> usize {
+                        system::state::$component(player) as usize
+                    }
+                )+
+
+                const _: () = assert!(
+                    [$(stringify!($component)),+].len() == system::SYSTEM.components.len(),
+                    "a net of this system has no root that reads its state"
+                );
+            }
         }
     )*};
 }
 
 roots! {
-    delivery: cotama_models::cotama::delivery;
-    recovering: cotama_models::cotama::recovering;
-    supervision: cotama_models::cotama::supervision;
-    watched: crate::on_time::watched;
+    delivery: cotama_models::cotama::delivery { cs faults gom gs ls operator permit pf to }
+    recovering: cotama_models::cotama::recovering { cs faults gom gs ls operator permit pf to }
+    supervision: cotama_models::cotama::supervision { cs gom gs ls pf to }
+    watched: crate::on_time::watched { watchdog charger }
 }

@@ -90,10 +90,8 @@ fn root_team_joint(
     team: &Team<'_>,
     memory: JointMemory<'_, N>,
     steps: u64,
-) -> Result<(Solved, Option<(usize, RobotSet)>, Option<usize>), MemoryError> {
-    let mut joint = Joint::new(memory);
-    let solved = joint.solve(team, steps)?;
-    Ok((solved, joint.chosen(0), joint.robots(0).next()))
+) -> Result<Solved, MemoryError> {
+    Joint::new(memory).solve(team, steps)
 }
 
 #[unsafe(no_mangle)]
@@ -142,8 +140,12 @@ fn root_team_cost(task: &Task<'_>, plan: &Plan<'_>, denominator: u32, roles: &[C
 }
 
 #[unsafe(no_mangle)]
-fn root_team_joint_in_conflict(joint: &Joint<'_, N>, task: usize) -> bool {
-    joint.in_conflict(task)
+fn root_team_joint_read(
+    joint: &mut Joint<'_, N>,
+    task: usize,
+) -> (Option<(usize, RobotSet)>, Option<usize>, bool) {
+    let first = joint.robots(task).next();
+    (joint.chosen(task), first, joint.in_conflict(task))
 }
 
 #[unsafe(no_mangle)]

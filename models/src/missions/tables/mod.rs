@@ -209,7 +209,8 @@ impl core::fmt::Display for RemainingError {
 
 impl core::error::Error for RemainingError {}
 
-/// The buffers that [`remaining`] may need for these activities: candidates and lists.
+/// The buffers that [`remaining`] may need for these activities: candidates and lists. More than
+/// `usize::MAX` candidates are that many: no buffer is so long.
 #[must_use]
 pub const fn buffer_sizes(activities: &[Activity<'_>]) -> (usize, usize) {
     let mut candidates = 0_usize;
